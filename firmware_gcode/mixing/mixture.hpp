@@ -1,0 +1,32 @@
+// Shares of the feeders in what leaves the nozzle.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace unicursal::gcode {
+
+inline constexpr std::size_t max_feeders = 3;
+
+/// Shares of feeders 1…3; non-negative, at least one positive, sum 1. An all-zero mixture hangs Marlin
+/// (firmware-facts), so one cannot be made.
+class Mixture {
+ public:
+  /// Normalises. Throws core::DataError when a share is negative, infinite or NaN, or when all are zero.
+  explicit Mixture(const std::array<double, max_feeders>& shares);
+
+  double share(std::size_t feeder) const { return shares_[feeder]; }
+  const std::array<double, max_feeders>& shares() const { return shares_; }
+  /// Every share at least `floor`, the rest scaled down in proportion: no feeder ever stands still for long,
+  /// since plastic creeps back up an idle inlet. Precondition: 0 ≤ floor ≤ 1/3.
+  Mixture with_floor(double floor) const;
+  /// What the firmware makes of P values with `decimals` decimals: rounded and normalised.
+  Mixture quantised(int decimals) const;
+
+  friend bool operator==(const Mixture&, const Mixture&) = default;
+
+ private:
+  std::array<double, max_feeders> shares_;
+};
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,16 @@
+// The command line: `unicursal COMMAND …`.
+#pragma once
+
+namespace unicursal::host {
+
+/// Exit codes, for scripts.
+enum class Exit : int {
+  success = 0,
+  failed = 1,     ///< the print or the simulation did not end well
+  bad_input = 2,  ///< a file, a key or an option; nothing was sent to a printer
+};
+
+/// Parses, runs and returns the process's exit code. Never throws.
+int run_command_line(int argc, char** argv);
+
+}  // namespace unicursal::host
