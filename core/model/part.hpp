@@ -18,14 +18,15 @@ enum class PatternKind { none, isotropic, anisotropic, parallel, orthogonal, ang
 
 struct Pattern {
   PatternKind kind = PatternKind::isotropic;
-  double angle = 0;                ///< radians counter-clockwise from +x, for PatternKind::angle
-  std::filesystem::path field;     ///< the CSV of directions, for PatternKind::field
-  bool along_zone_border = false;  ///< parallel/orthogonal: the zone's own borders count, not the island's only
+  double angle = 0;             ///< radians counter-clockwise from +x, for PatternKind::angle
+  std::filesystem::path field;  ///< the CSV of directions, for PatternKind::field
+  bool along_zone_border =
+      false;  ///< parallel/orthogonal: the zone's own borders count, not the island's only
 };
 
 /// A region of one pattern and one material. Zones of equal `material` form one material zone.
 struct Zone {
-  std::string select;        ///< fill colour "#rrggbb", object name, or file base name that it covers
+  std::string select;  ///< fill colour "#rrggbb", object name, or file base name that it covers
   Pattern pattern;
   std::size_t material = 0;  ///< index of the mixture; core knows no more of it
 };
@@ -44,9 +45,9 @@ struct Island {
 
 struct Layer {
   std::size_t index = 0;
-  double z = 0;       ///< height of the cut above the part's underside, mm
-  double top = 0;     ///< height of the layer's upper face above the part's underside, mm
-  double height = 0;  ///< thickness, mm
+  double z = 0;                 ///< height of the cut above the part's underside, mm
+  double top = 0;               ///< height of the layer's upper face above the part's underside, mm
+  double height = 0;            ///< thickness, mm
   std::vector<Island> islands;  ///< largest first; may be empty in a gap
 };
 

@@ -1,0 +1,35 @@
+// The coverage objective (paper (7), Appendix A "CVT objective") on a sampling lattice: the integral over the
+// island of the squared distance to the curve, mm⁴, and its gradient per vertex, mm³.
+//
+// Departure from the paper: the diagram of segments is sampled, not constructed; each sample pulls the two
+// ends of its nearest segment as (15), (21) and (22) do in the limit. The value is exact for the lattice
+// while owners stay the same, and so is the gradient (owners change where distances are equal).
+#pragma once
+
+#include <vector>
+
+#include "core/curve/curve.hpp"
+#include "core/geometry/lattice.hpp"
+#include "core/geometry/lattice_owners.hpp"
+
+namespace unicursal::core {
+
+class Coverage {
+ public:
+  /// Keeps a reference to the lattice. `reach` mm: beyond it owners are approximate (lattice_owners.hpp).
+  Coverage(const Lattice& lattice, double reach);
+
+  /// Returns the value and adds its gradient, times `weight`, to `gradient` (one entry per vertex).
+  double evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient);
+
+  /// Owners as of the last evaluate(): segment i leaves vertex i.
+  const LatticeOwners& owners() const { return owners_; }
+
+ private:
+  const Lattice& lattice_;
+  double reach_;
+  LatticeOwners owners_;
+  std::vector<Segment> segments_;
+};
+
+}  // namespace unicursal::core

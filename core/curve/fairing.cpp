@@ -1,0 +1,269 @@
+#include "core/curve/fairing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include "core/curve/clearance.hpp"
+#include "core/curve/coverage.hpp"
+#include "core/curve/resample.hpp"
+#include "core/curve/shape_terms.hpp"
+#include "core/geometry/lattice.hpp"
+
+namespace unicursal::core {
+namespace {
+
+using Field = std::vector<Vec2>;  ///< one vector per vertex
+
+constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle against the island's axes
+constexpr std::size_t memory = 7;                 ///< L-BFGS pairs, as in the paper
+constexpr double sufficient_decrease = 1e-4;      ///< Armijo
+constexpr int most_halvings = 8;
+constexpr double reach_in_widths = 1.0;           ///< beyond it lattice owners are approximate
+constexpr double freedom_in_widths = 1.0;         ///< clearances are not looked for beyond it
+constexpr double length_stiffness = 0.01;         ///< relative length error at which the penalty balances coverage
+constexpr int multiplier_period = 10;             ///< iterations between updates of the length multiplier
+
+double dot(const Field& a, const Field& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+void add_scaled(Field& a, double factor, const Field& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
+}
+
+/// The L-BFGS direction from remembered steps and gradient changes (Liu and Nocedal 1989).
+class QuasiNewton {
+ public:
+  void forget() { pairs_.clear(); }
+  bool empty() const { return pairs_.empty(); }
+
+  void remember(Field step, Field change) {
+    const double curvature = dot(step, change);
+    if (!(curvature > 1e-12 * dot(change, change))) return;
+    if (pairs_.size() == memory) pairs_.pop_front();
+    pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
+  }
+
+  Field direction(const Field& gradient) const {
+    Field q = gradient;
+    std::vector<double> alpha(pairs_.size());
+    for (std::size_t k = pairs_.size(); k-- > 0;) {
+      alpha[k] = pairs_[k].inverse * dot(pairs_[k].step, q);
+      add_scaled(q, -alpha[k], pairs_[k].change);
+    }
+    if (!pairs_.empty()) {
+      const Pair& last = pairs_.back();
+      const double scale = 1 / (last.inverse * dot(last.change, last.change));
+      for (Vec2& v : q) v *= scale;
+    }
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      const double beta = pairs_[k].inverse * dot(pairs_[k].change, q);
+      add_scaled(q, alpha[k] - beta, pairs_[k].step);
+    }
+    for (Vec2& v : q) v = -v;
+    return q;
+  }
+
+ private:
+  struct Pair {
+    Field step, change;
+    double inverse;
+  };
+  std::deque<Pair> pairs_;
+};
+
+Vec2 turned(const Vec2& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+Ring turned(Ring ring, double angle) {
+  for (Vec2& v : ring) v = turned(v, angle);
+  return ring;
+}
+
+Polygon turned(Polygon polygon, double angle) {
+  polygon.outer = turned(std::move(polygon.outer), angle);
+  for (Ring& hole : polygon.holes) hole = turned(std::move(hole), angle);
+  return polygon;
+}
+
+/// Where each vertex may be, from the last look at the clearances.
+class Leash {
+ public:
+  Leash(const BorderIndex& border, double bead_width) : border_(border), width_(bead_width) {}
+
+  void fasten(const Curve& curve) {
+    anchor_ = curve.vertices;
+    free_ = freedom(curve, border_, freedom_in_widths * width_);
+  }
+
+  /// Shortens a move to what is free; returns the largest used share of freedom.
+  double limit(Curve& curve) const {
+    double used = 0;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      const Vec2 move = curve.vertices[i] - anchor_[i];
+      const double length = move.norm();
+      if (length > free_[i]) {
+        curve.vertices[i] = anchor_[i] + free_[i] * (1 - 1e-12) / length * move;
+        used = 1;
+      } else if (free_[i] > 0) {
+        used = std::max(used, length / free_[i]);
+      }
+    }
+    return used;
+  }
+
+ private:
+  const BorderIndex& border_;
+  double width_;
+  std::vector<Vec2> anchor_;
+  std::vector<double> free_;
+};
+
+class Fairer {
+ public:
+  Fairer(const Polygon& island, const FairingOptions& options)
+      : options_(options),
+        island_(turned(island, irrational_turn)),
+        area_(area(island)),
+        border_(island_, options.bead_width),
+        lattice_(sample(island_, pitch(options))),
+        coverage_(lattice_, reach_in_widths * options.bead_width),
+        leash_(border_, options.bead_width) {
+    const double w = options.bead_width;
+    multiplier_ = w * w * w / 6;  // −∂E_CVT/∂L of evenly spaced folds, E = A³ ÷ (12 L²)
+    if (options.hold_length) stiffness_ = multiplier_ / (2 * length_stiffness * options.target_length);
+  }
+
+  Curve run(Curve curve) {
+    curve.vertices = turned(std::move(curve.vertices), irrational_turn);
+    curve = spread(curve);
+    curve = descend(std::move(curve), options_.coarse_iterations / 2);
+    curve = spread(curve);
+    curve = descend(std::move(curve), options_.coarse_iterations - options_.coarse_iterations / 2);
+    if (options_.fine_iterations > 0) {
+      curve = subdivided(spread(curve));
+      curve = descend(std::move(curve), options_.fine_iterations);
+    }
+    curve.vertices = turned(std::move(curve.vertices), -irrational_turn);
+    return curve;
+  }
+
+  int iterations() const { return iterations_; }
+
+ private:
+  static double pitch(const FairingOptions& options) { return options.bead_width / options.samples_per_width; }
+
+  Curve spread(const Curve& curve) const {
+    return respaced(curve, border_, 0.75 * options_.bead_width);
+  }
+
+  double evaluate(const Curve& curve, Field& gradient) {
+    gradient.assign(curve.size(), Vec2(0, 0));
+    double value = coverage_.evaluate(curve, 1, gradient);
+    // One vertex of the subdivided curve stands for half the length: scale so that bending costs the same.
+    const double per_vertex = area_ / static_cast<double>(curve.size());
+    const double spacing = area_ / (0.75 * options_.bead_width * options_.bead_width);
+    const double finer = static_cast<double>(curve.size()) / spacing;
+    const double smooth = options_.smoothness * per_vertex * finer * finer * finer;
+    value += smooth * smoothness_with_gradient(curve, smooth, gradient);
+    const double excess = curve.length() - options_.target_length;
+    length_with_gradient(curve, multiplier_ + 2 * stiffness_ * excess, gradient);
+    return value + multiplier_ * excess + stiffness_ * excess * excess;
+  }
+
+  /// One accepted step along a descent direction; false when none was found.
+  bool step(Curve& curve, double& value, Field& gradient) {
+    Field direction = newton_.direction(gradient);
+    double longest = 0;
+    for (const Vec2& d : direction) longest = std::max(longest, d.norm());
+    if (!(longest > 0)) return false;
+    const double w = options_.bead_width;
+    double scale = newton_.empty() ? 0.1 * w / longest : std::min(1.0, w / longest);
+    for (int halving = 0; halving < most_halvings; ++halving, scale /= 2) {
+      Curve trial = curve;
+      for (std::size_t i = 0; i < curve.size(); ++i) trial.vertices[i] += scale * direction[i];
+      const double used = leash_.limit(trial);
+      Field move(curve.size());
+      for (std::size_t i = 0; i < curve.size(); ++i) move[i] = trial.vertices[i] - curve.vertices[i];
+      const double slope = dot(gradient, move);
+      if (slope >= 0) return false;
+      Field trial_gradient;
+      const double trial_value = evaluate(trial, trial_gradient);
+      if (trial_value > value + sufficient_decrease * slope) continue;
+      Field change = trial_gradient;
+      add_scaled(change, -1, gradient);
+      newton_.remember(std::move(move), std::move(change));
+      curve = std::move(trial);
+      value = trial_value;
+      gradient = std::move(trial_gradient);
+      if (used > 0.5) leash_.fasten(curve);
+      return true;
+    }
+    return false;
+  }
+
+  Curve descend(Curve curve, int iterations) {
+    newton_.forget();
+    leash_.fasten(curve);
+    Field gradient;
+    double value = evaluate(curve, gradient);
+    for (int i = 0; i < iterations; ++i) {
+      ++iterations_;
+      if (i > 0 && i % multiplier_period == 0) {
+        multiplier_ += stiffness_ * (curve.length() - options_.target_length);
+        newton_.forget();
+        value = evaluate(curve, gradient);
+      }
+      if (step(curve, value, gradient)) continue;
+      const bool fresh = newton_.empty();
+      newton_.forget();
+      leash_.fasten(curve);
+      if (fresh) break;
+    }
+    return curve;
+  }
+
+  FairingOptions options_;
+  Polygon island_;
+  double area_;
+  BorderIndex border_;
+  Lattice lattice_;
+  Coverage coverage_;
+  Leash leash_;
+  QuasiNewton newton_;
+  double multiplier_ = 0, stiffness_ = 0;
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+Curve smoothed(const Curve& curve, const Polygon& island, double bead_width) {
+  const BorderIndex border(island, bead_width);
+  Leash leash(border, bead_width);
+  Curve result = curve;
+  for (int pass = 0; pass < 5; ++pass) {
+    leash.fasten(result);
+    Curve next = result;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const Vec2 &before = result.vertices[result.before(i)], &after = result.vertices[result.after(i)];
+      next.vertices[i] += 0.1 * (before + after - 2 * result.vertices[i]);
+    }
+    leash.limit(next);
+    result = std::move(next);
+  }
+  return result;
+}
+
+FairingResult fair(const Curve& curve, const Polygon& island, const FairingOptions& options) {
+  Fairer fairer(island, options);
+  Curve result = fairer.run(curve);
+  return {std::move(result), fairer.iterations()};
+}
+
+}  // namespace unicursal::core

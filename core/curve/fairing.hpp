@@ -1,0 +1,39 @@
+// Fairing (paper §3.4): moves the vertices of a closed curve until it covers its island evenly, is smooth and
+// has the length that was asked for. L-BFGS on coverage + length + smoothness (2) over a sampling lattice.
+//
+// Departures from the paper:
+// - The curve stays simple and inside by construction: no vertex moves farther than clearance.hpp allows.
+// - Length is held by an augmented Lagrangian, since the paper's penalty (31) lets it drift by 10 to 20 %.
+// - Armijo steps with resets: owners of samples change, which a strong-Wolfe search dislikes.
+// - Vertices are spread anew between rounds, and the last rounds have twice as many, for rounder hairpins.
+#pragma once
+
+#include <cstddef>
+
+#include "core/curve/curve.hpp"
+#include "core/geometry/polygon.hpp"
+
+namespace unicursal::core {
+
+struct FairingOptions {
+  double target_length = 0;     ///< mm
+  bool hold_length = true;      ///< false: length follows from the price of coverage, as thin islands need
+  double bead_width = 0;        ///< mm, area ÷ target length: the unit of every length below
+  int coarse_iterations = 60;   ///< on the curve as it comes
+  int fine_iterations = 40;     ///< on the subdivided curve
+  double samples_per_width = 5; ///< lattice squares per bead width
+  double smoothness = 0.15;     ///< γ_Lap in units of area ÷ vertices (31)
+};
+
+struct FairingResult {
+  Curve curve;
+  int iterations = 0;
+};
+
+/// Five steps of (5), each cut short where it would use up a vertex's freedom. Precondition as for fair().
+Curve smoothed(const Curve& curve, const Polygon& island, double bead_width);
+
+/// Precondition: `curve` is simple, strictly inside `island` and has at least 5 vertices. So is the result.
+FairingResult fair(const Curve& curve, const Polygon& island, const FairingOptions& options);
+
+}  // namespace unicursal::core

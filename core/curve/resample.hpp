@@ -1,0 +1,16 @@
+// Vertices taken away and added without changing what a curve looks like. mm.
+#pragma once
+
+#include "core/curve/curve.hpp"
+#include "core/geometry/border_index.hpp"
+
+namespace unicursal::core {
+
+/// Drops vertices that stand closer than half of `spacing` to their neighbours, where the curve moves by less
+/// than its clearance (so it stays simple and inside), and halves segments longer than 1.5 `spacing`.
+Curve respaced(const Curve& curve, const BorderIndex& border, double spacing);
+
+/// Every segment halved.
+Curve subdivided(const Curve& curve);
+
+}  // namespace unicursal::core

@@ -1,0 +1,26 @@
+// The first Hamiltonian cycle (paper §3.3.1 and §3.3.2): perfect matching, inversion, one centre node per
+// cell, split-and-reconnect, edge doubling as the last resort.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/curve/curve.hpp"
+#include "core/graph/cell_graph.hpp"
+
+namespace unicursal::core {
+
+/// One closed walk through every node of the cell graph and every centre that could be reached.
+struct Cycle {
+  Curve curve;                          ///< simple; along the border it follows the border's bends
+  std::size_t nodes = 0;                ///< visited, doubled ones twice
+  std::size_t unreached_centres = 0;    ///< left out, because every side of their cell was spoken for
+  std::size_t split_and_reconnect = 0;  ///< paper Table 1
+  std::size_t doubled_edges = 0;        ///< paper Table 1
+};
+
+/// Nothing when the graph has no perfect matching or cycles cannot be joined; both happen only for graphs
+/// of a few cells, and callers fall back to a contour.
+std::optional<Cycle> first_cycle(const CellGraph& cells);
+
+}  // namespace unicursal::core

@@ -1,0 +1,359 @@
+#include "core/geometry/segment_diagram.hpp"
+
+#include <CGAL/Segment_Delaunay_graph_2.h>
+#include <CGAL/Segment_Delaunay_graph_filtered_traits_2.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <unordered_map>
+
+#include "core/geometry/border_index.hpp"
+#include "core/geometry/segment_grid.hpp"
+
+namespace unicursal::core {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Traits = CGAL::Segment_Delaunay_graph_filtered_traits_without_intersections_2<Kernel>;
+using Graph = CGAL::Segment_Delaunay_graph_2<Traits>;
+
+constexpr int most_polishing_steps = 6;
+constexpr double least_turn = 1e-12;  ///< sine between two borders below which their meeting point is left as it is
+constexpr double far_away = 20;  ///< island diagonals to the sites that close the diagram
+
+/// A vertex of the curve, or the open segment that leaves it.
+struct Site {
+  bool segment = false;
+  std::size_t index = 0;
+};
+
+/// A stretch of a cell's border: a straight line, or a parabola over a directrix.
+struct Arc {
+  Vec2 from{0, 0}, to{0, 0};
+  bool parabola = false;
+  Vec2 base{0, 0}, along{0, 0}, focus{0, 0};  ///< parabola: a point and the unit direction of the directrix
+
+  Vec2 at(double s) const { return parabola ? on_parabola(x_at(s)) : Vec2(from + s * (to - from)); }
+  Vec2 derivative(double s) const {
+    if (!parabola) return to - from;
+    const Vec2 f = local(focus);
+    const double slope = (x_at(s) - f.x()) / f.y();
+    return (x_at(1) - x_at(0)) * (along + slope * perpendicular(along));
+  }
+  Vec2 local(const Vec2& p) const { return {(p - base).dot(along), (p - base).dot(perpendicular(along))}; }
+  double x_at(double s) const {
+    const double x0 = local(from).x(), x1 = local(to).x();
+    return x0 + s * (x1 - x0);
+  }
+  Vec2 on_parabola(double x) const {
+    const Vec2 f = local(focus);
+    const double y = ((x - f.x()) * (x - f.x()) + f.y() * f.y()) / (2 * f.y());
+    return base + x * along + y * perpendicular(along);
+  }
+};
+
+/// Parameters in (0, 1) where an arc passes through a straight edge.
+std::vector<double> crossings(const Arc& arc, const Vec2& a, const Vec2& b) {
+  std::vector<double> found;
+  const auto keep = [&](double s) {
+    if (!(s > 0 && s < 1)) return;
+    const Vec2 p = arc.at(s);
+    const double tau = (p - a).dot(b - a) / (b - a).squaredNorm();
+    if (tau >= 0 && tau < 1) found.push_back(s);
+  };
+  if (!arc.parabola) {
+    const double slope = cross(arc.to - arc.from, b - a);
+    if (slope != 0) keep(cross(a - arc.from, b - a) / slope);
+    return found;
+  }
+  // n·(point − a) = 0 along the parabola is a quadratic in x.
+  const Vec2 f = arc.local(arc.focus), la = arc.local(a), lb = arc.local(b);
+  const Vec2 n = perpendicular(lb - la);
+  const double q2 = n.y() / (2 * f.y()), q1 = n.x() - n.y() * f.x() / f.y();
+  const double q0 = n.y() * (f.squaredNorm() / (2 * f.y())) - n.dot(la);
+  const double x0 = arc.x_at(0), x1 = arc.x_at(1);
+  const double discriminant = q1 * q1 - 4 * q2 * q0;
+  if (discriminant < 0 || x0 == x1) return found;
+  const double q = -0.5 * (q1 + std::copysign(std::sqrt(discriminant), q1));
+  if (q2 != 0) keep((q / q2 - x0) / (x1 - x0));
+  if (q != 0) keep((q0 / q - x0) / (x1 - x0));
+  return found;
+}
+
+/// Gauss–Legendre on [0, 1], four points: exact for polynomials of degree 7.
+constexpr std::array<double, 4> gauss_point{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+                                            0.93056815579702629};
+constexpr std::array<double, 4> gauss_weight{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                             0.17392742256872693};
+
+std::uint64_t key_of(double x, double y) {
+  std::uint64_t a = 0, b = 0;
+  x += 0.0, y += 0.0;  // −0 becomes 0
+  std::memcpy(&a, &x, sizeof a);
+  std::memcpy(&b, &y, sizeof b);
+  return (a * 0x9E3779B97F4A7C15ULL) ^ (b + 0x7F4A7C15F39CC060ULL + (a << 6));
+}
+
+class Judge {
+ public:
+  Judge(const Ring& curve, const Polygon& island)
+      : curve_(curve),
+        border_(island, pitch(curve)),
+        segments_(segments_of(curve)),
+        grid_(segments_, pitch(curve)),
+        pieces_(border_.edges().size()) {
+    result_.points.resize(curve.size());
+    result_.segments.resize(curve.size());
+  }
+
+  SegmentDiagram run() {
+    Graph graph;
+    insert(graph);
+    std::unordered_map<const void*, Vec2> centre;
+    for (auto face = graph.finite_faces_begin(); face != graph.finite_faces_end(); ++face) {
+      const auto p = graph.primal(Graph::Face_handle(face));
+      std::array<std::optional<Site>, 3> sites;
+      for (int i = 0; i < 3; ++i) sites[static_cast<std::size_t>(i)] = site_of(face->vertex(i)->site());
+      Vec2 vertex(p.x(), p.y());
+      if (sites[0] && sites[1] && sites[2]) vertex = polished(vertex, *sites[0], *sites[1], *sites[2]);
+      centre.emplace(&*face, vertex);
+    }
+    for (auto edge = graph.finite_edges_begin(); edge != graph.finite_edges_end(); ++edge) {
+      const auto face = edge->first;
+      const auto other = face->neighbor(edge->second);
+      if (graph.is_infinite(face) || graph.is_infinite(other)) continue;
+      const auto left = site_of(face->vertex(Graph::ccw(edge->second))->site());
+      const auto right = site_of(face->vertex(Graph::cw(edge->second))->site());
+      // A far site's borders lie outside the island.
+      if (left && right) add_arc(*left, *right, centre.at(&*other), centre.at(&*face));
+    }
+    add_border();
+    return std::move(result_);
+  }
+
+ private:
+  static double pitch(const Ring& curve) { return 1.5 * perimeter(curve) / static_cast<double>(curve.size()); }
+
+  static std::vector<Segment> segments_of(const Ring& curve) {
+    std::vector<Segment> segments(curve.size());
+    for (std::size_t i = 0; i < curve.size(); ++i) segments[i] = {curve[i], curve[(i + 1) % curve.size()]};
+    return segments;
+  }
+
+  void insert(Graph& graph) {
+    std::vector<Kernel::Point_2> points;
+    std::vector<std::pair<std::size_t, std::size_t>> ends;
+    for (std::size_t i = 0; i < curve_.size(); ++i) {
+      points.emplace_back(curve_[i].x(), curve_[i].y());
+      ends.emplace_back(i, (i + 1) % curve_.size());
+      vertex_at_.emplace(key_of(curve_[i].x(), curve_[i].y()), i);
+    }
+    graph.insert_segments(points.begin(), points.end(), ends.begin(), ends.end());
+    const Box box = bounds(curve_);
+    const double far = far_away * (box.size().norm() + 1);
+    const Vec2 c = box.center();
+    for (const Vec2& way : {Vec2(1, 0.1), Vec2(-0.1, 1), Vec2(-1, -0.1), Vec2(0.1, -1)}) {
+      graph.insert(Graph::Site_2::construct_site_2({c.x() + far * way.x(), c.y() + far * way.y()}));
+    }
+  }
+
+  std::optional<std::size_t> vertex_of(const Kernel::Point_2& p) const {
+    const auto [first, last] = vertex_at_.equal_range(key_of(p.x(), p.y()));
+    for (auto i = first; i != last; ++i) {
+      if (curve_[i->second] == Vec2(p.x(), p.y())) return i->second;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Site> site_of(const Graph::Site_2& site) const {
+    if (site.is_point()) {
+      const auto v = vertex_of(site.point());
+      if (!v) return std::nullopt;
+      return Site{false, *v};
+    }
+    const auto a = vertex_of(site.source()), b = vertex_of(site.target());
+    if (!a || !b) return std::nullopt;
+    return Site{true, (*a + 1) % curve_.size() == *b ? *a : *b};
+  }
+
+  CellIntegrals& cell(const Site& site) {
+    return (site.segment ? result_.segments : result_.points)[site.index];
+  }
+
+  /// Adds a stretch that has the site's cell on its left.
+  void integrate(const Site& site, const Arc& arc, double s0, double s1, double sign) {
+    CellIntegrals sum;
+    const Vec2 origin = curve_[site.index];
+    const Vec2 u = site.segment ? Vec2((segments_[site.index].b - origin).normalized()) : Vec2(0, 0);
+    for (std::size_t g = 0; g < gauss_point.size(); ++g) {
+      const double s = s0 + (s1 - s0) * gauss_point[g], weight = gauss_weight[g] * (s1 - s0);
+      const Vec2 p = arc.at(s) - origin, dp = arc.derivative(s);
+      if (site.segment) {
+        const double y = cross(u, p), dx = u.dot(dp);
+        sum.area -= weight * y * dx;
+        sum.second_moment -= weight * y * y * y / 3 * dx;
+      } else {
+        const double sweep = weight * cross(p, dp);
+        sum.area += sweep / 2;
+        sum.second_moment += sweep * p.squaredNorm() / 4;
+      }
+    }
+    cell(site).area += sign * sum.area;
+    cell(site).second_moment += sign * sum.second_moment;
+  }
+
+  bool ends_in(std::size_t segment, std::size_t vertex) const {
+    return segment == vertex || (segment + 1) % curve_.size() == vertex;
+  }
+
+  /// Where two sites are equally far: a residual, mm, and its gradient.
+  struct Residual {
+    double value;
+    Vec2 gradient;
+  };
+
+  Residual distance_of(const Site& site, const Vec2& p) const {
+    const Vec2 off = p - curve_[site.index];
+    if (!site.segment) {
+      const double d = off.norm();
+      return {d, d > 0 ? Vec2(off / d) : Vec2(0, 0)};
+    }
+    const Vec2 n = perpendicular(segments_[site.index].b - segments_[site.index].a).normalized();
+    const double h = off.dot(n);
+    return h >= 0 ? Residual{h, n} : Residual{-h, -n};
+  }
+
+  Residual difference(const Site& l, const Site& r, const Vec2& p) const {
+    if (l.segment != r.segment) {
+      const Site &point = l.segment ? r : l, &segment = l.segment ? l : r;
+      if (ends_in(segment.index, point.index)) {
+        // The border to one's own segment is the line at right angles through the common vertex.
+        const Vec2 u = (segments_[segment.index].b - segments_[segment.index].a).normalized();
+        return {(p - curve_[point.index]).dot(u), u};
+      }
+    }
+    const Residual a = distance_of(l, p), b = distance_of(r, p);
+    return {a.value - b.value, a.gradient - b.gradient};
+  }
+
+  /// CGAL's vertices are rounded, badly so where three sites nearly line up; what lies between two versions of
+  /// a border would be counted twice or not at all. Newton's method restores what double precision can give.
+  Vec2 polished(Vec2 p, const Site& a, const Site& b, const Site& c) const {
+    double error = std::numeric_limits<double>::infinity();
+    Vec2 best = p;
+    for (int step = 0; step < most_polishing_steps; ++step) {
+      const Residual r = difference(a, b, p), s = difference(a, c, p);
+      const double now = std::max(std::abs(r.value), std::abs(s.value));
+      if (!(now < error)) break;
+      error = now;
+      best = p;
+      const double determinant = cross(r.gradient, s.gradient);
+      if (std::abs(determinant) < least_turn) break;
+      p -= Vec2(r.value * s.gradient.y() - s.value * r.gradient.y(),
+                s.value * r.gradient.x() - r.value * s.gradient.x()) / determinant;
+    }
+    return best;
+  }
+
+  Arc arc_between(const Site& l, const Site& r, const Vec2& from, const Vec2& to) const {
+    Arc arc{from, to, false, {0, 0}, {0, 0}, {0, 0}};
+    if (l.segment == r.segment) return arc;
+    const Site& point = l.segment ? r : l;
+    const Site& segment = l.segment ? l : r;
+    if (ends_in(segment.index, point.index)) return arc;
+    const Segment& s = segments_[segment.index];
+    arc.base = s.a;
+    arc.along = (s.b - s.a).normalized();
+    arc.focus = curve_[point.index];
+    arc.parabola = std::abs(arc.local(arc.focus).y()) > 1e-12 * (s.b - s.a).norm();
+    return arc;
+  }
+
+  /// A border between two cells, clipped by the island; `left`'s cell lies to its left.
+  void add_arc(const Site& left, const Site& right, const Vec2& from, const Vec2& to) {
+    if (from == to) return;
+    const Arc arc = arc_between(left, right, from, to);
+    std::vector<double> cuts{0, 1};
+    std::vector<std::size_t> near;
+    border_.near(box_of(arc), [&](std::size_t e) { near.push_back(e); });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::size_t e : near) {
+      const BorderEdge& edge = border_.edges()[e];
+      for (const double s : crossings(arc, edge.a, edge.b)) {
+        cuts.push_back(s);
+        pieces_[e].push_back((arc.at(s) - edge.a).dot(edge.b - edge.a) / (edge.b - edge.a).squaredNorm());
+      }
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      if (!border_.contains(arc.at((cuts[k] + cuts[k + 1]) / 2))) continue;
+      integrate(left, arc, cuts[k], cuts[k + 1], 1);
+      integrate(right, arc, cuts[k], cuts[k + 1], -1);
+    }
+  }
+
+  Box box_of(const Arc& arc) const {
+    Box box{arc.from.cwiseMin(arc.to), arc.from.cwiseMax(arc.to)};
+    if (arc.parabola) {
+      // A parabola stays within the triangle of its ends and the meeting point of their tangents.
+      const Vec2 apex = arc.from + arc.derivative(0) / 2;
+      box.min = box.min.cwiseMin(apex);
+      box.max = box.max.cwiseMax(apex);
+    }
+    return box;
+  }
+
+  Site nearest(const Vec2& p) const {
+    double best = std::numeric_limits<double>::infinity();
+    std::size_t index = 0;
+    for (double reach = pitch(curve_), searched = 0; !(best <= searched); searched = reach, reach *= 2) {
+      const Vec2 margin(reach, reach);
+      grid_.near({p - margin, p + margin}, [&](std::size_t i) {
+        const double d = distance_to_segment(p, segments_[i].a, segments_[i].b);
+        if (d < best) best = d, index = i;
+      });
+    }
+    const Segment& s = segments_[index];
+    const double t = (p - s.a).dot(s.b - s.a) / (s.b - s.a).squaredNorm();
+    if (t <= 0) return {false, index};
+    if (t >= 1) return {false, (index + 1) % curve_.size()};
+    return {true, index};
+  }
+
+  void add_border() {
+    for (std::size_t e = 0; e < pieces_.size(); ++e) {
+      const BorderEdge& edge = border_.edges()[e];
+      if (edge.a == edge.b) continue;
+      std::vector<double>& cuts = pieces_[e];
+      cuts.push_back(0);
+      cuts.push_back(1);
+      std::sort(cuts.begin(), cuts.end());
+      const Arc arc{edge.a, edge.b, false, {0, 0}, {0, 0}, {0, 0}};
+      for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+        if (cuts[k + 1] <= cuts[k]) continue;
+        integrate(nearest(arc.at((cuts[k] + cuts[k + 1]) / 2)), arc, cuts[k], cuts[k + 1], 1);
+      }
+    }
+  }
+
+  const Ring& curve_;
+  BorderIndex border_;
+  std::vector<Segment> segments_;
+  SegmentGrid grid_;
+  std::vector<std::vector<double>> pieces_;  ///< per border edge, where cells' borders meet it
+  std::unordered_multimap<std::uint64_t, std::size_t> vertex_at_;
+  SegmentDiagram result_;
+};
+
+}  // namespace
+
+SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island) { return Judge(curve, island).run(); }
+
+}  // namespace unicursal::core

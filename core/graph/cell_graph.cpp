@@ -1,0 +1,270 @@
+#include "core/graph/cell_graph.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/border_index.hpp"
+#include "core/graph/seeds.hpp"
+#include "core/graph/voronoi.hpp"
+
+namespace unicursal::core {
+namespace {
+
+constexpr int tries = 6;
+constexpr double shake = 1e-3;          ///< of d, how far seeds move before another try
+constexpr double area_tolerance = 1e-6;  ///< relative, cells against domain
+
+/// Where a Voronoi edge passes through the border.
+struct Crossing {
+  std::size_t border_edge = 0;
+  double along_voronoi = 0;  ///< 0…1
+  double along_border = 0;   ///< 0…1
+  bool leaving = false;
+  NodeIndex node = -1;
+};
+
+class Clipper {
+ public:
+  Clipper(const Voronoi& diagram, const Polygon& domain)
+      : diagram_(diagram), domain_(domain), border_(domain, typical_edge()) {}
+
+  std::optional<CellGraph> run(std::vector<std::size_t>& untouched_holes) {
+    place_inner_nodes();
+    for (const VoronoiEdge& edge : diagram_.edges) {
+      if (!cut(edge)) return std::nullopt;
+    }
+    if (!connect_inner_nodes() || !walk_borders(untouched_holes)) return std::nullopt;
+    link_half_edges();
+    if (!trace_faces()) return std::nullopt;
+    return std::move(graph_);
+  }
+
+ private:
+  double typical_edge() const {
+    const double diameter = bounds(domain_).size().norm();
+    return diameter / std::clamp(std::sqrt(static_cast<double>(diagram_.edges.size())), 4.0, 3000.0);
+  }
+
+  void place_inner_nodes() {
+    node_of_.assign(diagram_.vertices.size(), -1);
+    for (std::size_t v = 0; v < diagram_.vertices.size(); ++v) {
+      if (border_.contains(diagram_.vertices[v].position)) node_of_[v] = add_node(diagram_.vertices[v].position);
+    }
+    half_of_.assign(diagram_.edges.size(), {-1, -1});
+  }
+
+  NodeIndex add_node(const Vec2& position) {
+    graph_.position.push_back(position);
+    spokes_.push_back({-1, -1, -1});
+    return static_cast<NodeIndex>(graph_.position.size()) - 1;
+  }
+
+  /// Returns the half-edge from `a`.
+  HalfEdgeIndex add_edge(NodeIndex a, NodeIndex b, Ring bends) {
+    const auto h = static_cast<HalfEdgeIndex>(graph_.half_edges.size());
+    graph_.half_edges.push_back({a, -1, outside});
+    graph_.half_edges.push_back({b, -1, outside});
+    graph_.via.push_back(std::move(bends));
+    return h;
+  }
+
+  /// Signs are exact and zero counts as positive, so that a line through a border vertex is on one side of it.
+  std::vector<Crossing> crossings(const Vec2& p, const Vec2& q) const {
+    std::vector<std::size_t> near;
+    border_.near({p.cwiseMin(q), p.cwiseMax(q)}, [&](std::size_t e) { near.push_back(e); });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    std::vector<Crossing> found;
+    for (const std::size_t e : near) {
+      const Vec2 &a = border_.edges()[e].a, &b = border_.edges()[e].b;
+      const bool p_left = orientation(a, b, p) >= 0, q_left = orientation(a, b, q) >= 0;
+      if (p_left == q_left) continue;
+      if ((orientation(p, q, a) >= 0) == (orientation(p, q, b) >= 0)) continue;
+      const double slope = cross(q - p, b - a);
+      found.push_back({e, cross(a - p, b - a) / slope, std::clamp(cross(a - p, q - p) / slope, 0.0, 1.0), p_left, -1});
+    }
+    std::sort(found.begin(), found.end(),
+              [](const Crossing& l, const Crossing& r) { return l.along_voronoi < r.along_voronoi; });
+    return found;
+  }
+
+  /// Keeps the pieces of a Voronoi edge that lie inside. False when ends and crossings contradict each other.
+  bool cut(const VoronoiEdge& edge) {
+    const auto number = static_cast<std::size_t>(&edge - diagram_.edges.data());
+    const Vec2& p = diagram_.vertices[static_cast<std::size_t>(edge.from)].position;
+    const Vec2& q = diagram_.vertices[static_cast<std::size_t>(edge.to)].position;
+    NodeIndex open = node_of_[static_cast<std::size_t>(edge.from)];
+    bool inside = open >= 0, first = true;
+    for (Crossing& crossing : crossings(p, q)) {
+      if (crossing.leaving != inside) return false;
+      const BorderEdge& border = border_.edges()[crossing.border_edge];
+      crossing.node = add_node(border.a + crossing.along_border * (border.b - border.a));
+      crossings_.push_back(crossing);
+      if (inside) {
+        const HalfEdgeIndex h = add_edge(open, crossing.node, {});
+        if (first) half_of_[number][0] = h;
+        else spokes_[static_cast<std::size_t>(open)][1] = h;
+        spokes_[static_cast<std::size_t>(crossing.node)][1] = PlanarGraph::twin(h);
+      } else {
+        open = crossing.node;
+      }
+      inside = !inside;
+      first = false;
+    }
+    const NodeIndex end = node_of_[static_cast<std::size_t>(edge.to)];
+    if (inside != (end >= 0)) return false;
+    if (inside) {
+      const HalfEdgeIndex h = add_edge(open, end, {});
+      if (first) half_of_[number][0] = h;
+      else spokes_[static_cast<std::size_t>(open)][1] = h;
+      half_of_[number][1] = PlanarGraph::twin(h);
+    }
+    return true;
+  }
+
+  bool connect_inner_nodes() {
+    for (std::size_t v = 0; v < diagram_.vertices.size(); ++v) {
+      if (node_of_[v] < 0) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int edge = diagram_.vertices[v].edges[i];
+        if (edge < 0) return false;
+        const bool starts = diagram_.edges[static_cast<std::size_t>(edge)].from == static_cast<int>(v);
+        const HalfEdgeIndex h = half_of_[static_cast<std::size_t>(edge)][starts ? 0 : 1];
+        if (h < 0) return false;
+        spokes_[static_cast<std::size_t>(node_of_[v])][i] = h;
+      }
+    }
+    return true;
+  }
+
+  /// Stretches of border between neighbouring crossings become edges that bend with it.
+  bool walk_borders(std::vector<std::size_t>& untouched_holes) {
+    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& l, const Crossing& r) {
+      return l.border_edge != r.border_edge ? l.border_edge < r.border_edge : l.along_border < r.along_border;
+    });
+    auto begin = crossings_.begin();
+    bool all_touched = true;
+    for (std::size_t ring = 0; ring < border_.ring_count(); ++ring) {
+      const std::size_t last_edge = border_.first_edge(ring) + border_.ring_size(ring);
+      const auto end = std::find_if(begin, crossings_.end(), [&](const Crossing& c) { return c.border_edge >= last_edge; });
+      if (begin == end) {
+        all_touched = false;
+        if (ring > 0) untouched_holes.push_back(ring - 1);
+      }
+      for (auto here = begin; here != end; ++here) {
+        const auto there = here + 1 == end ? begin : here + 1;
+        const HalfEdgeIndex h = add_edge(here->node, there->node, bends(*here, *there, ring));
+        // Counter-clockwise about a border node: forward, inward, backward.
+        spokes_[static_cast<std::size_t>(here->node)][0] = h;
+        spokes_[static_cast<std::size_t>(there->node)][2] = PlanarGraph::twin(h);
+        border_half_edges_.push_back(PlanarGraph::twin(h));
+      }
+      begin = end;
+    }
+    return all_touched;
+  }
+
+  Ring bends(const Crossing& from, const Crossing& to, std::size_t ring) const {
+    Ring line;
+    const std::size_t first = border_.first_edge(ring), size = border_.ring_size(ring);
+    const bool around = to.border_edge < from.border_edge ||
+                        (to.border_edge == from.border_edge && to.along_border <= from.along_border);
+    std::size_t steps = to.border_edge - from.border_edge + (around ? size : 0);
+    for (std::size_t e = from.border_edge; steps > 0; --steps) {
+      line.push_back(border_.edges()[e].b);
+      e = e + 1 == first + size ? first : e + 1;
+    }
+    return line;
+  }
+
+  /// Arriving at a node, the next half-edge of the face to the left is the one clockwise of the way back.
+  void link_half_edges() {
+    for (const auto& around : spokes_) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const HalfEdgeIndex arriving = PlanarGraph::twin(around[i]);
+        graph_.half_edges[static_cast<std::size_t>(arriving)].next = around[(i + 2) % 3];
+      }
+    }
+  }
+
+  bool trace_faces() {
+    std::vector<bool> seen(graph_.half_edges.size(), false);
+    for (HalfEdgeIndex start : border_half_edges_) {
+      for (HalfEdgeIndex h = start; !seen[static_cast<std::size_t>(h)]; h = graph_.next(h)) {
+        seen[static_cast<std::size_t>(h)] = true;
+      }
+    }
+    double covered = 0;
+    for (std::size_t s = 0; s < graph_.half_edges.size(); ++s) {
+      if (seen[s]) continue;
+      const auto face = static_cast<FaceIndex>(graph_.face_count());
+      graph_.face_start.push_back(static_cast<HalfEdgeIndex>(s));
+      for (auto h = static_cast<HalfEdgeIndex>(s); !seen[static_cast<std::size_t>(h)]; h = graph_.next(h)) {
+        seen[static_cast<std::size_t>(h)] = true;
+        graph_.half_edges[static_cast<std::size_t>(h)].face = face;
+      }
+      const double piece = signed_area(graph_.outline(face));
+      if (!(piece > 0)) return false;
+      covered += piece;
+    }
+    return std::abs(covered - area(domain_)) <= area_tolerance * area(domain_);
+  }
+
+  const Voronoi& diagram_;
+  const Polygon& domain_;
+  BorderIndex border_;
+  CellGraph graph_;
+  std::vector<NodeIndex> node_of_;                         ///< per Voronoi vertex
+  std::vector<std::array<HalfEdgeIndex, 2>> half_of_;      ///< per Voronoi edge, leaving its two ends
+  std::vector<std::array<HalfEdgeIndex, 3>> spokes_;       ///< per node, leaving it counter-clockwise
+  std::vector<Crossing> crossings_;
+  std::vector<HalfEdgeIndex> border_half_edges_;           ///< those with the outside to their left
+};
+
+/// A second seed opposite the first one about the hole, so that the border between the two cells meets it.
+void add_seed_beyond(const Ring& hole, const Polygon& domain, std::vector<Vec2>& seeds) {
+  const Vec2 center = bounds(hole).center();
+  const auto nearest = std::min_element(seeds.begin(), seeds.end(), [&](const Vec2& l, const Vec2& r) {
+    return (l - center).squaredNorm() < (r - center).squaredNorm();
+  });
+  const Vec2 away = center - *nearest;
+  for (const double turn : {0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5}) {
+    for (const double stretch : {1.0, 1.5, 0.7, 2.0}) {
+      const double c = std::cos(turn) * stretch, s = std::sin(turn) * stretch;
+      const Vec2 candidate = center + Vec2(c * away.x() - s * away.y(), s * away.x() + c * away.y());
+      if (contains(domain, candidate)) {
+        seeds.push_back(candidate);
+        return;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<CellGraph> clip_to_domain(const std::vector<Vec2>& seeds, const Polygon& domain,
+                                        std::vector<std::size_t>& untouched_holes) {
+  untouched_holes.clear();
+  const Voronoi diagram = voronoi(seeds, bounds(domain));
+  return Clipper(diagram, domain).run(untouched_holes);
+}
+
+std::optional<CellGraph> make_cell_graph(const Polygon& domain, double d, Random& random) {
+  std::vector<Vec2> seeds = place_seeds(domain, d, random);
+  for (int attempt = 0; attempt < tries; ++attempt) {
+    std::vector<std::size_t> untouched;
+    if (std::optional<CellGraph> graph = clip_to_domain(seeds, domain, untouched)) return graph;
+    if (untouched.empty() && attempt + 2 == tries) seeds = place_seeds(domain, d, random);
+    for (const std::size_t hole : untouched) add_seed_beyond(domain.holes[hole], domain, seeds);
+    for (Vec2& seed : seeds) {
+      const double turn = random.uniform(0, 2 * std::numbers::pi);
+      const Vec2 moved = seed + shake * d * random.uniform() * Vec2(std::cos(turn), std::sin(turn));
+      if (contains(domain, moved)) seed = moved;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace unicursal::core

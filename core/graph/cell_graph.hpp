@@ -1,0 +1,31 @@
+// The cell graph (paper §3.2): Voronoi edges clipped by the domain, whose border belongs to the graph.
+// Every node has exactly three edges: three Voronoi edges inside, two stretches of border and one Voronoi
+// edge on the border.
+//
+// The paper calls the graph bridgeless "by construction". An edge here separates two different cells, or a
+// cell from the outside, so there are no bridges; but three cases need care. A cell at a dead end has two
+// sides only (parallel edges). A Voronoi cell that a non-convex border cuts in pieces gives one face per
+// piece. A hole within one cell would be a loop without nodes: such a cell gets a second seed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/geometry/polygon.hpp"
+#include "core/geometry/random.hpp"
+#include "core/graph/planar_graph.hpp"
+
+namespace unicursal::core {
+
+/// A cubic, bridgeless, connected planar multigraph whose faces are the cells, each a topological disc.
+struct CellGraph : PlanarGraph {};
+
+/// Nothing when the domain fits into one cell, or when the numbers are too close to degenerate to decide
+/// (after several tries with other seeds): callers then fall back to a contour. `domain` must be simple.
+std::optional<CellGraph> make_cell_graph(const Polygon& domain, double d, Random& random);
+
+/// One try with given seeds. `untouched_holes` receives the holes that no Voronoi edge reaches.
+std::optional<CellGraph> clip_to_domain(const std::vector<Vec2>& seeds, const Polygon& domain,
+                                        std::vector<std::size_t>& untouched_holes);
+
+}  // namespace unicursal::core

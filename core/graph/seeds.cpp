@@ -1,0 +1,104 @@
+#include "core/graph/seeds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/border_index.hpp"
+#include "core/geometry/lattice.hpp"
+#include "core/geometry/lattice_owners.hpp"
+
+namespace unicursal::core {
+namespace {
+
+constexpr double samples_per_distance = 5;    ///< lattice squares per d
+constexpr double farthest_without_seed = 0.75;  ///< of d
+constexpr int relaxation_steps = 12;
+
+std::vector<Vec2> triangular_tiling(const Polygon& domain, double d, Random& random) {
+  const Box box = bounds(domain);
+  const double angle = random.uniform(0, std::numbers::pi / 3);
+  const Vec2 u = d * Vec2(std::cos(angle), std::sin(angle));
+  const Vec2 v = d * Vec2(std::cos(angle + std::numbers::pi / 3), std::sin(angle + std::numbers::pi / 3));
+  const Vec2 origin = box.center() + random.uniform() * u + random.uniform() * v;
+  const auto reach = static_cast<int>(std::ceil(box.size().norm() / d / std::sqrt(3.0) * 1.2)) + 1;
+  const BorderIndex border(domain, d);
+  std::vector<Vec2> seeds;
+  for (int i = -reach; i <= reach; ++i) {
+    for (int j = -reach; j <= reach; ++j) {
+      const double radius = d / 20 * std::sqrt(random.uniform());
+      const double turn = random.uniform(0, 2 * std::numbers::pi);
+      const Vec2 p = origin + i * u + j * v + radius * Vec2(std::cos(turn), std::sin(turn));
+      if (border.contains(p)) seeds.push_back(p);
+    }
+  }
+  return seeds;
+}
+
+std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
+  std::vector<Segment> points;
+  points.reserve(seeds.size());
+  for (const Vec2& seed : seeds) points.push_back({seed, seed});
+  return points;
+}
+
+Vec2 position(const Lattice& lattice, std::size_t k) { return lattice.origin + Vec2(lattice.x[k], lattice.y[k]); }
+
+/// Seeds for what is too far from all others, by visiting the far samples in order of distance.
+void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, double d) {
+  if (seeds.empty()) {
+    const auto heaviest = std::max_element(lattice.weight.begin(), lattice.weight.end());
+    seeds.push_back(position(lattice, static_cast<std::size_t>(heaviest - lattice.weight.begin())));
+  }
+  owners.assign(as_points(seeds), d);
+  const double limit2 = std::pow(farthest_without_seed * d, 2);
+  std::vector<std::size_t> far;
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    if (lattice.weight[k] > 0 && owners.distance2(k) > limit2) far.push_back(k);
+  }
+  std::sort(far.begin(), far.end(), [&](std::size_t a, std::size_t b) {
+    return owners.distance2(a) != owners.distance2(b) ? owners.distance2(a) > owners.distance2(b) : a < b;
+  });
+  const std::size_t old = seeds.size();
+  for (const std::size_t k : far) {
+    const Vec2 p = position(lattice, k);
+    const bool served = std::any_of(seeds.begin() + static_cast<std::ptrdiff_t>(old), seeds.end(),
+                                    [&](const Vec2& s) { return (s - p).squaredNorm() < limit2; });
+    if (!served) seeds.push_back(p);
+  }
+}
+
+/// One step of Lloyd's method: every seed to the centroid of its samples.
+void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, const BorderIndex& border,
+           double d) {
+  owners.assign(as_points(seeds), d);
+  std::vector<double> mass(seeds.size(), 0);
+  std::vector<Vec2> moment(seeds.size(), Vec2(0, 0));
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    if (owners.owner(k) < 0) continue;
+    const auto s = static_cast<std::size_t>(owners.owner(k));
+    mass[s] += lattice.weight[k];
+    moment[s] += lattice.weight[k] * position(lattice, k);
+  }
+  for (std::size_t s = 0; s < seeds.size(); ++s) {
+    if (mass[s] <= 0) continue;
+    const Vec2 centroid = moment[s] / mass[s];
+    if (border.contains(centroid)) seeds[s] = centroid;
+  }
+}
+
+}  // namespace
+
+std::vector<Vec2> place_seeds(const Polygon& domain, double d, Random& random) {
+  const Box box = bounds(domain);
+  const double finest = std::max(box.size().maxCoeff(), d) / 30000;
+  const Lattice lattice = sample(domain, std::max(d / samples_per_distance, finest));
+  LatticeOwners owners(lattice);
+  const BorderIndex border(domain, d);
+  std::vector<Vec2> seeds = triangular_tiling(domain, d, random);
+  fill_gaps(seeds, lattice, owners, d);
+  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border, d);
+  return seeds;
+}
+
+}  // namespace unicursal::core

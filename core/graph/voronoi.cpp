@@ -1,0 +1,60 @@
+#include "core/graph/voronoi.hpp"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace unicursal::core {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Triangulation_vertex_base_2<Kernel>;
+using Face = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+
+constexpr int far_sites = 16;
+constexpr double far_away = 5;  ///< box diagonals from the centre
+
+}  // namespace
+
+Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
+  std::vector<Kernel::Point_2> points;
+  points.reserve(sites.size() + far_sites);
+  for (const Vec2& site : sites) points.emplace_back(site.x(), site.y());
+  const double radius = far_away * (box.size().norm() + 1);
+  for (int k = 0; k < far_sites; ++k) {
+    const double turn = 2 * std::numbers::pi * (k + 0.3) / far_sites;
+    points.emplace_back(box.center().x() + radius * std::cos(turn), box.center().y() + radius * std::sin(turn));
+  }
+  const Delaunay triangulation(points.begin(), points.end());
+
+  Voronoi result;
+  for (const auto face : triangulation.all_face_handles()) face->info() = -1;
+  for (const auto face : triangulation.finite_face_handles()) {
+    face->info() = static_cast<int>(result.vertices.size());
+    const Kernel::Point_2 c = triangulation.circumcenter(face);
+    result.vertices.push_back({Vec2(c.x(), c.y()), {-1, -1, -1}});
+  }
+  for (const auto face : triangulation.finite_face_handles()) {
+    for (int i = 0; i < 3; ++i) {
+      const auto other = face->neighbor(i);
+      if (other->info() < face->info()) continue;
+      const int edge = static_cast<int>(result.edges.size());
+      result.edges.push_back({face->info(), other->info()});
+      result.vertices[static_cast<std::size_t>(face->info())].edges[static_cast<std::size_t>(i)] = edge;
+      const auto back = static_cast<std::size_t>(other->index(face));
+      result.vertices[static_cast<std::size_t>(other->info())].edges[back] = edge;
+    }
+  }
+  return result;
+}
+
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return static_cast<int>(CGAL::orientation(Kernel::Point_2(a.x(), a.y()), Kernel::Point_2(b.x(), b.y()),
+                                            Kernel::Point_2(c.x(), c.y())));
+}
+
+}  // namespace unicursal::core

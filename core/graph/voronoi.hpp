@@ -1,0 +1,32 @@
+// The Voronoi diagram of points, with the connectivity that a planar graph needs. mm.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/geometry/polygon.hpp"
+
+namespace unicursal::core {
+
+struct VoronoiEdge {
+  int from = 0, to = 0;  ///< Voronoi vertices
+};
+
+/// A vertex where three cells meet; its edges in counter-clockwise order, −1 for one that runs to infinity.
+struct VoronoiVertex {
+  Vec2 position{0, 0};
+  std::array<int, 3> edges{-1, -1, -1};
+};
+
+struct Voronoi {
+  std::vector<VoronoiVertex> vertices;
+  std::vector<VoronoiEdge> edges;
+};
+
+/// Cells within `box` are complete: far sites are added so that nothing near it runs to infinity.
+Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box);
+
+/// Sign of the area of the triangle a, b, c, exact for doubles; +1 counter-clockwise, 0 collinear.
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+
+}  // namespace unicursal::core

@@ -1,0 +1,156 @@
+#include "core/model/drawing_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/model/css_colour.hpp"
+#include "core/model/layer_stack.hpp"
+#include "core/model/svg_reader.hpp"
+#include "core/model/zoning.hpp"
+
+namespace unicursal::core {
+namespace {
+
+class DrawingPart final : public Part {
+ public:
+  DrawingPart(std::vector<Island> islands, LayerStack stack, std::vector<Zone> zones,
+              std::vector<std::string> warnings)
+      : islands_(std::move(islands)),
+        stack_(stack),
+        zones_(std::move(zones)),
+        warnings_(std::move(warnings)) {
+    std::vector<Polygon> outlines;
+    for (const Island& island : islands_) outlines.push_back(island.outline);
+    extent_ = bounds(outlines);
+  }
+
+  std::size_t layer_count() const override { return stack_.count; }
+  Layer layer(std::size_t index) const override {
+    assert(index < stack_.count);
+    Layer layer = stack_.layer(index);
+    layer.islands = islands_;
+    return layer;
+  }
+  Box extent() const override { return extent_; }
+  double height() const override { return stack_.height(); }
+  const std::vector<Zone>& zones() const override { return zones_; }
+  const std::vector<std::string>& warnings() const override { return warnings_; }
+
+ private:
+  std::vector<Island> islands_;
+  LayerStack stack_;
+  std::vector<Zone> zones_;
+  std::vector<std::string> warnings_;
+  Box extent_;
+};
+
+bool names_file(const std::string& select, const std::filesystem::path& file) {
+  return select == file.filename() || select == file.stem();
+}
+
+bool selects(const Zone& zone, const Shape& shape, const std::filesystem::path& file) {
+  if (zone.select.empty()) return false;
+  const auto colour = css_colour(zone.select);
+  return (colour && *colour == shape.fill) || zone.select == shape.fill ||
+         std::find(shape.names.begin(), shape.names.end(), zone.select) != shape.names.end() ||
+         names_file(zone.select, file);
+}
+
+std::string label(const Shape& shape) {
+  return shape.names.empty() ? shape.fill
+                             : fmt::format("{} ({})", shape.fill, in_quotes(shape.names.front()));
+}
+
+/// The fills and names that a zone could select.
+std::string choices(const std::vector<Shape>& shapes) {
+  std::set<std::string> fills, names;
+  for (const Shape& shape : shapes) {
+    fills.insert(shape.fill);
+    for (const std::string& name : shape.names) names.insert(in_quotes(name));
+  }
+  std::vector<std::string> all(fills.begin(), fills.end());
+  all.insert(all.end(), names.begin(), names.end());
+  return listed(all);
+}
+
+std::string select_place(const Zone& zone) {
+  return "select = " + in_quotes(zone.select);
+}
+
+void refuse_unmatched(const PartSource& source, const std::vector<Shape>& shapes) {
+  const std::filesystem::path& file = source.files.front();
+  for (const Zone& zone : source.zones) {
+    if (std::none_of(shapes.begin(), shapes.end(), [&](const Shape& s) { return selects(zone, s, file); })) {
+      throw ModelError(file.string(), select_place(zone), "this matches nothing in the drawing",
+                       "choose among " + choices(shapes));
+    }
+  }
+}
+
+std::optional<std::size_t> zone_of(const Shape& shape, const PartSource& source) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < source.zones.size(); ++i) {
+    if (!selects(source.zones[i], shape, source.files.front())) continue;
+    if (found) {
+      throw ModelError(source.files.front().string(), select_place(source.zones[i]),
+                       fmt::format("the shape {} is already selected by {}", label(shape),
+                                   in_quotes(source.zones[*found].select)),
+                       "let only one zone select it");
+    }
+    found = i;
+  }
+  return found;
+}
+
+void refuse_unclaimed(const std::filesystem::path& file, const std::vector<Unclaimed>& unclaimed) {
+  if (unclaimed.empty()) return;
+  const Unclaimed& worst = unclaimed.front();
+  const std::string more =
+      unclaimed.size() > 1 ? fmt::format(" (and {} more places)", unclaimed.size() - 1) : "";
+  throw ModelError(file.string(), "near " + at_point(worst.place),
+                   fmt::format("{:.3g} mm² of {} belong to no zone{}", worst.area, worst.label, more),
+                   "add a zone that selects it, or delete it from the drawing");
+}
+
+void warn_of_covered(const std::vector<Zone>& zones, const std::vector<Island>& islands, Warnings& warnings) {
+  std::set<std::size_t> seen;
+  for (const Island& island : islands) {
+    for (const ZoneRegion& region : island.zones) seen.insert(region.zone);
+  }
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    if (!seen.contains(i)) {
+      warnings.add("nothing is left of the zone " + in_quotes(zones[i].select) + ": later shapes cover it");
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const Part> read_drawing_part(const PartSource& source) {
+  const std::filesystem::path& file = source.files.front();
+  Warnings warnings;
+  const LayerStack stack = layers_of_drawing(source.height, source.layer_height, warnings);
+  const std::vector<Shape> shapes = read_svg(file, warnings);
+  if (shapes.empty()) {
+    throw ModelError(file.string(), "", "the drawing holds no filled shape",
+                     "fill shapes, or convert strokes to paths");
+  }
+  refuse_unmatched(source, shapes);
+  std::vector<Painted> painted;
+  for (const Shape& shape : shapes) painted.push_back({shape.region, zone_of(shape, source), label(shape)});
+  Zoning zoning = zoned(painted);
+  refuse_unclaimed(file, zoning.unclaimed);
+  if (zoning.islands.empty()) {
+    throw ModelError(file.string(), "", "the drawing's shapes are too small to print",
+                     "check its width and height");
+  }
+  warn_of_covered(source.zones, zoning.islands, warnings);
+  return std::make_unique<DrawingPart>(std::move(zoning.islands), stack, source.zones, warnings.sentences());
+}
+
+}  // namespace unicursal::core

@@ -1,0 +1,143 @@
+#include "core/model/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "core/model/malformed.hpp"
+
+namespace unicursal::core {
+namespace {
+
+using std::numbers::pi;
+
+/// Chords for a Bézier curve whose second differences of control points are at most `bend` mm, with
+/// `factor` = degree·(degree − 1)/8: the bound of a chord's distance from a curve by its second derivative.
+int chords(double factor, double bend) {
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(factor * bend / flattening))));
+}
+
+/// Chords for `turn` radians of a circle of `radius` mm; more than `most` say nothing but that it is huge.
+int arc_chords(double radius, double turn) {
+  constexpr double most = 1e5;
+  const double sagitta = std::min(flattening / radius, 1.0);
+  const double step = 4 * std::asin(std::sqrt(sagitta / 2));
+  return static_cast<int>(std::clamp(std::ceil(std::abs(turn) / step), 2.0, most));
+}
+
+const Vec2& within_limits(const Vec2& p) {
+  // Written so that NaN fails too.
+  if (!(std::abs(p.x()) <= farthest_coordinate && std::abs(p.y()) <= farthest_coordinate)) {
+    throw Malformed("a point lies more than 100 m away");
+  }
+  return p;
+}
+
+}  // namespace
+
+Vec2 Outline::checked(const Vec2& user) const {
+  const Vec2 p = to_part_ * user;
+  return within_limits(p);
+}
+
+void Outline::add(const Vec2& part_point) {
+  rings_.back().push_back(part_point);
+}
+
+void Outline::move_to(const Vec2& to) {
+  checked(to);
+  pen_ = start_ = to;
+  closed_ = true;
+}
+
+void Outline::start_if_needed() {
+  if (!closed_) return;
+  rings_.emplace_back();
+  add(checked(start_));
+  closed_ = false;
+}
+
+void Outline::line_to(const Vec2& to) {
+  start_if_needed();
+  add(checked(to));
+  pen_ = to;
+}
+
+void Outline::quadratic_to(const Vec2& control, const Vec2& to) {
+  start_if_needed();
+  const Vec2 a = checked(pen_), b = checked(control), c = checked(to);
+  const int n = chords(2.0 / 8, (a - 2 * b + c).norm());
+  for (int i = 1; i < n; ++i) {
+    const double t = double(i) / n, s = 1 - t;
+    add(s * s * a + 2 * s * t * b + t * t * c);
+  }
+  add(c);
+  pen_ = to;
+}
+
+void Outline::cubic_to(const Vec2& control1, const Vec2& control2, const Vec2& to) {
+  start_if_needed();
+  const Vec2 a = checked(pen_), b = checked(control1), c = checked(control2), d = checked(to);
+  const int n = chords(6.0 / 8, std::max((a - 2 * b + c).norm(), (b - 2 * c + d).norm()));
+  for (int i = 1; i < n; ++i) {
+    const double t = double(i) / n, s = 1 - t;
+    add(s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * d);
+  }
+  add(d);
+  pen_ = to;
+}
+
+void Outline::arc(const Vec2& center, const Eigen::Matrix2d& axes, double from, double turn) {
+  const Eigen::Matrix2d mapped = to_part_.linear() * axes;
+  // The Frobenius norm is at least the longest half axis, so the chords are never too long.
+  const int n = arc_chords(mapped.norm(), turn);
+  const Vec2 middle = to_part_ * center;
+  for (int i = 1; i < n; ++i) {
+    const double angle = from + turn * i / n;
+    add(within_limits(middle + mapped * Vec2(std::cos(angle), std::sin(angle))));
+  }
+}
+
+void Outline::arc_to(const Vec2& radii, double rotation, bool large, bool sweep, const Vec2& to) {
+  start_if_needed();
+  const Vec2 start = pen_, size = radii.cwiseAbs();
+  const Vec2 end = checked(to);
+  if (size.minCoeff() > 0 && start != to) {
+    Eigen::Matrix2d axes = Eigen::Rotation2Dd(rotation).toRotationMatrix() * size.asDiagonal();
+    // In the frame where the ellipse is the unit circle, half the chord from the end to the start.
+    Vec2 half = axes.inverse() * (start - to) / 2;
+    double stretch = half.norm();
+    if (stretch > 1) {
+      axes *= stretch;
+      half /= stretch;
+      stretch = 1;
+    }
+    const double apothem = std::sqrt(std::max(0.0, 1 - stretch * stretch));
+    const Vec2 aside = half.norm() > 0 ? Vec2(perpendicular(half.normalized())) : Vec2(0, 0);
+    const Vec2 offset = (large == sweep ? -apothem : apothem) * aside;
+    const Vec2 center = (start + to) / 2 - axes * offset;
+    if (!center.allFinite()) throw Malformed("an arc's radii are out of range");
+    const Vec2 first = half + offset, last = offset - half;
+    double turn = std::atan2(cross(first, last), first.dot(last));
+    if (sweep && turn < 0) turn += 2 * pi;
+    if (!sweep && turn > 0) turn -= 2 * pi;
+    arc(center, axes, std::atan2(first.y(), first.x()), turn);
+  }
+  add(end);
+  pen_ = to;
+}
+
+void Outline::close() {
+  pen_ = start_;
+  closed_ = true;
+}
+
+std::vector<Ring> Outline::rings() const {
+  std::vector<Ring> result;
+  std::copy_if(rings_.begin(), rings_.end(), std::back_inserter(result),
+               [](const Ring& ring) { return ring.size() >= 3; });
+  return result;
+}
+
+}  // namespace unicursal::core

@@ -1,0 +1,156 @@
+#include "core/model/zoning.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace unicursal::core {
+namespace {
+
+constexpr double half_weld = weld_width / 2;  ///< mm, radius of the disc that tells slivers from shape
+constexpr double rounding = weld_width / 10;  ///< mm, how finely that disc's arcs are drawn
+constexpr double smoothing =
+    weld_width / 2;               ///< mm, how far a border may move to lose vertices that say nothing
+constexpr double overlap = 3e-6;  ///< mm, a few steps of the grid, so that patches really join
+constexpr double dust_area = speck_area * 1e-4;  ///< mm², leftovers of rounding on the grid
+
+using Claims = std::map<std::size_t, Region>;
+
+bool overlapping(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+Region near(const Region& region, const Box& box) {
+  Region result;
+  std::copy_if(region.begin(), region.end(), std::back_inserter(result),
+               [&](const Polygon& polygon) { return overlapping(bounds(polygon), box); });
+  return result;
+}
+
+bool is_sliver(const Polygon& polygon) {
+  // What a disc cannot enter has less area than a strip of the disc's width along its border.
+  if (area(polygon) > weld_width * perimeter(polygon)) return false;
+  return offset({polygon}, -half_weld, rounding).empty();
+}
+
+void report_unclaimed(const Region& visible, const std::string& label, std::vector<Unclaimed>& unclaimed) {
+  for (const Polygon& piece : opened(visible, half_weld, rounding)) {
+    if (area(piece) > speck_area) unclaimed.push_back({label, piece.outer.front(), area(piece)});
+  }
+}
+
+/// Fills the gaps that a disc of half the weld's width cannot enter from outside.
+Region welded(const Region& region) {
+  const Region closed = offset(offset(region, half_weld + overlap, rounding), -half_weld - overlap, rounding);
+  Region gaps = subtract(closed, region);
+  // The disc leaves a fillet in every corner, too; those are short.
+  std::erase_if(gaps, [](const Polygon& gap) { return bounds(gap).size().norm() < 2 * weld_width; });
+  return gaps.empty() ? region : unite(region, offset(gaps, overlap, rounding));
+}
+
+/// Starts at an extreme vertex, because the first one always stays.
+Ring smoothed(Ring ring) {
+  const auto extreme = std::min_element(ring.begin(), ring.end(), [](const Vec2& a, const Vec2& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  });
+  std::rotate(ring.begin(), extreme, ring.end());
+  return simplified(ring, smoothing);
+}
+
+/// Without the tiny steps that overlapping outlines, welds and facets leave in borders.
+Region smoothed(const Region& region) {
+  std::vector<Ring> rings;
+  for (const Polygon& polygon : region) {
+    rings.push_back(smoothed(polygon.outer));
+    for (const Ring& hole : polygon.holes) rings.push_back(smoothed(hole));
+  }
+  return enclosed(rings, FillRule::even_odd);
+}
+
+void remove_specks(Region& region) {
+  const auto is_speck = [](const Ring& ring) { return std::abs(signed_area(ring)) < speck_area; };
+  std::erase_if(region, [&](const Polygon& polygon) { return is_speck(polygon.outer); });
+  for (Polygon& polygon : region) std::erase_if(polygon.holes, is_speck);
+}
+
+/// The zones' claims inside one island, without slivers, which are free for any neighbour.
+std::vector<ZoneRegion> local_claims(const Polygon& outline, const Claims& claims) {
+  std::vector<ZoneRegion> result;
+  const Box box = bounds(outline);
+  for (const auto& [zone, claim] : claims) {
+    Region local = near(claim, box);
+    if (local.empty()) continue;
+    local = intersect(local, {outline});
+    std::erase_if(local, is_sliver);
+    local = smoothed(local);
+    if (!local.empty()) result.push_back({zone, std::move(local)});
+  }
+  return result;
+}
+
+/// Gives a leftover to the zone that it touches most.
+void give(const Polygon& piece, std::vector<ZoneRegion>& zones) {
+  const Region reach = offset({piece}, half_weld, rounding);
+  std::vector<double> touch;
+  for (const ZoneRegion& zone : zones)
+    touch.push_back(area(intersect(near(zone.polygons, bounds(reach)), reach)));
+  ZoneRegion& taker = zones[std::size_t(std::max_element(touch.begin(), touch.end()) - touch.begin())];
+  taker.polygons = unite(taker.polygons, {piece});
+}
+
+/// Lets each zone grow by the weld's width into what nobody claims, so that all of them cover the outline.
+std::vector<ZoneRegion> covering(const Polygon& outline, const std::vector<ZoneRegion>& claims) {
+  std::vector<ZoneRegion> result;
+  Region free{outline};
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    Region mine = intersect(free, offset(claims[i].polygons, weld_width, rounding));
+    for (std::size_t j = i + 1; j < claims.size(); ++j) mine = subtract(mine, claims[j].polygons);
+    free = subtract(free, mine);
+    if (!mine.empty()) result.push_back({claims[i].zone, std::move(mine)});
+  }
+  for (const Polygon& piece : free) {
+    if (area(piece) > dust_area) give(piece, result);
+  }
+  return result;
+}
+
+std::optional<Island> island(Polygon outline, const Claims& claims) {
+  std::vector<ZoneRegion> local = local_claims(outline, claims);
+  if (local.empty()) return std::nullopt;
+  if (local.size() == 1) {
+    local.front().polygons = {outline};
+  } else {
+    local = covering(outline, local);
+  }
+  return Island{std::move(outline), std::move(local)};
+}
+
+}  // namespace
+
+Zoning zoned(const std::vector<Painted>& shapes) {
+  Zoning result;
+  Claims claims;
+  Region whole;
+  for (auto shape = shapes.rbegin(); shape != shapes.rend(); ++shape) {
+    const Region visible = subtract(shape->region, whole);
+    whole = unite(whole, shape->region);
+    if (shape->zone) {
+      claims[*shape->zone] = unite(claims[*shape->zone], visible);
+    } else {
+      report_unclaimed(visible, shape->label, result.unclaimed);
+    }
+  }
+  if (shapes.size() > 1) whole = welded(whole);
+  whole = smoothed(whole);
+  remove_specks(whole);
+  for (Polygon& outline : whole) {
+    if (auto made = island(std::move(outline), claims)) result.islands.push_back(std::move(*made));
+  }
+  std::stable_sort(result.islands.begin(), result.islands.end(),
+                   [](const Island& a, const Island& b) { return area(a.outline) > area(b.outline); });
+  std::stable_sort(result.unclaimed.begin(), result.unclaimed.end(),
+                   [](const Unclaimed& a, const Unclaimed& b) { return a.area > b.area; });
+  return result;
+}
+
+}  // namespace unicursal::core

@@ -1,0 +1,43 @@
+// From painted shapes to islands whose zones cover them without overlap.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/region.hpp"
+#include "core/model/part.hpp"
+
+namespace unicursal::core {
+
+/// mm: shapes closer than this are joined, and bare strips narrower than this go to a neighbouring zone.
+inline constexpr double weld_width = 0.01;
+/// mm²: pieces and holes smaller than this are rounding, not shape.
+inline constexpr double speck_area = weld_width * weld_width;
+
+/// A shape and the zone that claims it, if any.
+struct Painted {
+  Region region;
+  std::optional<std::size_t> zone;
+  std::string label;  ///< how to name the shape to a person
+};
+
+/// A piece of the part, wider than a sliver, that no zone claims.
+struct Unclaimed {
+  std::string label;
+  Vec2 place{0, 0};  ///< a point inside or near it
+  double area = 0;   ///< mm², of this piece
+};
+
+struct Zoning {
+  std::vector<Island> islands;       ///< largest first
+  std::vector<Unclaimed> unclaimed;  ///< largest first; the islands hold no such area
+};
+
+/// Later shapes cover earlier ones. The part is the union of all shapes. Every island's zone regions add up
+/// to its outline; borders of zones that nearly meet are made to meet, and lie within half the weld's width
+/// of where they were drawn.
+Zoning zoned(const std::vector<Painted>& shapes);
+
+}  // namespace unicursal::core
