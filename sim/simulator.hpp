@@ -12,23 +12,26 @@
 namespace unicursal::sim {
 
 struct SimulatorOptions {
-  std::optional<std::filesystem::path> link;     ///< a symbolic link to make to the pseudo-terminal
-  double speed = 0;                              ///< printer seconds per real second; 0: as fast as lines come
-  std::optional<std::filesystem::path> report;   ///< JSON, written when the simulation ends
-  std::optional<std::filesystem::path> pictures; ///< folder for deposit-NNNN.png, one for each printed layer
-  double pixel = 0.1;                            ///< mm per picture pixel
-  std::vector<double> bed = {200, 200, 200};     ///< mm, x y z
-  double filament_diameter = 1.75;               ///< mm
-  std::vector<double> steps_per_mm = {80, 80, 400};  ///< x y z
-  double feeder_steps_per_mm = 400;              ///< steps of one feeder for 1 mm of its filament
+  std::optional<std::filesystem::path> link;    ///< a symbolic link to make to the pseudo-terminal
+  double speed = 0;                             ///< printer seconds per real second; 0: as fast as lines come
+  std::optional<std::filesystem::path> report;  ///< JSON, written when the simulation ends
+  std::optional<std::filesystem::path> pictures;  ///< folder for deposit-NNNN.png, one for each printed layer
+  double pixel = 0.1;                             ///< mm per picture pixel
+  std::vector<double> bed = {200, 200, 200};      ///< mm, x y z
+  double filament_diameter = 1.75;                ///< mm
+  std::vector<double> steps_per_mm = {80, 80, 400};          ///< x y z
+  double feeder_steps_per_mm = 400;                          ///< steps of one feeder for 1 mm of its filament
   std::vector<double> max_acceleration = {1500, 1500, 100};  ///< mm/s², x y z
+  std::vector<double> max_speed = {150, 150, 10};            ///< mm/s, x y z
   std::size_t feeders = 3;
-  bool once = false;                             ///< end when the host closes the line after having used it
+  bool once = false;  ///< end when the host closes the line after having used it
 };
 
 /// Runs until SIGINT/SIGTERM (or, with `once`, until the host hangs up) and writes report and pictures.
 /// `ready` is called once with the path of the pseudo-terminal when a host may open it.
-/// Returns a process exit code. Throws std::system_error when the terminal or a file cannot be made.
+/// Returns a process exit code. Throws std::system_error when the terminal or a file cannot be made, and
+/// std::invalid_argument for options that make no printer; both before `ready`, except when the disk fills
+/// up.
 int run_simulator(const SimulatorOptions& options, const std::function<void(const std::string&)>& ready);
 
 }  // namespace unicursal::sim

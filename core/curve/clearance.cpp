@@ -12,7 +12,8 @@ constexpr double safe_share = 0.45;  ///< of a clearance that either side may us
 
 std::vector<Segment> segments_of(const Curve& curve) {
   std::vector<Segment> segments(curve.size());
-  for (std::size_t i = 0; i < curve.size(); ++i) segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
   return segments;
 }
 
@@ -32,7 +33,8 @@ bool meet(const Segment& s, const Segment& t) {
   const int c = orientation(t.a, t.b, s.a), d = orientation(t.a, t.b, s.b);
   if (a * b > 0 || c * d > 0) return false;
   if (a == 0 && b == 0) {  // on one line: do their boxes overlap?
-    const Vec2 low = s.a.cwiseMin(s.b).cwiseMax(t.a.cwiseMin(t.b)), high = s.a.cwiseMax(s.b).cwiseMin(t.a.cwiseMax(t.b));
+    const Vec2 low = s.a.cwiseMin(s.b).cwiseMax(t.a.cwiseMin(t.b)),
+               high = s.a.cwiseMax(s.b).cwiseMin(t.a.cwiseMax(t.b));
     return (low.array() <= high.array()).all();
   }
   return true;

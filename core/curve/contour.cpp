@@ -11,7 +11,7 @@ namespace unicursal::core {
 namespace {
 
 constexpr double depths[] = {0.5, 0.4, 0.3, 0.2, 0.1, 0.05};  ///< bead widths inside the border
-constexpr double bend = 0.01;                                  ///< bead widths a simplified contour may move
+constexpr double bend = 0.01;                                 ///< bead widths a simplified contour may move
 constexpr std::size_t fewest_vertices = 5;
 
 }  // namespace

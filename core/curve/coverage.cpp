@@ -4,11 +4,13 @@
 
 namespace unicursal::core {
 
-Coverage::Coverage(const Lattice& lattice, double reach) : lattice_(lattice), reach_(reach), owners_(lattice) {}
+Coverage::Coverage(const Lattice& lattice, double reach)
+    : lattice_(lattice), reach_(reach), owners_(lattice) {}
 
 double Coverage::evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient) {
   segments_.resize(curve.size());
-  for (std::size_t i = 0; i < curve.size(); ++i) segments_[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    segments_[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
   owners_.assign(segments_, reach_);
   double value = 0;
   for (std::size_t k = 0; k < lattice_.size(); ++k) {

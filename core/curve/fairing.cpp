@@ -20,10 +20,10 @@ constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle 
 constexpr std::size_t memory = 7;                 ///< L-BFGS pairs, as in the paper
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
-constexpr double reach_in_widths = 1.0;           ///< beyond it lattice owners are approximate
-constexpr double freedom_in_widths = 1.0;         ///< clearances are not looked for beyond it
-constexpr double length_stiffness = 0.01;         ///< relative length error at which the penalty balances coverage
-constexpr int multiplier_period = 10;             ///< iterations between updates of the length multiplier
+constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
+constexpr double freedom_in_widths = 1.0;  ///< clearances are not looked for beyond it
+constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
+constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
 
 double dot(const Field& a, const Field& b) {
   double sum = 0;
@@ -157,11 +157,11 @@ class Fairer {
   int iterations() const { return iterations_; }
 
  private:
-  static double pitch(const FairingOptions& options) { return options.bead_width / options.samples_per_width; }
-
-  Curve spread(const Curve& curve) const {
-    return respaced(curve, border_, 0.75 * options_.bead_width);
+  static double pitch(const FairingOptions& options) {
+    return options.bead_width / options.samples_per_width;
   }
+
+  Curve spread(const Curve& curve) const { return respaced(curve, border_, 0.75 * options_.bead_width); }
 
   double evaluate(const Curve& curve, Field& gradient) {
     gradient.assign(curve.size(), Vec2(0, 0));

@@ -93,7 +93,8 @@ class CycleCover {
     Cycle cycle;
     cycle.nodes = static_cast<std::size_t>(
         std::count_if(stops_.begin(), stops_.end(), [](const Stop& s) { return s.links[1].stop >= 0; }));
-    cycle.unreached_centres = unreached_;
+    cycle.unreached_centres =
+        unreached_ + static_cast<std::size_t>(std::count(graph_.centre.begin(), graph_.centre.end(), -1));
     cycle.split_and_reconnect = reconnected_;
     cycle.doubled_edges = doubled_;
     if (!trace(cycle)) return std::nullopt;
@@ -125,7 +126,8 @@ class CycleCover {
       cell_of_centre_.assign(graph_.node_count() - graph_.cell_nodes, outside);
       for (std::size_t c = 0; c < graph_.centre.size(); ++c) {
         if (graph_.centre[c] >= 0) {
-          cell_of_centre_[static_cast<std::size_t>(graph_.centre[c]) - graph_.cell_nodes] = static_cast<FaceIndex>(c);
+          cell_of_centre_[static_cast<std::size_t>(graph_.centre[c]) - graph_.cell_nodes] =
+              static_cast<FaceIndex>(c);
         }
       }
     }
@@ -148,7 +150,8 @@ class CycleCover {
       used_[static_cast<std::size_t>(side / 2)] = false;
       const FaceIndex neighbour = cell_of_[static_cast<std::size_t>(PlanarGraph::twin(side))];
       if (neighbour == outside) continue;
-      if (--choices[static_cast<std::size_t>(neighbour)] == 1 && graph_.centre[static_cast<std::size_t>(neighbour)] >= 0) {
+      if (--choices[static_cast<std::size_t>(neighbour)] == 1 &&
+          graph_.centre[static_cast<std::size_t>(neighbour)] >= 0) {
         urgent.push_back(neighbour);
       }
     }
@@ -230,7 +233,8 @@ class CycleCover {
     const auto has_stop = [&](NodeIndex n) { return stops_[static_cast<std::size_t>(n)].links[1].stop >= 0; };
     if (!has_stop(u) || !has_stop(v) || sets_.find(u) == sets_.find(v)) return;
     if (doubled_node_[static_cast<std::size_t>(u)] || doubled_node_[static_cast<std::size_t>(v)]) return;
-    const Vec2 along = graph_.position[static_cast<std::size_t>(v)] - graph_.position[static_cast<std::size_t>(u)];
+    const Vec2 along =
+        graph_.position[static_cast<std::size_t>(v)] - graph_.position[static_cast<std::size_t>(u)];
     const Vec2 gap = strand_gap * perpendicular(along);
     // Looking from u to v: clockwise of h at u lies right of the edge, clockwise of its twin at v lies left.
     const int right_u = split_stop(u, clockwise_used(h), -gap);
@@ -253,7 +257,8 @@ class CycleCover {
     const Link link = links[1];
     links[1] = {};
     for (Link& back : stops_[static_cast<std::size_t>(link.stop)].links) {
-      if (back.stop == node && PlanarGraph::edge(back.half_edge) == PlanarGraph::edge(moved)) back.stop = fresh;
+      if (back.stop == node && PlanarGraph::edge(back.half_edge) == PlanarGraph::edge(moved))
+        back.stop = fresh;
     }
     const Vec2 position = stops_[old].position;
     stops_[old].position = position - gap;
@@ -267,7 +272,8 @@ class CycleCover {
   }
 
   bool trace(Cycle& cycle) const {
-    const auto start = std::find_if(stops_.begin(), stops_.end(), [](const Stop& s) { return s.links[1].stop >= 0; });
+    const auto start =
+        std::find_if(stops_.begin(), stops_.end(), [](const Stop& s) { return s.links[1].stop >= 0; });
     if (start == stops_.end()) return false;
     const int first = static_cast<int>(start - stops_.begin());
     int here = first;
@@ -286,8 +292,8 @@ class CycleCover {
   }
 
   RefinedGraph graph_;
-  std::vector<bool> used_;           ///< per edge: part of a cycle
-  std::vector<FaceIndex> cell_of_;   ///< per half-edge of the cell graph
+  std::vector<bool> used_;          ///< per edge: part of a cycle
+  std::vector<FaceIndex> cell_of_;  ///< per half-edge of the cell graph
   mutable std::vector<FaceIndex> cell_of_centre_;
   DisjointSets sets_{0};
   std::vector<Stop> stops_;

@@ -14,13 +14,13 @@ namespace unicursal::core {
 struct Cycle {
   Curve curve;                          ///< simple; along the border it follows the border's bends
   std::size_t nodes = 0;                ///< visited, doubled ones twice
-  std::size_t unreached_centres = 0;    ///< left out, because every side of their cell was spoken for
+  std::size_t unreached_centres = 0;    ///< cells whose sides were all spoken for, or that have no kernel
   std::size_t split_and_reconnect = 0;  ///< paper Table 1
   std::size_t doubled_edges = 0;        ///< paper Table 1
 };
 
-/// Nothing when the graph has no perfect matching or cycles cannot be joined; both happen only for graphs
-/// of a few cells, and callers fall back to a contour.
+/// Nothing when the graph has no perfect matching or a cycle hangs on bent edges of the border only, which are
+/// not doubled; both are rare, and other seeds help (callers try again, and take a contour in the end).
 std::optional<Cycle> first_cycle(const CellGraph& cells);
 
 }  // namespace unicursal::core

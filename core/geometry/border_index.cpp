@@ -71,7 +71,8 @@ BorderIndex::BorderIndex(const Polygon& polygon, double pitch) : pitch_(pitch) {
   for (std::size_t s = 1; s < start_.size(); ++s) start_[s] += start_[s - 1];
   entries_.resize(start_.back());
   std::vector<std::size_t> fill(start_.begin(), start_.end() - 1);
-  each_square([&](std::ptrdiff_t square, std::size_t e) { entries_[fill[static_cast<std::size_t>(square)]++] = e; });
+  each_square(
+      [&](std::ptrdiff_t square, std::size_t e) { entries_[fill[static_cast<std::size_t>(square)]++] = e; });
 
   inside_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
   for (std::ptrdiff_t row = 0; row < rows_; ++row) {
@@ -81,7 +82,8 @@ BorderIndex::BorderIndex(const Polygon& polygon, double pitch) : pitch_(pitch) {
     const std::ptrdiff_t below = std::max<std::ptrdiff_t>(row - 1, 0);
     std::vector<std::size_t> seen;
     for (std::ptrdiff_t r : {below, row}) {
-      const auto first = static_cast<std::size_t>(r * columns_), last = first + static_cast<std::size_t>(columns_);
+      const auto first = static_cast<std::size_t>(r * columns_),
+                 last = first + static_cast<std::size_t>(columns_);
       seen.insert(seen.end(), entries_.begin() + static_cast<std::ptrdiff_t>(start_[first]),
                   entries_.begin() + static_cast<std::ptrdiff_t>(start_[last]));
     }
@@ -119,7 +121,8 @@ BorderIndex::Range BorderIndex::range(const Box& box) const {
 bool BorderIndex::contains(const Vec2& point) const {
   const double right = origin_.x() + static_cast<double>(columns_) * pitch_;
   const double upper = origin_.y() + static_cast<double>(rows_) * pitch_;
-  if (!(point.x() > origin_.x() && point.y() > origin_.y() && point.x() < right && point.y() < upper)) return false;
+  if (!(point.x() > origin_.x() && point.y() > origin_.y() && point.x() < right && point.y() < upper))
+    return false;
   // From the square's known corner go up to the point's height, then right to the point.
   const std::ptrdiff_t row = row_of(point.y()), column = column_of(point.x());
   const auto square = static_cast<std::size_t>(row * columns_ + column);

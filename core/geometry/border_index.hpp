@@ -1,5 +1,5 @@
-// The border of a polygon in a uniform grid: fast answers to "inside?", "how far?" and "which edges are near?".
-// Lengths in mm. Memory grows with the border's length and the polygon's box, not with the queries.
+// The border of a polygon in a uniform grid: fast answers to "inside?", "how far?" and "which edges are
+// near?". Lengths in mm. Memory grows with the border's length and the polygon's box, not with the queries.
 #pragma once
 
 #include <cstddef>

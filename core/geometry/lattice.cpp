@@ -13,10 +13,14 @@ enum class Side { left, right, below, above };
 
 bool keeps(Side side, const Vec2& p, double at) {
   switch (side) {
-    case Side::left: return p.x() <= at;
-    case Side::right: return p.x() >= at;
-    case Side::below: return p.y() <= at;
-    case Side::above: return p.y() >= at;
+    case Side::left:
+      return p.x() <= at;
+    case Side::right:
+      return p.x() >= at;
+    case Side::below:
+      return p.y() <= at;
+    case Side::above:
+      return p.y() >= at;
   }
   return false;
 }
@@ -68,8 +72,10 @@ class Sampler {
   /// Fills the squares [c0, c1) × [r0, r1) from rings that are already clipped to them.
   void fill(const std::vector<Ring>& rings, std::size_t c0, std::size_t c1, std::size_t r0, std::size_t r1) {
     if (rings.empty() || c0 == c1 || r0 == r1) return;
-    const Vec2 low = lattice_.origin + lattice_.pitch * Vec2(static_cast<double>(c0), static_cast<double>(r0));
-    const Vec2 high = lattice_.origin + lattice_.pitch * Vec2(static_cast<double>(c1), static_cast<double>(r1));
+    const Vec2 low =
+        lattice_.origin + lattice_.pitch * Vec2(static_cast<double>(c0), static_cast<double>(r0));
+    const Vec2 high =
+        lattice_.origin + lattice_.pitch * Vec2(static_cast<double>(c1), static_cast<double>(r1));
     const double whole = (high - low).prod();
     const Moments m = moments(rings, low);
     if (m.area > whole * (1 - 1e-12)) {
@@ -108,7 +114,9 @@ class Sampler {
 
 }  // namespace
 
-double Lattice::total_weight() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
+double Lattice::total_weight() const {
+  return std::accumulate(weight.begin(), weight.end(), 0.0);
+}
 
 Lattice sample(const Polygon& polygon, double pitch) {
   const Box box = bounds(polygon);

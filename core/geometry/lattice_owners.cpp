@@ -79,8 +79,8 @@ void LatticeOwners::splat(const Segment& segment, std::int32_t index, double rea
   const double wide = reach + 0.71 * pitch;
   const auto row_at = [&](double y) { return static_cast<std::ptrdiff_t>(std::floor(y / pitch)); };
   const std::ptrdiff_t first = std::max<std::ptrdiff_t>(row_at(std::min(a.y(), b.y()) - wide), 0);
-  const std::ptrdiff_t last =
-      std::min<std::ptrdiff_t>(row_at(std::max(a.y(), b.y()) + wide), static_cast<std::ptrdiff_t>(lattice_.rows) - 1);
+  const std::ptrdiff_t last = std::min<std::ptrdiff_t>(row_at(std::max(a.y(), b.y()) + wide),
+                                                       static_cast<std::ptrdiff_t>(lattice_.rows) - 1);
   const Vec2 u = b - a;
   const double length2 = u.squaredNorm();
   const Scan scan{static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(u.x()),
@@ -88,7 +88,8 @@ void LatticeOwners::splat(const Segment& segment, std::int32_t index, double rea
   for (std::ptrdiff_t row = first; row <= last; ++row) {
     const Span span = span_of_row(a, b, wide, (static_cast<double>(row) + 0.5) * pitch);
     const double low = std::max(std::ceil(span.low / pitch - 0.5), 0.0);
-    const double high = std::min(std::floor(span.high / pitch - 0.5), static_cast<double>(lattice_.columns) - 1);
+    const double high =
+        std::min(std::floor(span.high / pitch - 0.5), static_cast<double>(lattice_.columns) - 1);
     if (!(low <= high)) continue;
     const std::size_t from = static_cast<std::size_t>(row) * lattice_.columns + static_cast<std::size_t>(low);
     const auto count = static_cast<std::size_t>(high - low) + 1;
@@ -117,7 +118,8 @@ void LatticeOwners::propagate(const std::vector<Segment>& segments) {
       double best = std::numeric_limits<double>::infinity();
       std::int32_t owner = -1;
       for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, lattice_.rows - 1); ++r) {
-        for (std::size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, lattice_.columns - 1); ++c) {
+        for (std::size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, lattice_.columns - 1);
+             ++c) {
           const std::int32_t other = owner_[r * lattice_.columns + c];
           if (other < 0) continue;
           const Segment& s = segments[static_cast<std::size_t>(other)];

@@ -67,7 +67,9 @@ Box bounds(const Ring& ring) {
   return box;
 }
 
-Box bounds(const Polygon& polygon) { return bounds(polygon.outer); }
+Box bounds(const Polygon& polygon) {
+  return bounds(polygon.outer);
+}
 
 Box bounds(const std::vector<Polygon>& polygons) {
   assert(!polygons.empty());

@@ -10,10 +10,14 @@ namespace unicursal::core {
 using Vec2 = Eigen::Vector2d;
 
 /// The z component of the cross product; positive when b lies counter-clockwise of a.
-inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// A quarter turn counter-clockwise.
-inline Vec2 perpendicular(const Vec2& v) { return {-v.y(), v.x()}; }
+inline Vec2 perpendicular(const Vec2& v) {
+  return {-v.y(), v.x()};
+}
 
 /// A closed polygonal line; the last vertex is joined to the first and not repeated.
 using Ring = std::vector<Vec2>;

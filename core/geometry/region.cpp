@@ -79,9 +79,15 @@ Region enclosed(const std::vector<Ring>& rings, FillRule rule) {
   return to_region(tree);
 }
 
-Region unite(const Region& a, const Region& b) { return combine(a, b, ClipperLib::ctUnion); }
-Region intersect(const Region& a, const Region& b) { return combine(a, b, ClipperLib::ctIntersection); }
-Region subtract(const Region& a, const Region& b) { return combine(a, b, ClipperLib::ctDifference); }
+Region unite(const Region& a, const Region& b) {
+  return combine(a, b, ClipperLib::ctUnion);
+}
+Region intersect(const Region& a, const Region& b) {
+  return combine(a, b, ClipperLib::ctIntersection);
+}
+Region subtract(const Region& a, const Region& b) {
+  return combine(a, b, ClipperLib::ctDifference);
+}
 
 Region offset(const Region& region, double distance, double tolerance) {
   ClipperLib::ClipperOffset shifter(2.0, tolerance * grid);

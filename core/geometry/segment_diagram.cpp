@@ -1,5 +1,6 @@
 #include "core/geometry/segment_diagram.hpp"
 
+#include <CGAL/Random.h>
 #include <CGAL/Segment_Delaunay_graph_2.h>
 #include <CGAL/Segment_Delaunay_graph_filtered_traits_2.h>
 #include <CGAL/Simple_cartesian.h>
@@ -9,8 +10,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <functional>
+#include <limits>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 
 #include "core/geometry/border_index.hpp"
@@ -23,15 +25,36 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Traits = CGAL::Segment_Delaunay_graph_filtered_traits_without_intersections_2<Kernel>;
 using Graph = CGAL::Segment_Delaunay_graph_2<Traits>;
 
-constexpr int most_polishing_steps = 6;
-constexpr double least_turn = 1e-12;  ///< sine between two borders below which their meeting point is left as it is
+constexpr int most_polishing_steps = 8;
+constexpr int most_restarts = 6;
+constexpr double most_polishing_move =
+    1e-3;  ///< of a vertex's distance from its sites; beyond it, look twice
+constexpr double vertex_tolerance =
+    1e-8;  ///< mm, by which the distances of a vertex's three sites may differ
+constexpr double least_turn =
+    1e-12;  ///< sine between two borders below which their meeting point is left as it is
 constexpr double far_away = 20;  ///< island diagonals to the sites that close the diagram
 
 /// A vertex of the curve, or the open segment that leaves it.
 struct Site {
-  bool segment = false;
   std::size_t index = 0;
+  bool segment = false;
+  friend auto operator<=>(const Site&, const Site&) = default;
 };
+
+/// The border between two cells; the left site's cell lies to its left.
+struct Boundary {
+  Site left, right;
+  Vec2 from{0, 0}, to{0, 0};
+  friend bool operator<(const Boundary& a, const Boundary& b) {
+    return std::make_tuple(a.left, a.right, a.from.x(), a.from.y(), a.to.x()) <
+           std::make_tuple(b.left, b.right, b.from.x(), b.from.y(), b.to.x());
+  }
+};
+
+Boundary ordered(const Boundary& b) {
+  return b.left < b.right ? b : Boundary{b.right, b.left, b.to, b.from};
+}
 
 /// A stretch of a cell's border: a straight line, or a parabola over a directrix.
 struct Arc {
@@ -113,17 +136,15 @@ class Judge {
   }
 
   SegmentDiagram run() {
+    // CGAL shuffles what it inserts; the order must not depend on what was done before.
+    CGAL::get_default_random() = CGAL::Random(0);
     Graph graph;
     insert(graph);
     std::unordered_map<const void*, Vec2> centre;
     for (auto face = graph.finite_faces_begin(); face != graph.finite_faces_end(); ++face) {
-      const auto p = graph.primal(Graph::Face_handle(face));
-      std::array<std::optional<Site>, 3> sites;
-      for (int i = 0; i < 3; ++i) sites[static_cast<std::size_t>(i)] = site_of(face->vertex(i)->site());
-      Vec2 vertex(p.x(), p.y());
-      if (sites[0] && sites[1] && sites[2]) vertex = polished(vertex, *sites[0], *sites[1], *sites[2]);
-      centre.emplace(&*face, vertex);
+      centre.emplace(&*face, vertex_of(graph, face));
     }
+    std::vector<Boundary> boundaries;
     for (auto edge = graph.finite_edges_begin(); edge != graph.finite_edges_end(); ++edge) {
       const auto face = edge->first;
       const auto other = face->neighbor(edge->second);
@@ -131,14 +152,20 @@ class Judge {
       const auto left = site_of(face->vertex(Graph::ccw(edge->second))->site());
       const auto right = site_of(face->vertex(Graph::cw(edge->second))->site());
       // A far site's borders lie outside the island.
-      if (left && right) add_arc(*left, *right, centre.at(&*other), centre.at(&*face));
+      if (left && right)
+        boundaries.push_back(ordered({*left, *right, centre.at(&*other), centre.at(&*face)}));
     }
+    // CGAL's order depends on addresses; sums must not.
+    std::sort(boundaries.begin(), boundaries.end());
+    for (const Boundary& boundary : boundaries) add_arc(boundary);
     add_border();
     return std::move(result_);
   }
 
  private:
-  static double pitch(const Ring& curve) { return 1.5 * perimeter(curve) / static_cast<double>(curve.size()); }
+  static double pitch(const Ring& curve) {
+    return 1.5 * perimeter(curve) / static_cast<double>(curve.size());
+  }
 
   static std::vector<Segment> segments_of(const Ring& curve) {
     std::vector<Segment> segments(curve.size());
@@ -175,11 +202,11 @@ class Judge {
     if (site.is_point()) {
       const auto v = vertex_of(site.point());
       if (!v) return std::nullopt;
-      return Site{false, *v};
+      return Site{*v, false};
     }
     const auto a = vertex_of(site.source()), b = vertex_of(site.target());
     if (!a || !b) return std::nullopt;
-    return Site{true, (*a + 1) % curve_.size() == *b ? *a : *b};
+    return Site{(*a + 1) % curve_.size() == *b ? *a : *b, true};
   }
 
   CellIntegrals& cell(const Site& site) {
@@ -190,7 +217,7 @@ class Judge {
   void integrate(const Site& site, const Arc& arc, double s0, double s1, double sign) {
     CellIntegrals sum;
     const Vec2 origin = curve_[site.index];
-    const Vec2 u = site.segment ? Vec2((segments_[site.index].b - origin).normalized()) : Vec2(0, 0);
+    const Vec2 u = site.segment ? direction(site.index) : Vec2(0, 0);
     for (std::size_t g = 0; g < gauss_point.size(); ++g) {
       const double s = s0 + (s1 - s0) * gauss_point[g], weight = gauss_weight[g] * (s1 - s0);
       const Vec2 p = arc.at(s) - origin, dp = arc.derivative(s);
@@ -224,9 +251,13 @@ class Judge {
       const double d = off.norm();
       return {d, d > 0 ? Vec2(off / d) : Vec2(0, 0)};
     }
-    const Vec2 n = perpendicular(segments_[site.index].b - segments_[site.index].a).normalized();
+    const Vec2 n = perpendicular(direction(site.index));
     const double h = off.dot(n);
     return h >= 0 ? Residual{h, n} : Residual{-h, -n};
+  }
+
+  Vec2 direction(std::size_t segment) const {
+    return (segments_[segment].b - segments_[segment].a).normalized();
   }
 
   Residual difference(const Site& l, const Site& r, const Vec2& p) const {
@@ -234,31 +265,113 @@ class Judge {
       const Site &point = l.segment ? r : l, &segment = l.segment ? l : r;
       if (ends_in(segment.index, point.index)) {
         // The border to one's own segment is the line at right angles through the common vertex.
-        const Vec2 u = (segments_[segment.index].b - segments_[segment.index].a).normalized();
+        const Vec2 u = direction(segment.index);
         return {(p - curve_[point.index]).dot(u), u};
+      }
+    }
+    if (l.segment && r.segment) {
+      const bool forth = (l.index + 1) % curve_.size() == r.index,
+                 back = (r.index + 1) % curve_.size() == l.index;
+      const Vec2 t = direction(l.index) + direction(r.index);
+      if ((forth || back) && t.squaredNorm() > 1) {
+        // Neighbours: their bisector is at right angles to the mean direction, however little they turn.
+        const Vec2 unit = t.normalized();
+        return {(p - curve_[forth ? r.index : l.index]).dot(unit), unit};
       }
     }
     const Residual a = distance_of(l, p), b = distance_of(r, p);
     return {a.value - b.value, a.gradient - b.gradient};
   }
 
-  /// CGAL's vertices are rounded, badly so where three sites nearly line up; what lies between two versions of
-  /// a border would be counted twice or not at all. Newton's method restores what double precision can give.
-  Vec2 polished(Vec2 p, const Site& a, const Site& b, const Site& c) const {
-    double error = std::numeric_limits<double>::infinity();
-    Vec2 best = p;
+  struct Vertex {
+    Vec2 position{0, 0};
+    double error = 0;  ///< mm, by how much the three distances differ
+  };
+
+  /// CGAL's vertices are rounded, badly so where three sites nearly line up; what lies between two versions
+  /// of a border would be counted twice or not at all. Newton's method restores what double precision can
+  /// give.
+  Vertex polished(Vec2 p, const Site& a, const Site& b, const Site& c) const {
+    Vertex best{p, std::numeric_limits<double>::infinity()};
     for (int step = 0; step < most_polishing_steps; ++step) {
       const Residual r = difference(a, b, p), s = difference(a, c, p);
-      const double now = std::max(std::abs(r.value), std::abs(s.value));
-      if (!(now < error)) break;
-      error = now;
-      best = p;
+      const double error = std::max(std::abs(r.value), std::abs(s.value));
+      if (!(error < best.error)) break;
+      best = {p, error};
       const double determinant = cross(r.gradient, s.gradient);
       if (std::abs(determinant) < least_turn) break;
       p -= Vec2(r.value * s.gradient.y() - s.value * r.gradient.y(),
-                s.value * r.gradient.x() - r.value * s.gradient.x()) / determinant;
+                s.value * r.gradient.x() - r.value * s.gradient.x()) /
+           determinant;
     }
     return best;
+  }
+
+  Vec2 nearest_point(const Site& site, const Vec2& p) const {
+    if (!site.segment) return curve_[site.index];
+    const Segment& s = segments_[site.index];
+    return s.a + std::clamp((p - s.a).dot(s.b - s.a) / (s.b - s.a).squaredNorm(), 0.0, 1.0) * (s.b - s.a);
+  }
+
+  /// Nothing else is nearer than the three sites.
+  bool is_vertex(const Vertex& v, const Site& site) const {
+    if (!(v.error < vertex_tolerance) || !v.position.allFinite()) return false;
+    const double own = (nearest_point(site, v.position) - v.position).norm();
+    const Site other = nearest(v.position);
+    return (nearest_point(other, v.position) - v.position).norm() > own - vertex_tolerance;
+  }
+
+  /// The Voronoi vertex of a face, computed from its sites in one order whatever CGAL's is.
+  Vec2 vertex_of(const Graph& graph, Graph::Finite_faces_iterator face) const {
+    std::array<std::optional<Site>, 3> sites;
+    for (int i = 0; i < 3; ++i) sites[static_cast<std::size_t>(i)] = site_of(face->vertex(i)->site());
+    const auto first = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
+    const auto at = [&](int i) { return face->vertex((first + i) % 3)->site(); };
+    const auto p = graph.geom_traits().construct_svd_vertex_2_object()(at(0), at(1), at(2));
+    const Vec2 rounded(p.x(), p.y());
+    if (!sites[0] || !sites[1] || !sites[2]) return rounded;
+    const auto site = [&](int i) { return *sites[static_cast<std::size_t>((first + i) % 3)]; };
+    return improved(rounded, site(0), site(1), site(2));
+  }
+
+  /// Two points and a parallel segment make CGAL's formula divide by almost nothing, and neighbours that
+  /// hardly turn may send Newton's method to the wrong root. Then start again from the circle through the
+  /// sites' nearest points.
+  Vec2 improved(const Vec2& rounded, const Site& a, const Site& b, const Site& c) const {
+    const Vertex usual = polished(rounded, a, b, c);
+    const double moved = (usual.position - rounded).norm();
+    const double near = most_polishing_move * (nearest_point(a, rounded) - rounded).norm();
+    if (usual.error < vertex_tolerance && (moved <= near || is_vertex(usual, a))) return usual.position;
+    Vec2 p = (middle(a) + middle(b) + middle(c)) / 3;
+    for (int round = 0; round < most_restarts; ++round) {
+      p = start_near(p, a, b, c);
+      if (!p.allFinite()) break;
+      const Vertex again = polished(p, a, b, c);
+      if (is_vertex(again, a)) return again.position;
+    }
+    return rounded;
+  }
+
+  /// A guess at the vertex: the centre of a circle that touches the sites where they are nearest to `p`.
+  Vec2 start_near(const Vec2& p, const Site& a, const Site& b, const Site& c) const {
+    for (const auto& [l, r, third] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
+      if (!l.segment || !r.segment) continue;
+      const bool forth = (l.index + 1) % curve_.size() == r.index,
+                 back = (r.index + 1) % curve_.size() == l.index;
+      if (!forth && !back) continue;
+      // Neighbours touch the circle in their common vertex.
+      const Vec2 v = curve_[forth ? r.index : l.index];
+      const Vec2 m = perpendicular(direction(l.index) + direction(r.index)).normalized();
+      const Vec2 off = v - nearest_point(third, p);
+      return v - off.squaredNorm() / (2 * m.dot(off)) * m;
+    }
+    const Vec2 q = nearest_point(a, p), u = nearest_point(b, p) - q, v = nearest_point(c, p) - q;
+    const double u2 = u.squaredNorm(), v2 = v.squaredNorm();
+    return q + Vec2(v.y() * u2 - u.y() * v2, u.x() * v2 - v.x() * u2) / (2 * cross(u, v));
+  }
+
+  Vec2 middle(const Site& site) const {
+    return site.segment ? Vec2((segments_[site.index].a + segments_[site.index].b) / 2) : curve_[site.index];
   }
 
   Arc arc_between(const Site& l, const Site& r, const Vec2& from, const Vec2& to) const {
@@ -275,8 +388,9 @@ class Judge {
     return arc;
   }
 
-  /// A border between two cells, clipped by the island; `left`'s cell lies to its left.
-  void add_arc(const Site& left, const Site& right, const Vec2& from, const Vec2& to) {
+  /// Both cells' share of the border between them, clipped by the island.
+  void add_arc(const Boundary& boundary) {
+    const auto& [left, right, from, to] = boundary;
     if (from == to) return;
     const Arc arc = arc_between(left, right, from, to);
     std::vector<double> cuts{0, 1};
@@ -322,9 +436,9 @@ class Judge {
     }
     const Segment& s = segments_[index];
     const double t = (p - s.a).dot(s.b - s.a) / (s.b - s.a).squaredNorm();
-    if (t <= 0) return {false, index};
-    if (t >= 1) return {false, (index + 1) % curve_.size()};
-    return {true, index};
+    if (t <= 0) return {index, false};
+    if (t >= 1) return {(index + 1) % curve_.size(), false};
+    return {index, true};
   }
 
   void add_border() {
@@ -354,6 +468,8 @@ class Judge {
 
 }  // namespace
 
-SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island) { return Judge(curve, island).run(); }
+SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island) {
+  return Judge(curve, island).run();
+}
 
 }  // namespace unicursal::core

@@ -21,7 +21,8 @@ class SegmentGrid {
     const std::ptrdiff_t c0 = column(box.min.x()), c1 = column(box.max.x());
     for (std::ptrdiff_t r = row(box.min.y()), r1 = row(box.max.y()); r <= r1; ++r) {
       // The squares of a row follow one another, and so do their entries.
-      const auto first = static_cast<std::size_t>(r * columns_ + c0), last = static_cast<std::size_t>(r * columns_ + c1);
+      const auto first = static_cast<std::size_t>(r * columns_ + c0),
+                 last = static_cast<std::size_t>(r * columns_ + c1);
       for (std::size_t k = start_[first]; k < start_[last + 1]; ++k) visit(entries_[k]);
     }
   }
@@ -30,7 +31,8 @@ class SegmentGrid {
   std::ptrdiff_t column(double x) const { return bucket(x - origin_.x(), columns_); }
   std::ptrdiff_t row(double y) const { return bucket(y - origin_.y(), rows_); }
   std::ptrdiff_t bucket(double offset, std::ptrdiff_t count) const {
-    return static_cast<std::ptrdiff_t>(std::clamp(std::floor(offset / pitch_), 0.0, static_cast<double>(count - 1)));
+    return static_cast<std::ptrdiff_t>(
+        std::clamp(std::floor(offset / pitch_), 0.0, static_cast<double>(count - 1)));
   }
 
   Vec2 origin_{0, 0};

@@ -13,7 +13,7 @@ namespace unicursal::core {
 namespace {
 
 constexpr int tries = 6;
-constexpr double shake = 1e-3;          ///< of d, how far seeds move before another try
+constexpr double shake = 1e-3;           ///< of d, how far seeds move before another try
 constexpr double area_tolerance = 1e-6;  ///< relative, cells against domain
 
 /// Where a Voronoi edge passes through the border.
@@ -50,7 +50,8 @@ class Clipper {
   void place_inner_nodes() {
     node_of_.assign(diagram_.vertices.size(), -1);
     for (std::size_t v = 0; v < diagram_.vertices.size(); ++v) {
-      if (border_.contains(diagram_.vertices[v].position)) node_of_[v] = add_node(diagram_.vertices[v].position);
+      if (border_.contains(diagram_.vertices[v].position))
+        node_of_[v] = add_node(diagram_.vertices[v].position);
     }
     half_of_.assign(diagram_.edges.size(), {-1, -1});
   }
@@ -70,7 +71,8 @@ class Clipper {
     return h;
   }
 
-  /// Signs are exact and zero counts as positive, so that a line through a border vertex is on one side of it.
+  /// Signs are exact and zero counts as positive, so that a line through a border vertex is on one side of
+  /// it.
   std::vector<Crossing> crossings(const Vec2& p, const Vec2& q) const {
     std::vector<std::size_t> near;
     border_.near({p.cwiseMin(q), p.cwiseMax(q)}, [&](std::size_t e) { near.push_back(e); });
@@ -83,7 +85,8 @@ class Clipper {
       if (p_left == q_left) continue;
       if ((orientation(p, q, a) >= 0) == (orientation(p, q, b) >= 0)) continue;
       const double slope = cross(q - p, b - a);
-      found.push_back({e, cross(a - p, b - a) / slope, std::clamp(cross(a - p, q - p) / slope, 0.0, 1.0), p_left, -1});
+      found.push_back(
+          {e, cross(a - p, b - a) / slope, std::clamp(cross(a - p, q - p) / slope, 0.0, 1.0), p_left, -1});
     }
     std::sort(found.begin(), found.end(),
               [](const Crossing& l, const Crossing& r) { return l.along_voronoi < r.along_voronoi; });
@@ -104,8 +107,10 @@ class Clipper {
       crossings_.push_back(crossing);
       if (inside) {
         const HalfEdgeIndex h = add_edge(open, crossing.node, {});
-        if (first) half_of_[number][0] = h;
-        else spokes_[static_cast<std::size_t>(open)][1] = h;
+        if (first)
+          half_of_[number][0] = h;
+        else
+          spokes_[static_cast<std::size_t>(open)][1] = h;
         spokes_[static_cast<std::size_t>(crossing.node)][1] = PlanarGraph::twin(h);
       } else {
         open = crossing.node;
@@ -117,8 +122,10 @@ class Clipper {
     if (inside != (end >= 0)) return false;
     if (inside) {
       const HalfEdgeIndex h = add_edge(open, end, {});
-      if (first) half_of_[number][0] = h;
-      else spokes_[static_cast<std::size_t>(open)][1] = h;
+      if (first)
+        half_of_[number][0] = h;
+      else
+        spokes_[static_cast<std::size_t>(open)][1] = h;
       half_of_[number][1] = PlanarGraph::twin(h);
     }
     return true;
@@ -148,7 +155,8 @@ class Clipper {
     bool all_touched = true;
     for (std::size_t ring = 0; ring < border_.ring_count(); ++ring) {
       const std::size_t last_edge = border_.first_edge(ring) + border_.ring_size(ring);
-      const auto end = std::find_if(begin, crossings_.end(), [&](const Crossing& c) { return c.border_edge >= last_edge; });
+      const auto end = std::find_if(begin, crossings_.end(),
+                                    [&](const Crossing& c) { return c.border_edge >= last_edge; });
       if (begin == end) {
         all_touched = false;
         if (ring > 0) untouched_holes.push_back(ring - 1);
@@ -216,11 +224,11 @@ class Clipper {
   const Polygon& domain_;
   BorderIndex border_;
   CellGraph graph_;
-  std::vector<NodeIndex> node_of_;                         ///< per Voronoi vertex
-  std::vector<std::array<HalfEdgeIndex, 2>> half_of_;      ///< per Voronoi edge, leaving its two ends
-  std::vector<std::array<HalfEdgeIndex, 3>> spokes_;       ///< per node, leaving it counter-clockwise
+  std::vector<NodeIndex> node_of_;                     ///< per Voronoi vertex
+  std::vector<std::array<HalfEdgeIndex, 2>> half_of_;  ///< per Voronoi edge, leaving its two ends
+  std::vector<std::array<HalfEdgeIndex, 3>> spokes_;   ///< per node, leaving it counter-clockwise
   std::vector<Crossing> crossings_;
-  std::vector<HalfEdgeIndex> border_half_edges_;           ///< those with the outside to their left
+  std::vector<HalfEdgeIndex> border_half_edges_;  ///< those with the outside to their left
 };
 
 /// A second seed opposite the first one about the hole, so that the border between the two cells meets it.

@@ -11,8 +11,8 @@ namespace unicursal::core {
 
 /// Nodes and edges of the cell graph keep their numbers; centres and their edges follow.
 struct RefinedGraph : PlanarGraph {
-  std::size_t cell_nodes = 0;  ///< nodes below this number are the cell graph's
-  std::size_t cell_edges = 0;  ///< edges below this number are the cell graph's
+  std::size_t cell_nodes = 0;     ///< nodes below this number are the cell graph's
+  std::size_t cell_edges = 0;     ///< edges below this number are the cell graph's
   std::vector<NodeIndex> centre;  ///< per cell of the cell graph, −1 for a cell without
 
   bool is_centre(NodeIndex n) const { return static_cast<std::size_t>(n) >= cell_nodes; }

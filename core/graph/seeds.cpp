@@ -11,7 +11,7 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double samples_per_distance = 5;    ///< lattice squares per d
+constexpr double samples_per_distance = 5;      ///< lattice squares per d
 constexpr double farthest_without_seed = 0.75;  ///< of d
 constexpr int relaxation_steps = 12;
 
@@ -42,7 +42,9 @@ std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
   return points;
 }
 
-Vec2 position(const Lattice& lattice, std::size_t k) { return lattice.origin + Vec2(lattice.x[k], lattice.y[k]); }
+Vec2 position(const Lattice& lattice, std::size_t k) {
+  return lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
+}
 
 /// Seeds for what is too far from all others, by visiting the far samples in order of distance.
 void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, double d) {

@@ -2,6 +2,7 @@
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Random.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 
 #include <cmath>
@@ -27,8 +28,11 @@ Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
   const double radius = far_away * (box.size().norm() + 1);
   for (int k = 0; k < far_sites; ++k) {
     const double turn = 2 * std::numbers::pi * (k + 0.3) / far_sites;
-    points.emplace_back(box.center().x() + radius * std::cos(turn), box.center().y() + radius * std::sin(turn));
+    points.emplace_back(box.center().x() + radius * std::cos(turn),
+                        box.center().y() + radius * std::sin(turn));
   }
+  // CGAL shuffles what it inserts; the order must not depend on what was done before.
+  CGAL::get_default_random() = CGAL::Random(0);
   const Delaunay triangulation(points.begin(), points.end());
 
   Voronoi result;

@@ -99,7 +99,7 @@ void give(const Polygon& piece, std::vector<ZoneRegion>& zones) {
 }
 
 /// Lets each zone grow by the weld's width into what nobody claims, so that all of them cover the outline.
-std::vector<ZoneRegion> covering(const Polygon& outline, const std::vector<ZoneRegion>& claims) {
+std::vector<ZoneRegion> grown_together(const Polygon& outline, const std::vector<ZoneRegion>& claims) {
   std::vector<ZoneRegion> result;
   Region free{outline};
   for (std::size_t i = 0; i < claims.size(); ++i) {
@@ -112,6 +112,48 @@ std::vector<ZoneRegion> covering(const Polygon& outline, const std::vector<ZoneR
     if (area(piece) > dust_area) give(piece, result);
   }
   return result;
+}
+
+using Reflection = Eigen::Matrix2d;
+
+Ring reflected(const Ring& ring, const Reflection& map) {
+  Ring result;
+  for (auto p = ring.rbegin(); p != ring.rend(); ++p) result.push_back(map * *p);
+  return result;
+}
+
+Polygon reflected(const Polygon& polygon, const Reflection& map) {
+  Polygon result{reflected(polygon.outer, map), {}};
+  for (const Ring& hole : polygon.holes) result.holes.push_back(reflected(hole, map));
+  return result;
+}
+
+std::vector<ZoneRegion> reflected(std::vector<ZoneRegion> zones, const Reflection& map) {
+  for (ZoneRegion& zone : zones) {
+    for (Polygon& polygon : zone.polygons) polygon = reflected(polygon, map);
+  }
+  return zones;
+}
+
+double mismatch(const Polygon& outline, const std::vector<ZoneRegion>& zones) {
+  double sum = -area(outline);
+  for (const ZoneRegion& zone : zones) sum += area(zone.polygons);
+  return std::abs(sum);
+}
+
+/// Clipper's sweep now and then puts a hole that touches another ring into the wrong one (about one time in a
+/// hundred piles of near copies). The areas tell, and a sweep along another axis does not err at the same
+/// place; reflections along axes and diagonals lose no digit.
+std::vector<ZoneRegion> covering(const Polygon& outline, const std::vector<ZoneRegion>& claims) {
+  constexpr double tolerance = 1e-7;  // of the outline's area
+  std::vector<ZoneRegion> best = grown_together(outline, claims);
+  const Reflection swap{{0, 1}, {1, 0}}, flip{{1, 0}, {0, -1}}, both{{0, -1}, {-1, 0}};
+  for (const Reflection& map : {swap, flip, both}) {
+    if (mismatch(outline, best) <= tolerance * area(outline)) break;
+    auto other = reflected(grown_together(reflected(outline, map), reflected(claims, map)), map);
+    if (mismatch(outline, other) < mismatch(outline, best)) best = std::move(other);
+  }
+  return best;
 }
 
 std::optional<Island> island(Polygon outline, const Claims& claims) {

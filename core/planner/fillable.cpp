@@ -6,12 +6,12 @@ namespace unicursal::core {
 namespace {
 
 // In bead widths, or their squares.
-constexpr double arc_tolerance = 0.005;   ///< of rounded offsets
-constexpr double inner_margin = 0.06;     ///< between a region's border and its domain
-constexpr double corner_area = 0.25;      ///< a thin piece of no more than this is a corner, not a spike
-constexpr double thin_piece = 1.5;        ///< what is narrower than two beads counts as thin above this area
-constexpr double thin_share = 0.04;       ///< of the region's area: above it the region is thin
-constexpr double least_domain = 1e-3;     ///< a smaller domain is rounding dust
+constexpr double arc_tolerance = 0.005;  ///< of rounded offsets
+constexpr double inner_margin = 0.06;    ///< between a region's border and its domain
+constexpr double corner_area = 0.25;     ///< a thin piece of no more than this is a corner, not a spike
+constexpr double thin_piece = 1.5;       ///< what is narrower than two beads counts as thin above this area
+constexpr double thin_share = 0.04;      ///< of the region's area: above it the region is thin
+constexpr double least_domain = 1e-3;    ///< a smaller domain is rounding dust
 
 Region without_thin_pieces(const Polygon& island, const Region& thin, double least_area) {
   Region cut;
@@ -23,7 +23,8 @@ Region without_thin_pieces(const Polygon& island, const Region& thin, double lea
 }
 
 Region domains_of(const Region& region, double half_width, double w) {
-  Region domains = offset(offset(region, -half_width, arc_tolerance * w), half_width - inner_margin * w, arc_tolerance * w);
+  Region domains = offset(offset(region, -half_width, arc_tolerance * w), half_width - inner_margin * w,
+                          arc_tolerance * w);
   std::erase_if(domains, [&](const Polygon& domain) { return area(domain) < least_domain * w * w; });
   return domains;
 }

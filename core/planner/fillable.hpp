@@ -9,8 +9,8 @@ namespace unicursal::core {
 
 /// One closed curve's share of an island.
 struct FillableRegion {
-  Polygon region;  ///< what the curve fills: the island, or a piece of it between places too thin to pass
-  Polygon domain;  ///< strictly inside `region`, without spikes: the cell graph is built here (paper's P)
+  Polygon region;     ///< what the curve fills: the island, or a piece of it between places too thin to pass
+  Polygon domain;     ///< strictly inside `region`, without spikes: the cell graph is built here (paper's P)
   bool thin = false;  ///< much of it is narrower than two beads: there and back already fills it
 };
 

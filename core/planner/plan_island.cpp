@@ -24,11 +24,11 @@ namespace {
 
 /// d ÷ bead width, measured on squares: less gives no better coverage and more cells (tests/bench/spacing).
 constexpr double seed_distance_in_widths = 1.5;
-constexpr double fewest_cells = 2.5;             ///< an island of less gets a contour
-constexpr int tries = 3;                         ///< with other seeds, before a contour is taken instead
+constexpr double fewest_cells = 2.5;  ///< an island of less gets a contour
+constexpr int tries = 8;              ///< with other seeds, before a contour is taken instead
 constexpr double least_half_width = 0.15, most_half_width = 0.3;  ///< bead widths, half of what can be passed
-constexpr double far = 1.2;                      ///< bead widths; farther than that is a hole in the layer
-constexpr double far_samples = 8;                ///< lattice squares per bead width when looking for such
+constexpr double far = 1.2;        ///< bead widths; farther than that is a hole in the layer
+constexpr double far_samples = 8;  ///< lattice squares per bead width when looking for such
 
 /// A closed curve on its way through the stages.
 struct Draft {
@@ -46,7 +46,8 @@ bool sound(const Curve& curve, const Polygon& region, double bead_width) {
          segments_outside(curve, BorderIndex(region, bead_width)) == 0;
 }
 
-std::optional<Draft> cycle_draft(const FillableRegion& part, double d, double w, Random& random, IslandPlan& plan) {
+std::optional<Draft> cycle_draft(const FillableRegion& part, double d, double w, Random& random,
+                                 IslandPlan& plan) {
   for (int attempt = 0; attempt < tries; ++attempt) {
     std::optional<CellGraph> graph;
     {
@@ -95,7 +96,8 @@ std::vector<double> segment_areas(const SegmentDiagram& diagram, const Curve& cu
   return areas;
 }
 
-CurveObjectives objectives(const SegmentDiagram& diagram, const Curve& curve, double region_area, double target) {
+CurveObjectives objectives(const SegmentDiagram& diagram, const Curve& curve, double region_area,
+                           double target) {
   CurveObjectives result;
   for (const auto* cells : {&diagram.points, &diagram.segments}) {
     for (const CellIntegrals& cell : *cells) result.coverage += cell.second_moment;
@@ -108,9 +110,11 @@ CurveObjectives objectives(const SegmentDiagram& diagram, const Curve& curve, do
 }
 
 /// How far the part of the region that a disc of one bead width can reach is from the curve.
-void look_for_holes(const Curve& curve, const Polygon& region, double w, PlannedCurve& planned, double& far_area) {
+void look_for_holes(const Curve& curve, const Polygon& region, double w, PlannedCurve& planned,
+                    double& far_area) {
   std::vector<Segment> segments(curve.size());
-  for (std::size_t i = 0; i < curve.size(); ++i) segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
   for (const Polygon& piece : opened({region}, w / 2, 0.005 * w)) {
     const double extent = bounds(piece).size().maxCoeff();
     const Lattice lattice = sample(piece, std::max(w / far_samples, extent / 30000));
@@ -125,8 +129,8 @@ void look_for_holes(const Curve& curve, const Polygon& region, double w, Planned
   }
 }
 
-PlannedCurve finish(const Draft& draft, const FillableRegion& part, const Island& island, const std::vector<Zone>& zones,
-                    double w, IslandPlan& plan) {
+PlannedCurve finish(const Draft& draft, const FillableRegion& part, const Island& island,
+                    const std::vector<Zone>& zones, double w, IslandPlan& plan) {
   const Stopwatch watch(plan.widths);
   const SegmentDiagram diagram = segment_diagram(draft.curve.vertices, part.region);
   PlannedCurve planned;

@@ -13,10 +13,10 @@
 namespace unicursal::core {
 
 struct PlanOptions {
-  double bead_width = 0;                 ///< mm; the curve's length aims at area ÷ bead_width
-  std::optional<double> seed_distance;   ///< mm, the paper's d; follows from the bead width when absent
-  double min_bead_width = 0;             ///< mm; what is narrower than this cannot be laid
-  std::uint64_t seed = 0;                ///< of the random jitter; differ it from layer to layer
+  double bead_width = 0;                ///< mm; the curve's length aims at area ÷ bead_width
+  std::optional<double> seed_distance;  ///< mm, the paper's d; follows from the bead width when absent
+  double min_bead_width = 0;            ///< mm; what is narrower than this cannot be laid
+  std::uint64_t seed = 0;               ///< of the random jitter; differ it from layer to layer
 };
 
 /// Wall and processor time of one stage, s.
@@ -36,11 +36,11 @@ struct CurveObjectives {
 /// One closed curve and how it came about.
 struct PlannedCurve {
   BeadPath path;
-  double area = 0;                      ///< mm², of the piece of the island that this curve fills
+  double area = 0;  ///< mm², of the piece of the island that this curve fills
   CurveObjectives objectives;
-  std::size_t zone_crossings = 0;       ///< times the curve passes between material zones
-  std::size_t self_intersections = 0;   ///< pairs of non-neighbouring segments that meet; 0 by construction
-  std::size_t outside_segments = 0;     ///< segments that touch or cross the island's border; 0 by construction
+  std::size_t zone_crossings = 0;      ///< times the curve passes between material zones
+  std::size_t self_intersections = 0;  ///< pairs of non-neighbouring segments that meet; 0 by construction
+  std::size_t outside_segments = 0;  ///< segments that touch or cross the island's border; 0 by construction
   std::size_t split_and_reconnect = 0;  ///< paper Table 1
   std::size_t doubled_edges = 0;        ///< paper Table 1
   double farthest = 0;                  ///< mm, greatest distance from the opened island to the curve
@@ -48,9 +48,11 @@ struct PlannedCurve {
 
 /// All that became of one island.
 struct IslandPlan {
-  std::vector<PlannedCurve> curves;  ///< normally one; more where necks are too thin to pass, none if too thin
-  double unfilled_area = 0;          ///< mm², of the island that no bead reaches because it is too thin
-  double far_area = 0;  ///< mm², of the island opened by a disc of one bead width, over 1.2 widths from the curve
+  std::vector<PlannedCurve>
+      curves;                ///< normally one; more where necks are too thin to pass, none if too thin
+  double unfilled_area = 0;  ///< mm², of the island that no bead reaches because it is too thin
+  double far_area =
+      0;  ///< mm², of the island opened by a disc of one bead width, over 1.2 widths from the curve
   StageTime graph, cycle, fairing, widths;
 };
 

@@ -10,7 +10,8 @@ namespace unicursal::core {
 
 class Stopwatch {
  public:
-  explicit Stopwatch(StageTime& stage) : stage_(stage), wall_(std::chrono::steady_clock::now()), cpu_(cpu()) {}
+  explicit Stopwatch(StageTime& stage)
+      : stage_(stage), wall_(std::chrono::steady_clock::now()), cpu_(cpu()) {}
   ~Stopwatch() {
     stage_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
     stage_.cpu_seconds += cpu() - cpu_;

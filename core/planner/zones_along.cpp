@@ -15,7 +15,8 @@ class ZoneMap {
  public:
   ZoneMap(const Island& island, double pitch) {
     for (const ZoneRegion& region : island.zones) {
-      for (const Polygon& polygon : region.polygons) pieces_.push_back({region.zone, polygon, BorderIndex(polygon, pitch)});
+      for (const Polygon& polygon : region.polygons)
+        pieces_.push_back({region.zone, polygon, BorderIndex(polygon, pitch)});
     }
   }
 

@@ -1,0 +1,338 @@
+// What each command does. A handler answers at once, or says what the command waits for; the ok follows when
+// nothing is left to wait for.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "sim/firmware/firmware.hpp"
+
+namespace unicursal::sim {
+
+namespace {
+
+constexpr double cold = 170;                                        // °C: below, nothing is extruded
+constexpr double longest_extrusion = 200;                           // mm of E in one move
+constexpr double homing_speed = 50, homing_speed_z = 4;             // mm/s
+constexpr double homing_way_back = 10, homing_touch_seconds = 1.5;  // mm at least; s for the second touch
+constexpr double longest_report_interval = 60;                      // s
+constexpr double longest_dwell = 4294967.295;  // s: the firmware's clock counts 32 bits of ms
+constexpr double least_steps_per_mm = 0.1, most_steps_per_mm = 1e5;
+constexpr double least_speed = 0.05, least_acceleration = 1, least_jerk = 0.01;  // mm/s, mm/s², mm/s
+
+constexpr std::array<char, axes> axis_letters{'X', 'Y', 'Z', 'E'};
+
+/// Takes the number of a word if there is one, and if it is not less than what a machine can live with.
+void read(const Command& command, char letter, double least, double& value) {
+  if (const auto given = command.value(letter)) value = std::max(*given, least);
+}
+
+void read_axes(const Command& command, double least, PerAxis<double>& values) {
+  for (std::size_t i = 0; i < axes; ++i) read(command, axis_letters[i], least, values[i]);
+}
+
+std::int64_t to_steps(double mm, double steps_per_mm) {
+  return std::llround(mm * steps_per_mm);
+}
+
+}  // namespace
+
+const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
+  using F = Firmware;
+  static const std::map<std::pair<char, int>, Handler> table{
+      {{'G', 0}, &F::move},
+      {{'G', 1}, &F::move},
+      {{'G', 4}, &F::dwell},
+      {{'G', 20}, &F::inches},
+      {{'G', 21}, &F::inches},
+      {{'G', 28}, &F::home},
+      {{'G', 90}, &F::absolute},
+      {{'G', 91}, &F::absolute},
+      {{'G', 92}, &F::set_origin},
+      {{'M', 17}, &F::nothing},
+      {{'M', 18}, &F::motors_off},
+      {{'M', 73}, &F::nothing},
+      {{'M', 82}, &F::extruder_mode},
+      {{'M', 83}, &F::extruder_mode},
+      {{'M', 84}, &F::motors_off},
+      {{'M', 85}, &F::set_inactivity},
+      {{'M', 92}, &F::steps_per_mm},
+      {{'M', 104}, &F::nozzle_target},
+      {{'M', 105}, &F::report_temperatures},
+      {{'M', 106}, &F::nothing},
+      {{'M', 107}, &F::nothing},
+      {{'M', 108}, &F::nothing},
+      {{'M', 109}, &F::wait_nozzle},
+      {{'M', 110}, &F::line_number},
+      {{'M', 112}, &F::emergency_stop},
+      {{'M', 114}, &F::report_position},
+      {{'M', 115}, &F::report_firmware},
+      {{'M', 117}, &F::nothing},
+      {{'M', 140}, &F::bed_target},
+      {{'M', 155}, &F::auto_report},
+      {{'M', 163}, &F::collect_share},
+      {{'M', 164}, &F::store_mixture},
+      {{'M', 190}, &F::wait_bed},
+      {{'M', 201}, &F::accelerations},
+      {{'M', 203}, &F::max_speeds},
+      {{'M', 204}, &F::set_accelerations},
+      {{'M', 205}, &F::jerks},
+      {{'M', 220}, &F::feed_percent},
+      {{'M', 221}, &F::flow_percent},
+      {{'M', 400}, &F::finish_moves},
+      {{'M', 410}, &F::stop_moves},
+      {{'M', 999}, &F::nothing},
+  };
+  return table;
+}
+
+void Firmware::execute(const std::string& body) {
+  const auto command = parse_command(body);
+  if (command && command->letter() == 'T') return select_tool(*command);
+  if (command) {
+    const auto found = handlers().find({command->letter(), command->code()});
+    if (found != handlers().end()) return (this->*found->second)(*command);
+  }
+  ++counts_.unknown;
+  reply_(fmt::format("echo:Unknown command: \"{}\"", body));
+}
+
+// ---- moves
+
+void Firmware::move(const Command& command) {
+  const MoveTarget target = coordinates_.target(command);
+  if (target.held_at_edge) warn("a move beyond the bed was held at its edge");
+  const double before = coordinates_.e();
+  coordinates_.arrive(target);
+  if (planner_.has_room()) return plan(target, target.e - before);
+  wait_for_room([this, target, before] { plan(target, target.e - before); });
+}
+
+void Firmware::plan(const MoveTarget& target, double e) {
+  const double fed = filament_to_feed(e);
+  filament_ += fed;
+  const PerAxis<double> mm{target.place[0], target.place[1], target.place[2], filament_};
+  PerAxis<std::int64_t> steps{};
+  for (std::size_t i = 0; i < axes; ++i) steps[i] = to_steps(mm[i], planner_.limits().steps_per_mm[i]);
+  planner_.add(now_, steps, fed, target.speed, mixer_.current());
+}
+
+/// What of a move's E is really fed: all, or nothing when that is refused; XY moves all the same.
+double Firmware::filament_to_feed(double e) {
+  if (e == 0) return 0;
+  if (nozzle_.temperature(now_) < cold) {
+    reply_("echo: cold extrusion prevented");
+    warn("cold extrusion prevented");
+    return 0;
+  }
+  if (std::abs(e * coordinates_.flow()) > longest_extrusion) {
+    reply_("echo: too long extrusion prevented");
+    warn("too long extrusion prevented");
+    return 0;
+  }
+  return e * coordinates_.flow();
+}
+
+void Firmware::dwell(const Command& command) {
+  const double seconds = std::max(0.0, command.value_or('P', 0) / 1000 + command.value_or('S', 0));
+  wait_until_still([this, seconds] { wait_seconds(std::min(seconds, longest_dwell), nullptr); });
+}
+
+void Firmware::home(const Command& command) {
+  const bool all = !command.has('X') && !command.has('Y') && !command.has('Z');
+  const bool x = all || command.has('X'), y = all || command.has('Y'), z = all || command.has('Z');
+  wait_until_still([this, x, y, z] {
+    const auto way = [this](Axis axis) { return std::max(coordinates_.place()[axis], homing_way_back); };
+    double seconds = 0;
+    if (x || y)
+      seconds += std::max(x ? way(axis_x) : 0, y ? way(axis_y) : 0) / homing_speed + homing_touch_seconds;
+    if (z) seconds += way(axis_z) / homing_speed_z + homing_touch_seconds;
+    wait_seconds(seconds, [this, x, y, z] { homed(x, y, z); });
+  });
+}
+
+void Firmware::homed(bool x, bool y, bool z) {
+  PerAxis<std::int64_t> steps = planner_.planned_position();
+  const std::array<bool, 3> chosen{x, y, z};
+  for (const Axis axis : {axis_x, axis_y, axis_z}) {
+    if (!chosen[axis]) continue;
+    coordinates_.home(axis);
+    steps[axis] = 0;
+  }
+  planner_.set_position(steps);
+  say_position();
+}
+
+void Firmware::finish_moves(const Command&) {
+  wait_until_still(nullptr);
+}
+
+void Firmware::stop_moves(const Command&) {
+  quick_stop();
+}
+
+void Firmware::motors_off(const Command& command) {
+  if (command.has('S')) return;  // only a time-out, which M85 does better
+  wait_until_still([this] { coordinates_.forget_home(); });
+}
+
+// ---- modes and limits
+
+void Firmware::inches(const Command& command) {
+  coordinates_.set_inches(command.code() == 20);
+}
+void Firmware::absolute(const Command& command) {
+  coordinates_.set_absolute(command.code() == 90);
+}
+void Firmware::extruder_mode(const Command& command) {
+  coordinates_.set_absolute_e(command.code() == 82);
+}
+void Firmware::set_origin(const Command& command) {
+  coordinates_.shift_origin(command);
+}
+void Firmware::feed_percent(const Command& command) {
+  if (const auto percent = command.value('S')) coordinates_.set_feed_percent(*percent);
+}
+void Firmware::flow_percent(const Command& command) {
+  if (const auto percent = command.value('S')) coordinates_.set_flow_percent(*percent);
+}
+void Firmware::accelerations(const Command& command) {
+  read_axes(command, least_acceleration, planner_.limits().max_acceleration);
+}
+void Firmware::max_speeds(const Command& command) {
+  read_axes(command, least_speed, planner_.limits().max_speed);
+}
+void Firmware::jerks(const Command& command) {
+  read_axes(command, least_jerk, planner_.limits().jerk);
+}
+
+void Firmware::set_accelerations(const Command& command) {
+  MotionLimits& limits = planner_.limits();
+  read(command, 'S', least_acceleration, limits.print_acceleration);
+  read(command, 'S', least_acceleration, limits.travel_acceleration);
+  read(command, 'P', least_acceleration, limits.print_acceleration);
+  read(command, 'R', least_acceleration, limits.retract_acceleration);
+  read(command, 'T', least_acceleration, limits.travel_acceleration);
+}
+
+/// Waits for motion to end (Marlin does not), so that no queued block changes its meaning.
+void Firmware::steps_per_mm(const Command& command) {
+  wait_until_still([this, command] {
+    PerAxis<double>& ratios = planner_.limits().steps_per_mm;
+    const PerAxis<double> before = ratios;
+    read_axes(command, least_steps_per_mm, ratios);
+    PerAxis<std::int64_t> steps = planner_.planned_position();
+    for (std::size_t i = 0; i < axes; ++i) {
+      ratios[i] = std::min(ratios[i], most_steps_per_mm);
+      steps[i] = to_steps(static_cast<double>(steps[i]) / before[i], ratios[i]);
+    }
+    planner_.set_position(steps);
+  });
+}
+
+// ---- tools and mixtures
+
+void Firmware::collect_share(const Command& command) {
+  if (command.value_or('S', 0) < 0) warn("M163 with a negative S would write outside the firmware's memory");
+  mixer_.collect(command.value_or('S', 0), command.value_or('P', 0));
+}
+
+void Firmware::store_mixture(const Command& command) {
+  if (const auto tool = command.value('S')) {
+    mixer_.store(*tool);
+  } else {
+    mixer_.store();
+  }
+}
+
+void Firmware::select_tool(const Command& command) {
+  if (!mixer_.select(command.code())) reply_(fmt::format("echo:T{} Invalid extruder", command.code()));
+}
+
+// ---- heat
+
+std::string Firmware::temperatures() const {
+  return fmt::format("T:{:.2f} /{:.2f} B:{:.2f} /{:.2f} @:{} B@:{}", nozzle_.temperature(now_),
+                     nozzle_.target(), bed_.temperature(now_), bed_.target(), nozzle_.power(now_),
+                     bed_.power(now_));
+}
+
+/// Virtual tools have no heater of their own: only T0 does.
+bool Firmware::extruder_exists(const Command& command) {
+  const double extruder = command.value_or('T', 0);
+  if (extruder == 0) return true;
+  reply_(fmt::format("echo:M{} Invalid extruder {:.0f}", command.code(), extruder));
+  return false;
+}
+
+void Firmware::nozzle_target(const Command& command) {
+  if (!extruder_exists(command)) return;
+  if (const auto target = command.value('S')) nozzle_.set_target(now_, *target);
+}
+
+void Firmware::wait_nozzle(const Command& command) {
+  if (!extruder_exists(command)) return;
+  const bool both = command.has('R');
+  if (const auto target = command.value(both ? 'R' : 'S')) nozzle_.set_target(now_, *target);
+  wait_for_heater(nozzle_, !both);
+}
+
+void Firmware::bed_target(const Command& command) {
+  if (const auto target = command.value('S')) bed_.set_target(now_, *target);
+}
+
+void Firmware::wait_bed(const Command& command) {
+  const bool both = command.has('R');
+  if (const auto target = command.value(both ? 'R' : 'S')) bed_.set_target(now_, *target);
+  wait_for_heater(bed_, !both);
+}
+
+/// Its ok is the start of its own line; a wrong extruder gets none at all.
+void Firmware::report_temperatures(const Command& command) {
+  answers_ok_ = false;
+  if (extruder_exists(command)) reply_("ok " + temperatures());
+}
+
+void Firmware::auto_report(const Command& command) {
+  report_interval_ = std::clamp(command.value_or('S', 0), 0.0, longest_report_interval);
+  report_at_ = now_ + report_interval_;
+}
+
+// ---- the rest
+
+void Firmware::line_number(const Command& command) {
+  if (const auto number = command.value('N')) check_.set_last(static_cast<std::int64_t>(*number));
+}
+
+void Firmware::emergency_stop(const Command&) {
+  reply_("echo:M112 Shutdown");
+  kill();
+}
+
+void Firmware::set_inactivity(const Command& command) {
+  inactivity_ = std::max(0.0, command.value_or('S', 0));
+}
+
+void Firmware::report_position(const Command&) {
+  say_position();
+}
+
+void Firmware::say_position() {
+  const auto& steps = planner_.executed_position();
+  reply_(fmt::format("X:{:.2f} Y:{:.2f} Z:{:.2f} E:{:.2f} Count X:{} Y:{} Z:{}", coordinates_.logical(axis_x),
+                     coordinates_.logical(axis_y), coordinates_.logical(axis_z), coordinates_.e(),
+                     steps[axis_x], steps[axis_y], steps[axis_z]));
+}
+
+void Firmware::report_firmware(const Command&) {
+  reply_(
+      "FIRMWARE_NAME:Marlin 2.1.2 (simulated) SOURCE_CODE_URL:none PROTOCOL_VERSION:1.0 "
+      "MACHINE_TYPE:unicursal simulator EXTRUDER_COUNT:1 UUID:00000000-0000-0000-0000-000000000000");
+  for (const char* line : {"Cap:SERIAL_XON_XOFF:0", "Cap:EEPROM:0", "Cap:AUTOREPORT_TEMP:1", "Cap:PROGRESS:0",
+                           "Cap:EMERGENCY_PARSER:0", "Cap:HOST_ACTION_COMMANDS:1", "Cap:BUSY_PROTOCOL:1"}) {
+    reply_(line);
+  }
+}
+
+}  // namespace unicursal::sim

@@ -1,0 +1,84 @@
+#include "sim/line/line_check.hpp"
+
+#include <cassert>
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace unicursal::sim {
+
+namespace {
+
+std::string_view without_leading_spaces(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string_view::npos ? std::string_view{} : text.substr(first);
+}
+
+/// The integer at the start of the text, 0 when there is none: what C's own conversion would give.
+std::int64_t leading_integer(std::string_view text) {
+  text = without_leading_spaces(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  std::int64_t value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+std::string body_of(std::string_view line) {
+  line.remove_prefix(1);
+  const std::size_t digits = line.find_first_not_of("0123456789+- ");
+  line = digits == std::string_view::npos ? std::string_view{} : line.substr(digits);
+  line = line.substr(0, line.find('*'));
+  const std::size_t last = line.find_last_not_of(' ');
+  return std::string(line.substr(0, last == std::string_view::npos ? 0 : last + 1));
+}
+
+}  // namespace
+
+std::uint8_t checksum(std::string_view bytes) {
+  unsigned sum = 0;
+  for (const char byte : bytes) sum ^= static_cast<unsigned char>(byte);
+  return static_cast<std::uint8_t>(sum);
+}
+
+LineVerdict LineCheck::check(std::string_view line) {
+  if (!line.starts_with('N')) return {LineVerdict::Kind::accepted, std::nullopt, std::string(line)};
+  const bool resets = line.find("M110") != std::string_view::npos;
+  const std::size_t second = resets ? line.find('N', 4) : std::string_view::npos;
+  const std::int64_t number = leading_integer(line.substr(second == std::string_view::npos ? 1 : second + 1));
+  const LineVerdict::Kind kind = judge(line, number, resets);
+  if (kind != LineVerdict::Kind::accepted) return {kind, number, {}};
+  last_ = number;
+  return {kind, number, body_of(line)};
+}
+
+LineVerdict::Kind LineCheck::judge(std::string_view line, std::int64_t number, bool resets) const {
+  using Kind = LineVerdict::Kind;
+  if (!resets && number != last_ + 1) {
+    return number == last_ || number == last_ - 1 ? Kind::repeated : Kind::wrong_number;
+  }
+  const std::size_t star = line.rfind('*');
+  if (star == std::string_view::npos) return Kind::no_checksum;
+  const bool good = leading_integer(line.substr(star + 1)) == checksum(line.substr(0, star));
+  return good ? Kind::accepted : Kind::wrong_checksum;
+}
+
+std::string refusal(LineVerdict::Kind kind, std::int64_t last) {
+  const char* reason = "";
+  switch (kind) {
+    case LineVerdict::Kind::wrong_number:
+      reason = "Line Number is not Last Line Number+1";
+      break;
+    case LineVerdict::Kind::wrong_checksum:
+      reason = "checksum mismatch";
+      break;
+    case LineVerdict::Kind::no_checksum:
+      reason = "No Checksum with line number";
+      break;
+    case LineVerdict::Kind::accepted:
+    case LineVerdict::Kind::repeated:
+      assert(false && "not a refusal");
+  }
+  return fmt::format("{}, Last Line: {}", reason, last);
+}
+
+}  // namespace unicursal::sim

@@ -1,0 +1,51 @@
+// What passes from the motion to the nozzle and from the nozzle to the bed. Lengths in mm, volumes in mm³,
+// times in printer seconds since power-up; positions in the machine's frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace unicursal::sim {
+
+inline constexpr std::size_t max_feeders = 6;
+
+/// One value for each feeder; those that the printer does not have stay zero.
+template <class T>
+using PerFeeder = std::array<T, max_feeders>;
+
+/// What the firmware mixes by: integers relative to the largest one.
+using Factors = PerFeeder<std::int32_t>;
+
+struct Position {
+  double x = 0, y = 0, z = 0;
+  friend bool operator==(const Position&, const Position&) = default;
+};
+
+/// A mixture as it was attached to a move when that was planned.
+struct Mix {
+  int tool = 0;  ///< virtual tool
+  Factors factors{};
+};
+
+/// A move that has been carried out. What the melt does is continuous, so `filament` is not rounded to steps:
+/// over any number of moves it and the steps differ by less than one step.
+struct ExecutedMove {
+  Position from, to;
+  double filament = 0;                     ///< mm fed by all feeders together, negative when retracted
+  PerFeeder<std::int64_t> feeder_steps{};  ///< signed; add up to the steps of E
+  Mix mix;
+  double start = 0, end = 0;  ///< s
+};
+
+/// Takes moves in the order in which they happen.
+class MoveSink {
+ public:
+  virtual ~MoveSink() = default;
+  virtual void moved(const ExecutedMove& move) = 0;
+};
+
+/// The shares of the feeders in a mixture; all zero for a mixture of zeros.
+PerFeeder<double> shares_of(const Factors& factors);
+
+}  // namespace unicursal::sim

@@ -1,0 +1,190 @@
+#include "sim/motion/planner.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace unicursal::sim {
+
+namespace {
+
+constexpr double slowest = 0.05;           // mm/s: what a move ends at when nothing follows
+constexpr std::int64_t fewest_steps = 6;   // a move with fewer joins the next one
+constexpr double first_block_delay = 0.1;  // s that a first block waits for company
+constexpr std::size_t company = 3;         // blocks with which it waits no longer
+constexpr double short_move = 0.02;        // s: moves of less are stretched while the queue is short
+constexpr std::size_t short_queue_from = 2, short_queue_to = 7;  // waiting blocks that count as short
+
+}  // namespace
+
+Planner::Planner(MotionLimits limits, MoveSink& sink) : limits_(limits), sink_(sink) {}
+
+void Planner::add(double now, const PerAxis<std::int64_t>& target, double filament, double speed,
+                  const Mix& mix) {
+  assert(has_room());
+  PerAxis<std::int64_t> steps{};
+  std::int64_t most = 0;
+  for (std::size_t i = 0; i < axes; ++i) {
+    steps[i] = target[i] - planned_[i];
+    most = std::max(most, std::abs(steps[i]));
+  }
+  put_off_ += filament;
+  if (most < fewest_steps) return;
+  planned_ = target;
+  Block block = make_block(steps, speed, mix);
+  block.filament = std::exchange(put_off_, 0);
+  block.max_entry = blocks_.empty() ? speed_from_rest(block) : junction_speed(blocks_.back(), block);
+  if (blocks_.empty()) block.start = std::max(now, last_end_) + first_block_delay;
+  blocks_.push_back(block);
+  if (!blocks_.front().started && blocks_.size() >= company) {
+    blocks_.front().start = std::min(blocks_.front().start, now);
+  }
+  look_ahead();
+}
+
+Planner::Block Planner::make_block(const PerAxis<std::int64_t>& steps, double speed, const Mix& mix) const {
+  Block block;
+  block.steps = steps;
+  block.mix = mix;
+  PerAxis<double> mm{};
+  for (std::size_t i = 0; i < axes; ++i) mm[i] = static_cast<double>(steps[i]) / limits_.steps_per_mm[i];
+  const double way = std::hypot(mm[axis_x], mm[axis_y], mm[axis_z]);
+  const double length = way > 0 ? way : std::abs(mm[axis_e]);
+  double nominal = stretched_speed(length, std::max(speed, slowest));
+  for (std::size_t i = 0; i < axes; ++i) {
+    block.direction[i] = mm[i] / length;
+    if (mm[i] != 0) nominal = std::min(nominal, limits_.max_speed[i] / std::abs(block.direction[i]));
+  }
+  block.speed = {length, nominal, nominal, nominal, 0};
+  block.speed.acceleration = acceleration_for(block);
+  return block;
+}
+
+double Planner::acceleration_for(const Block& block) const {
+  const auto moves = [&](Axis axis) { return block.steps[axis] != 0; };
+  double acceleration = limits_.print_acceleration;
+  if (!moves(axis_e)) acceleration = limits_.travel_acceleration;
+  if (!moves(axis_x) && !moves(axis_y) && !moves(axis_z)) acceleration = limits_.retract_acceleration;
+  for (std::size_t i = 0; i < axes; ++i) {
+    if (block.steps[i] == 0) continue;
+    acceleration = std::min(acceleration, limits_.max_acceleration[i] / std::abs(block.direction[i]));
+  }
+  return acceleration;
+}
+
+double Planner::stretched_speed(double length, double speed) const {
+  const std::size_t waiting = blocks_.size() - (!blocks_.empty() && blocks_.front().started ? 1 : 0);
+  const double time = length / speed;
+  if (waiting < short_queue_from || waiting > short_queue_to || time >= short_move) return speed;
+  return length / (time + 2 * (short_move - time) / static_cast<double>(waiting));
+}
+
+double Planner::speed_from_rest(const Block& block) const {
+  double speed = block.speed.nominal;
+  for (std::size_t i = 0; i < axes; ++i) {
+    if (block.direction[i] != 0) speed = std::min(speed, limits_.jerk[i] / std::abs(block.direction[i]));
+  }
+  return speed;
+}
+
+double Planner::junction_speed(const Block& before, const Block& after) const {
+  double speed = std::min(before.speed.nominal, after.speed.nominal);
+  for (std::size_t i = 0; i < axes; ++i) {
+    const double jump = std::abs(after.direction[i] - before.direction[i]);
+    if (jump > 0) speed = std::min(speed, limits_.jerk[i] / jump);
+  }
+  return speed;
+}
+
+// Backwards, every block may enter only as fast as it can still brake; forwards, only as fast as it can get.
+// A block that runs is fixed, and so is the entry of the one behind it.
+void Planner::look_ahead() {
+  double exit = std::min(slowest, blocks_.back().speed.nominal);
+  for (auto block = blocks_.rbegin(); block != blocks_.rend() && !block->started; ++block) {
+    Trapezoid& speed = block->speed;
+    speed.exit = exit;
+    speed.entry = std::min(block->max_entry, reachable_speed(exit, speed.acceleration, speed.length));
+    exit = speed.entry;
+  }
+  double entry = blocks_.front().started ? blocks_.front().speed.exit : blocks_.front().speed.entry;
+  for (Block& block : blocks_) {
+    if (block.started) continue;
+    Trapezoid& speed = block.speed;
+    speed.entry = entry;
+    speed.exit = std::min(speed.exit, reachable_speed(entry, speed.acceleration, speed.length));
+    entry = speed.exit;
+  }
+}
+
+std::optional<double> Planner::next_end() const {
+  if (blocks_.empty() || stuck_) return std::nullopt;
+  return blocks_.front().start + blocks_.front().speed.seconds();
+}
+
+void Planner::advance(double now) {
+  while (!blocks_.empty() && !stuck_ && blocks_.front().start <= now) {
+    start_first();
+    Block& block = blocks_.front();
+    const double end = block.start + block.speed.seconds();
+    if (stuck_ || end > now) return;
+    finish(block, 1);
+    last_end_ = end;
+    blocks_.pop_front();
+    if (!blocks_.empty()) blocks_.front().start = end;
+  }
+}
+
+void Planner::start_first() {
+  Block& block = blocks_.front();
+  if (block.started) return;
+  block.started = true;
+  const Factors& factors = block.mix.factors;
+  const bool nothing = std::all_of(factors.begin(), factors.end(), [](auto f) { return f == 0; });
+  stuck_ = nothing && block.steps[axis_e] != 0;
+}
+
+/// `done`: the part of the block that was carried out, 0…1.
+void Planner::finish(Block& block, double done) {
+  const auto place = [this] {
+    const auto mm = [this](Axis i) { return static_cast<double>(executed_[i]) / limits_.steps_per_mm[i]; };
+    return Position{mm(axis_x), mm(axis_y), mm(axis_z)};
+  };
+  ExecutedMove move;
+  move.from = place();
+  std::int64_t fed = 0;
+  for (std::size_t i = 0; i < axes; ++i) {
+    const auto steps = static_cast<std::int64_t>(std::trunc(static_cast<double>(block.steps[i]) * done));
+    executed_[i] += steps;
+    if (i == axis_e) fed = steps;
+  }
+  move.to = place();
+  move.mix = block.mix;
+  move.filament = block.filament * done;
+  if (fed != 0) move.feeder_steps = split_.split(fed, block.mix.factors);
+  for (std::size_t i = 0; i < max_feeders; ++i) feeder_steps_[i] += move.feeder_steps[i];
+  move.start = block.start;
+  move.end = block.start + block.speed.seconds() * done;
+  sink_.moved(move);
+}
+
+void Planner::abort(double now) {
+  advance(now);
+  if (!blocks_.empty() && blocks_.front().started && !stuck_) {
+    Block& block = blocks_.front();
+    finish(block, block.speed.distance(now - block.start) / block.speed.length);
+  }
+  blocks_.clear();
+  put_off_ = 0;
+  planned_ = executed_;
+  last_end_ = now;
+}
+
+void Planner::set_position(const PerAxis<std::int64_t>& steps) {
+  for (std::size_t i = 0; i < axes; ++i) {
+    executed_[i] += steps[i] - planned_[i];
+    planned_[i] = steps[i];
+  }
+}
+
+}  // namespace unicursal::sim

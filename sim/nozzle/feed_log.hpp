@@ -1,0 +1,51 @@
+// What the feeders were asked to push, by mixture: the moves that print apart from those that only retract,
+// prime or purge in place. mm of filament, steps.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/motion/move.hpp"
+
+namespace unicursal::sim {
+
+struct MixtureUse {
+  Mix mix;  ///< with the first virtual tool that had these factors
+  double extruded = 0;
+  PerFeeder<std::int64_t> feeder_steps{};
+};
+
+class FeedLog : public MoveSink {
+ public:
+  void moved(const ExecutedMove& move) override;
+
+  /// One for each distinct set of factors among the moves that lay a bead, in order of first use.
+  const std::vector<MixtureUse>& mixtures() const { return mixtures_; }
+  double extruded() const { return extruded_; }          ///< by moves that lay a bead
+  double fed_in_place() const { return fed_in_place_; }  ///< forward, without a bead
+  double retracted() const { return retracted_; }        ///< backward, as a positive length
+  const PerFeeder<std::int64_t>& idle_steps() const { return idle_steps_; }  ///< of the moves without a bead
+
+ private:
+  MixtureUse& use_of(const Mix& mix);
+
+  std::vector<MixtureUse> mixtures_;
+  double extruded_ = 0, fed_in_place_ = 0, retracted_ = 0;
+  PerFeeder<std::int64_t> idle_steps_{};
+};
+
+/// Hands each move to two takers, the first one first.
+class BothSinks : public MoveSink {
+ public:
+  BothSinks(MoveSink& first, MoveSink& second) : first_(first), second_(second) {}
+  void moved(const ExecutedMove& move) override {
+    first_.moved(move);
+    second_.moved(move);
+  }
+
+ private:
+  MoveSink& first_;
+  MoveSink& second_;
+};
+
+}  // namespace unicursal::sim

@@ -1,0 +1,121 @@
+#include "sim/report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace unicursal::sim {
+
+namespace {
+
+using nlohmann::json;
+
+template <class T>
+json first_of(const PerFeeder<T>& values, std::size_t feeders) {
+  return json(std::vector<T>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(feeders)));
+}
+
+json lines(const Firmware& firmware) {
+  const LineCounts& counts = firmware.counts();
+  return {{"received", counts.received},
+          {"accepted", counts.accepted},
+          {"executed", counts.executed},
+          {"checksum_errors", counts.checksum_errors},
+          {"number_errors", counts.number_errors},
+          {"resends", counts.resends},
+          {"repeated", counts.repeated},
+          {"lost_bytes", firmware.buffer().lost()},
+          {"flushed_bytes", firmware.buffer().flushed()},
+          {"too_long", firmware.assembler().too_long()},
+          {"unknown", counts.unknown}};
+}
+
+json feeders(const Machine& machine, const Planner& planner) {
+  json all = json::array();
+  for (std::size_t i = 0; i < machine.feeders; ++i) {
+    const std::int64_t steps = planner.feeder_steps()[i];
+    all.push_back(
+        {{"steps", steps}, {"mm", static_cast<double>(steps) / planner.limits().steps_per_mm[axis_e]}});
+  }
+  return all;
+}
+
+json mixtures(const Machine& machine, const FeedLog& feed) {
+  json all = json::array();
+  for (const MixtureUse& use : feed.mixtures()) {
+    all.push_back({{"tool", use.mix.tool},
+                   {"factors", first_of(use.mix.factors, machine.feeders)},
+                   {"shares", first_of(shares_of(use.mix.factors), machine.feeders)},
+                   {"extruded_mm", use.extruded},
+                   {"feeder_steps", first_of(use.feeder_steps, machine.feeders)}});
+  }
+  return all;
+}
+
+json layers(const Deposit& deposit) {
+  json all = json::array();
+  for (const DepositedLayer& layer : deposit.layers()) {
+    all.push_back({{"z", layer.z},
+                   {"height", layer.height},
+                   {"moves", layer.beads},
+                   {"length_mm", layer.length},
+                   {"volume_mm3", layer.volume},
+                   {"travel_mm", layer.travel},
+                   {"travels", layer.travels}});
+  }
+  return all;
+}
+
+json extents(const Extents& box) {
+  if (box.empty()) return nullptr;
+  return {{"min", {box.min_x, box.min_y, box.min_z}}, {"max", {box.max_x, box.max_y, box.max_z}}};
+}
+
+json heater(const Heater& heater, double now) {
+  return {{"actual", heater.temperature(now)}, {"target", heater.target()}};
+}
+
+json warnings(const Firmware& firmware) {
+  json all = json::array();
+  for (const auto& [what, times] : firmware.warnings()) {
+    all.push_back(fmt::format("{} ({} {})", what, times, times == 1 ? "time" : "times"));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string report_json(const Machine& machine, const Firmware& firmware, const FeedLog& feed,
+                        const Deposit& deposit) {
+  const Coordinates& coordinates = firmware.coordinates();
+  const json report{{"lines", lines(firmware)},
+                    {"executed_lines_in_order", firmware.counts().executed_in_order},
+                    {"last_line", firmware.last_line()},
+                    {"printer_seconds", firmware.now()},
+                    {"printing_seconds", deposit.last_end() - deposit.first_start()},
+                    {"feeders", feeders(machine, firmware.planner())},
+                    {"mixtures", mixtures(machine, feed)},
+                    {"extruded_mm", feed.extruded()},
+                    {"not_printed",
+                     {{"fed_mm", feed.fed_in_place()},
+                      {"retracted_mm", feed.retracted()},
+                      {"feeder_steps", first_of(feed.idle_steps(), machine.feeders)}}},
+                    {"deposited_mm3", deposit.volume()},
+                    {"deposited_length_mm", deposit.length()},
+                    {"layers", layers(deposit)},
+                    {"extents", extents(deposit.extents())},
+                    {"warnings", warnings(firmware)},
+                    {"temperatures",
+                     {{"nozzle", heater(firmware.nozzle(), firmware.now())},
+                      {"bed", heater(firmware.bed(), firmware.now())}}},
+                    {"position",
+                     {{"x", coordinates.logical(axis_x)},
+                      {"y", coordinates.logical(axis_y)},
+                      {"z", coordinates.logical(axis_z)},
+                      {"e", coordinates.e()}}},
+                    {"killed", firmware.killed()},
+                    {"hung", firmware.hung()}};
+  return report.dump(2);
+}
+
+}  // namespace unicursal::sim

@@ -1,0 +1,105 @@
+#include "core/curve/fairing.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/curve/clearance.hpp"
+#include "core/curve/contour.hpp"
+#include "core/curve/resample.hpp"
+#include "core/cycle/first_cycle.hpp"
+#include "tests/core/support/shapes.hpp"
+
+using namespace unicursal::core;
+using namespace unicursal::core::test;
+
+namespace {
+
+Curve first_curve(const Polygon& island, double d, std::uint64_t seed) {
+  Random random(seed);
+  const Region domain = offset(offset({island}, -0.2, 0.01), 0.15, 0.01);
+  const auto graph = make_cell_graph(domain.front(), d, random);
+  REQUIRE(graph);
+  const auto cycle = first_cycle(*graph);
+  REQUIRE(cycle);
+  return cycle->curve;
+}
+
+void check_sound(const Curve& curve, const Polygon& island) {
+  REQUIRE(self_intersections(curve) == 0);
+  REQUIRE(segments_outside(curve, BorderIndex(island, 1.0)) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("meeting segments are counted, neighbours are not") {
+  CHECK(self_intersections({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}) == 0);
+  CHECK(self_intersections({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}) == 1);
+  CHECK(self_intersections({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}}) == 2);  // a touch, seen from both its segments
+}
+
+TEST_CASE("segments outside are counted") {
+  const BorderIndex border(square_with_hole(), 1);
+  CHECK(segments_outside({{{1, 1}, {11, 1}, {11, 11}, {1, 11}}}, border) == 0);
+  CHECK(segments_outside({{{1, 1}, {11, 1}, {11, 11}, {6, 6}, {1, 11}}}, border) == 2);
+  CHECK(segments_outside({{{1, 1}, {13, 1}, {11, 11}, {1, 11}}}, border) == 2);
+}
+
+TEST_CASE("vertices that stay within their freedom cannot make a curve cross itself or the border") {
+  const Polygon island = square_with_hole();
+  Curve curve = first_curve(island, 0.9, 5);
+  Random random(8);
+  for (int round = 0; round < 200; ++round) {
+    const std::vector<double> free = freedom(curve, BorderIndex(island, 1.0), 0.6);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      const double turn = random.uniform(0, 2 * std::numbers::pi);
+      curve.vertices[i] += free[i] * Vec2(std::cos(turn), std::sin(turn));
+    }
+    check_sound(curve, island);
+  }
+}
+
+TEST_CASE("respacing drops and halves without breaking anything") {
+  const Polygon island = square_with_hole();
+  const BorderIndex border(island, 1.0);
+  const Curve curve = first_curve(island, 0.9, 6);
+  const Curve spread = respaced(curve, border, 0.45);
+  check_sound(spread, island);
+  for (std::size_t i = 0; i < spread.size(); ++i) {
+    REQUIRE((spread.vertices[spread.after(i)] - spread.vertices[i]).norm() <= 1.5 * 0.45 + 1e-9);
+  }
+  const Curve fine = subdivided(spread);
+  CHECK(fine.size() == 2 * spread.size());
+  CHECK(fine.length() == Approx(spread.length()));
+}
+
+TEST_CASE("fairing holds the length, stays inside and simple, and covers well") {
+  const Polygon island = GENERATE(rectangle(14, 14), square_with_hole());
+  const double w = 0.6;
+  FairingOptions options;
+  options.bead_width = w;
+  options.target_length = area(island) / w;
+  const Curve start = smoothed(first_curve(island, 1.5 * w, 2), island, w);
+  check_sound(start, island);
+  const Curve curve = fair(start, island, options).curve;
+  check_sound(curve, island);
+  CHECK(curve.length() == Approx(options.target_length).epsilon(0.01));
+}
+
+TEST_CASE("fairing the same curve twice gives the same bytes") {
+  const Polygon island = square_with_hole();
+  FairingOptions options;
+  options.bead_width = 0.7;
+  options.target_length = area(island) / 0.7;
+  const Curve start = first_curve(island, 1.05, 3);
+  CHECK(fair(start, island, options).curve.vertices == fair(start, island, options).curve.vertices);
+}
+
+TEST_CASE("contours of small islands are simple, inside, and half a bead from the border") {
+  const Polygon island =
+      GENERATE(rectangle(1.5, 1.5), rectangle(5, 0.3), Polygon{circle({0, 0}, 0.4, 30), {}},
+               Polygon{{{0, 0}, {3, 0}, {0, 0.6}}, {}});
+  const auto curve = contour(island, 0.5);
+  REQUIRE(curve);
+  check_sound(*curve, island);
+  CHECK(curve->size() >= 5);
+  CHECK_FALSE(contour(rectangle(5, 0.01), 0.5));
+}

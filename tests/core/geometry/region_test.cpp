@@ -1,0 +1,55 @@
+#include "core/geometry/region.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/core/support/shapes.hpp"
+
+using namespace unicursal::core;
+using namespace unicursal::core::test;
+
+TEST_CASE("areas of union, intersection and difference obey inclusion and exclusion") {
+  Random random(2);
+  for (int k = 0; k < 50; ++k) {
+    const Region a{random_island(random, 5, 3)}, b{random_island(random, 5, 3)};
+    REQUIRE(area(unite(a, b)) + area(intersect(a, b)) == Approx(area(a) + area(b)).epsilon(1e-6));
+    REQUIRE(area(subtract(a, b)) == Approx(area(a) - area(intersect(a, b))).margin(1e-4));
+  }
+}
+
+TEST_CASE("outer rings run counter-clockwise, holes clockwise, islands within holes stand alone") {
+  const Region region = enclosed({circle({0, 0}, 5, 50), circle({0, 0}, 3, 50, false), circle({0, 0}, 1, 50)},
+                                 FillRule::even_odd);
+  REQUIRE(region.size() == 2);
+  for (const Polygon& polygon : region) {
+    CHECK(signed_area(polygon.outer) > 0);
+    for (const Ring& hole : polygon.holes) CHECK(signed_area(hole) < 0);
+  }
+}
+
+TEST_CASE("an offset grows a square by its perimeter and a rounded corner") {
+  const double grown = area(offset({rectangle(10, 10)}, 2, 0.001));
+  CHECK(grown == Approx(100 + 4 * 10 * 2 + std::numbers::pi * 4).epsilon(1e-4));
+  CHECK(area(offset({rectangle(10, 10)}, -2, 0.001)) == Approx(36).epsilon(1e-6));
+  CHECK(offset({rectangle(3, 10)}, -2, 0.001).empty());
+}
+
+TEST_CASE("opening removes what a disc cannot reach and nothing else") {
+  // A square with a fin 0.2 mm thick.
+  const Region fin = unite({rectangle(10, 10)}, {{{{10, 5}, {15, 5}, {15, 5.2}, {10, 5.2}}, {}}});
+  const Region open = opened(fin, 0.5, 0.001);
+  CHECK(area(open) == Approx(100 - (4 - std::numbers::pi) * 0.25).epsilon(1e-3));
+  CHECK(area(subtract(open, fin)) < 1e-4);
+}
+
+TEST_CASE("simplified rings stay within the tolerance") {
+  const Ring fine = circle({0, 0}, 10, 2000);
+  const Ring coarse = simplified(fine, 0.01);
+  CHECK(coarse.size() < 150);
+  for (const Vec2& p : fine) {
+    double d = 1e9;
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+      d = std::min(d, distance_to_segment(p, coarse[i], coarse[(i + 1) % coarse.size()]));
+    }
+    REQUIRE(d <= 0.01 + 1e-12);
+  }
+}

@@ -1,0 +1,102 @@
+#include "core/geometry/segment_diagram.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/geometry/lattice_owners.hpp"
+#include "tests/core/support/shapes.hpp"
+
+using namespace unicursal::core;
+using namespace unicursal::core::test;
+
+namespace {
+
+CellIntegrals total(const SegmentDiagram& diagram) {
+  CellIntegrals sum;
+  for (const auto* cells : {&diagram.points, &diagram.segments}) {
+    for (const CellIntegrals& cell : *cells) sum.area += cell.area, sum.second_moment += cell.second_moment;
+  }
+  return sum;
+}
+
+/// Folds of a snake, `folds` strands of spacing `w`.
+Ring snake(double length, double w, int folds) {
+  Ring ring;
+  for (int k = 0; k < folds; ++k) {
+    const double x = (k + 0.5) * w;
+    const Vec2 low(x, k == 0 ? w / 2 : 1.5 * w), high(x, length - w / 2);
+    if (k % 2 == 0)
+      ring.insert(ring.end(), {low, high});
+    else
+      ring.insert(ring.end(), {high, low});
+  }
+  ring.push_back({(folds - 0.5) * w, w / 2});
+  return ring;
+}
+
+}  // namespace
+
+TEST_CASE("a concentric square's cells have their closed-form areas and moments") {
+  // A square path of side 6 in a square of side 10: outside strips of width 2, inside triangles of height 3.
+  const Ring path{{2, 2}, {8, 2}, {8, 8}, {2, 8}};
+  const SegmentDiagram diagram = segment_diagram(path, rectangle(10, 10));
+  for (int i = 0; i < 4; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    CHECK(diagram.points[k].area == Approx(4).epsilon(1e-12));
+    CHECK(diagram.points[k].second_moment == Approx(2 * 2 * 8.0 / 3).epsilon(1e-12));
+    CHECK(diagram.segments[k].area == Approx(12 + 9).epsilon(1e-12));
+    CHECK(diagram.segments[k].second_moment == Approx(6 * 8.0 / 3 + 2 * 81.0 / 12).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("parallel strands of spacing w have E_CVT ÷ (A·w²) near 1/12") {
+  const double w = 0.5;
+  const int folds = 40;
+  const Polygon island = rectangle(folds * w, 60);
+  const Ring path = snake(60, w, folds);
+  const CellIntegrals sum = total(segment_diagram(path, island));
+  CHECK(sum.area == Approx(area(island)).epsilon(1e-12));
+  CHECK(sum.second_moment / (area(island) * w * w) == Approx(1.0 / 12).epsilon(0.02));
+}
+
+TEST_CASE("cells add up to the island and agree with a fine lattice") {
+  // A wavy ring around the hole: parabolas, arcs that the border cuts, cells on both sides of the hole.
+  Ring path;
+  for (int k = 0; k < 150; ++k) {
+    const double turn = 2 * std::numbers::pi * k / 150;
+    path.push_back(Vec2(6, 6) + (4.4 + 0.8 * std::sin(9 * turn)) * Vec2(std::cos(turn), std::sin(turn)));
+  }
+  const Polygon island = square_with_hole();
+  const SegmentDiagram diagram = segment_diagram(path, island);
+  const CellIntegrals sum = total(diagram);
+  CHECK(sum.area == Approx(area(island)).epsilon(1e-12));
+
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < path.size(); ++i) segments.push_back({path[i], path[(i + 1) % path.size()]});
+  const Lattice lattice = sample(island, 0.01);
+  LatticeOwners owners(lattice);
+  owners.assign(segments, 3.0);
+  std::vector<double> areas(path.size(), 0);
+  double moment = 0;
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    if (lattice.weight[k] <= 0) continue;
+    areas[static_cast<std::size_t>(owners.owner(k))] += lattice.weight[k];
+    moment += lattice.weight[k] * owners.distance2(k);
+  }
+  CHECK(sum.second_moment == Approx(moment).epsilon(1e-3));
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    // Samples of a vertex's cell go to either neighbour: compare with both of its cells as the outer bounds.
+    const double own = diagram.segments[i].area;
+    const double ends = diagram.points[i].area + diagram.points[(i + 1) % path.size()].area;
+    REQUIRE(areas[i] > own - 0.01);
+    REQUIRE(areas[i] < own + ends + 0.01);
+  }
+}
+
+TEST_CASE("collinear and nearly collinear vertices change nothing") {
+  const Ring plain{{2, 2}, {8, 2}, {8, 8}, {2, 8}};
+  const Ring dense{{2, 2}, {4, 2}, {5, 2 + 1e-9}, {6, 2}, {8, 2}, {8, 8}, {5, 8}, {2, 8}};
+  const CellIntegrals a = total(segment_diagram(plain, rectangle(10, 10)));
+  const CellIntegrals b = total(segment_diagram(dense, rectangle(10, 10)));
+  CHECK(b.area == Approx(a.area).epsilon(1e-10));
+  CHECK(b.second_moment == Approx(a.second_moment).epsilon(1e-7));
+}

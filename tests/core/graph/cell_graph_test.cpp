@@ -1,0 +1,170 @@
+#include "core/graph/cell_graph.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <numeric>
+
+#include "core/graph/matching.hpp"
+#include "core/graph/refined_graph.hpp"
+#include "core/graph/seeds.hpp"
+#include "tests/core/support/shapes.hpp"
+
+using namespace unicursal::core;
+using namespace unicursal::core::test;
+
+namespace {
+
+/// Every node has three edges, every face is a disc to the left of its half-edges, and Euler's formula holds.
+void check_cell_graph(const CellGraph& graph, const Polygon& domain) {
+  std::vector<int> degree(graph.node_count(), 0);
+  for (const HalfEdge& half : graph.half_edges) ++degree[static_cast<std::size_t>(half.origin)];
+  for (const int d : degree) REQUIRE(d == 3);
+  const auto nodes = static_cast<long>(graph.node_count()), edges = static_cast<long>(graph.edge_count());
+  const auto faces = static_cast<long>(graph.face_count());
+  // Connected, and the outside of each border ring counts as one face.
+  REQUIRE(nodes - edges + faces + 1 + static_cast<long>(domain.holes.size()) == 2);
+  double covered = 0;
+  for (FaceIndex f = 0; f < static_cast<FaceIndex>(graph.face_count()); ++f) {
+    const double piece = signed_area(graph.outline(f));
+    REQUIRE(piece > 0);
+    covered += piece;
+  }
+  REQUIRE(covered == Approx(area(domain)).epsilon(1e-9));
+  for (std::size_t h = 0; h < graph.half_edges.size(); ++h) {
+    const auto half = static_cast<HalfEdgeIndex>(h);
+    REQUIRE(graph.face(graph.next(half)) == graph.face(half));
+    // No bridge: the two sides of an edge are different cells.
+    REQUIRE(graph.face(half) != graph.face(PlanarGraph::twin(half)));
+  }
+}
+
+std::vector<std::pair<int, int>> edges_of(const PlanarGraph& graph) {
+  std::vector<std::pair<int, int>> edges;
+  for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph.edge_count()); ++e) {
+    edges.emplace_back(graph.origin(2 * e), graph.target(2 * e));
+  }
+  return edges;
+}
+
+}  // namespace
+
+TEST_CASE("seeds lie inside, about d apart, and leave no place without one") {
+  Random random(4);
+  const Polygon domain = square_with_hole();
+  const double d = 0.8;
+  const std::vector<Vec2> seeds = place_seeds(domain, d, random);
+  CHECK(static_cast<double>(seeds.size()) == Approx(area(domain) / (std::sqrt(3) / 2 * d * d)).epsilon(0.15));
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    REQUIRE(contains(domain, seeds[i]));
+    for (std::size_t j = 0; j < i; ++j) REQUIRE((seeds[i] - seeds[j]).norm() > 0.3 * d);
+  }
+  for (int k = 0; k < 3000; ++k) {
+    const Vec2 p(random.uniform(0, 12), random.uniform(0, 12));
+    if (!contains(domain, p)) continue;
+    double nearest = 1e9;
+    for (const Vec2& seed : seeds) nearest = std::min(nearest, (seed - p).norm());
+    REQUIRE(nearest < 1.1 * d);
+  }
+}
+
+TEST_CASE("cell graphs are cubic, bridgeless, connected and made of discs") {
+  Random random(1);
+  const Polygon domain = GENERATE(rectangle(10, 10), square_with_hole(), rectangle(40, 0.9));
+  const double d = GENERATE(0.7, 1.9);
+  const auto graph = make_cell_graph(domain, d, random);
+  REQUIRE(graph);
+  check_cell_graph(*graph, domain);
+}
+
+TEST_CASE("a hole within one cell gets a second seed") {
+  Random random(1);
+  Polygon domain = rectangle(10, 10);
+  for (int k = 0; k < 9; ++k)
+    domain.holes.push_back(circle({2.0 + 3 * (k % 3), 2.0 + 3 * (k / 3)}, 0.05, 12, false));
+  const auto graph = make_cell_graph(domain, 1.5, random);
+  REQUIRE(graph);
+  check_cell_graph(*graph, domain);
+}
+
+TEST_CASE("without that second seed the hole is told, and there is no graph") {
+  Polygon domain = rectangle(10, 10);
+  domain.holes.push_back(circle({2.5, 5}, 0.1, 12, false));
+  std::vector<std::size_t> untouched;
+  CHECK_FALSE(clip_to_domain({{2.3, 5}, {7.5, 5}}, domain, untouched));
+  REQUIRE(untouched == std::vector<std::size_t>{0});
+  CHECK(clip_to_domain({{2.3, 5}, {2.7, 5}, {7.5, 5}}, domain, untouched));
+}
+
+TEST_CASE("a non-convex border that cuts cells in pieces gives one face per piece") {
+  // A comb: seeds only at the back; the teeth belong to cells that reach across the gaps.
+  const Polygon comb{{{0, 0},
+                      {9, 0},
+                      {9, 5},
+                      {7, 5},
+                      {7, 1},
+                      {5.5, 1},
+                      {5.5, 5},
+                      {3.5, 5},
+                      {3.5, 1},
+                      {2, 1},
+                      {2, 5},
+                      {0, 5}},
+                     {}};
+  std::vector<std::size_t> untouched;
+  const auto graph = clip_to_domain({{1, 4.5}, {8, 4.6}}, comb, untouched);
+  REQUIRE(graph);
+  check_cell_graph(*graph, comb);
+}
+
+TEST_CASE("cell graphs have perfect matchings that touch every node once") {
+  Random random(9);
+  const auto graph = make_cell_graph(square_with_hole(), 0.5, random);
+  REQUIRE(graph);
+  const auto edges = edges_of(*graph);
+  const std::vector<bool> matched = perfect_matching(static_cast<int>(graph->node_count()), edges);
+  REQUIRE(matched.size() == edges.size());
+  std::vector<int> touched(graph->node_count(), 0);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (!matched[e]) continue;
+    ++touched[static_cast<std::size_t>(edges[e].first)];
+    ++touched[static_cast<std::size_t>(edges[e].second)];
+  }
+  CHECK(touched == std::vector<int>(graph->node_count(), 1));
+}
+
+TEST_CASE("a graph without perfect matching is told from one with") {
+  CHECK(perfect_matching(2, {{0, 1}, {0, 1}, {0, 1}}).size() == 3);
+  // A bridge of three: three odd blobs hang on one node.
+  CHECK(perfect_matching(4, {{0, 1}, {0, 2}, {0, 3}}).empty());
+}
+
+TEST_CASE("refined cells are triangles around a centre that sees all of the cell") {
+  Random random(2);
+  const auto cells = make_cell_graph(square_with_hole(), 0.9, random);
+  REQUIRE(cells);
+  const RefinedGraph graph = refine(*cells);
+  REQUIRE(graph.node_count() == cells->node_count() + cells->face_count());
+  double covered = 0;
+  for (FaceIndex f = 0; f < static_cast<FaceIndex>(graph.face_count()); ++f) {
+    const HalfEdgeIndex start = graph.face_start[static_cast<std::size_t>(f)];
+    REQUIRE(graph.next(graph.next(graph.next(start))) == start);
+    const double piece = signed_area(graph.outline(f));
+    REQUIRE(piece > 0);
+    covered += piece;
+  }
+  CHECK(covered == Approx(area(square_with_hole())).epsilon(1e-9));
+}
+
+TEST_CASE("random domains: the graph's invariants hold") {
+  Random random(21);
+  for (int k = 0; k < 60; ++k) {
+    const Polygon island = random_island(random, 8, 5);
+    const Region inner = offset(offset({island}, -0.2, 0.01), 0.15, 0.01);
+    if (inner.empty()) continue;
+    if (const auto graph = make_cell_graph(inner.front(), 0.9, random))
+      check_cell_graph(*graph, inner.front());
+    else
+      REQUIRE(area(inner.front()) < 3);
+  }
+}

@@ -1,0 +1,38 @@
+#include "core/model/css_colour.hpp"
+
+#include <catch2/catch.hpp>
+
+using unicursal::core::css_colour;
+
+TEST_CASE("colours in all their spellings are one") {
+  const auto text = GENERATE("#ff8000", "#FF8000", "#ff8000ff", "rgb(255,128,0)", "RGB( 100% , 50.2% , 0% )",
+                             "rgba(255, 128, 0, 0.5)", "rgb(255 128 0 / 50%)", "  #Ff8000\n");
+  CAPTURE(text);
+  CHECK(css_colour(text) == "#ff8000");
+}
+
+TEST_CASE("short hexadecimal colours double each digit") {
+  CHECK(css_colour("#1aF") == "#11aaff");
+  CHECK(css_colour("#1aF8") == "#11aaff");
+}
+
+TEST_CASE("colour names, the last of the list included") {
+  CHECK(css_colour("AliceBlue") == "#f0f8ff");
+  CHECK(css_colour("grey") == css_colour("gray"));
+  CHECK(css_colour("rebeccapurple") == "#663399");
+  CHECK(css_colour("lime") == "#00ff00");
+  CHECK(css_colour("green") == "#008000");
+  CHECK(css_colour("yellowgreen") == "#9acd32");
+}
+
+TEST_CASE("what lets everything through is no fill") {
+  const auto text = GENERATE("transparent", "#12345600", "rgba(1,2,3,0)");
+  CHECK(css_colour(text) == "none");
+}
+
+TEST_CASE("what is no colour is none of ours") {
+  const auto text = GENERATE("", "#", "#12", "#12345", "#gggggg", "bleu", "rgb(1,2)", "rgb(1,2,3",
+                             "rgb(1,2,3)x", "hsl(1,2,3)", "rgb(nan,2,3)", "rgb()");
+  CAPTURE(text);
+  CHECK_FALSE(css_colour(text).has_value());
+}

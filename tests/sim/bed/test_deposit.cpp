@@ -1,0 +1,110 @@
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+
+#include "../bench.hpp"
+#include "../folder.hpp"
+#include "sim/bed/bead_pictures.hpp"
+#include "sim/bed/colours.hpp"
+#include "sim/bed/deposit.hpp"
+#include "sim/nozzle/feed_log.hpp"
+
+using namespace unicursal::sim;
+namespace fs = std::filesystem;
+
+namespace {
+
+Bead bead(Position from, Position to, double volume) {
+  return {from, to, volume, {1}, 0, 1};
+}
+
+}  // namespace
+
+TEST_CASE("a layer's height is the way up from the layer before") {
+  Deposit deposit(nullptr);
+  for (const double z : {0.3, 0.2, 0.4, 0.4, 0.65}) deposit.laid(bead({0, 0, z}, {10, 0, z}, 1));
+  REQUIRE(deposit.layers().size() == 4);
+  const auto height = [&](std::size_t i) { return deposit.layers()[i].height; };
+  CHECK(height(0) == Approx(0.3));
+  CHECK(height(1) == Approx(0.2));  // back down: from the bed
+  CHECK(height(2) == Approx(0.2));
+  CHECK(height(3) == Approx(0.25));
+  CHECK(deposit.layers()[2].beads == 2);
+}
+
+TEST_CASE("travels are counted when they are longer than one and a half bead widths") {
+  Deposit deposit(nullptr);
+  deposit.travelled({0, 0, 5}, {10, 0, 5});
+  deposit.laid(bead({10, 0, 0.2}, {20, 0, 0.2}, 0.8));  // 0.4 mm wide
+  deposit.travelled({20, 0, 0.2}, {20.5, 0, 0.2});
+  deposit.laid(bead({20.5, 0, 0.2}, {30, 0, 0.2}, 0.76));
+  deposit.travelled({30, 0, 0.2}, {30.5, 0, 0.2});
+  deposit.travelled({30.5, 0, 0.2}, {31, 0, 0.2});
+  deposit.laid(bead({31, 0, 0.2}, {40, 0, 0.2}, 0.72));
+  const DepositedLayer& layer = deposit.layers().at(0);
+  CHECK(layer.travels == 2);
+  CHECK(layer.travel == Approx(11));
+  CHECK(layer.length == Approx(28.5));
+  CHECK(deposit.extents().min_x == 10);
+  CHECK(deposit.extents().max_x == 40);
+}
+
+TEST_CASE("what is laid is what was fed") {
+  Deposit deposit(nullptr);
+  Nozzle nozzle(1.75, deposit);
+  FeedLog feed;
+  BothSinks sinks(feed, nozzle);
+  Firmware firmware({}, sinks, [](std::string_view) {});
+  const auto send = [&](const std::string& line) {
+    firmware.receive(line + "\n");
+    while (firmware.blocked()) firmware.advance(*firmware.next_event());
+  };
+  send("M109 S200");
+  send("M83");
+  send("G1 E4 F1800");
+  for (const char* tool : {"T0", "T1"}) {
+    send(tool);
+    for (int i = 0; i < 50; ++i) {
+      send(fmt::format("G1 X{} Y{} E0.0523 F1200", i % 2 == 0 ? 10 : 12, i));
+    }
+  }
+  send("G1 E-4 F1800");
+  firmware.run_down();
+
+  const double area = std::numbers::pi * 1.75 * 1.75 / 4;
+  CHECK(deposit.volume() == Approx(100 * 0.0523 * area).epsilon(1e-3));
+  CHECK(deposit.volume() == Approx(feed.extruded() * area).epsilon(1e-12));
+  CHECK(feed.fed_in_place() == Approx(4));
+  CHECK(feed.retracted() == Approx(4));
+  REQUIRE(feed.mixtures().size() == 2);
+  const auto& steps = firmware.planner().feeder_steps();
+  for (std::size_t f = 0; f < 3; ++f) {
+    CHECK(steps[f] ==
+          feed.mixtures()[0].feeder_steps[f] + feed.mixtures()[1].feeder_steps[f] + feed.idle_steps()[f]);
+  }
+  CHECK(feed.mixtures()[0].feeder_steps[0] == std::llround(feed.mixtures()[0].extruded * 400));
+}
+
+TEST_CASE("filaments mix in linear light") {
+  CHECK(colour_of({1, 0, 0}) != colour_of({0, 1, 0}));
+  const auto blue = colour_of({1, 0, 0}), white = colour_of({0, 0, 1}), half = colour_of({0.5, 0, 0.5});
+  CHECK(half.r > (blue.r + white.r) / 2);  // light adds up; paint values would give the mean
+  CHECK(darker(white, 0.5).g < white.g);
+}
+
+TEST_CASE("each layer gives a picture, all of one size, with the bead where it lies") {
+  const Folder folder;
+  {
+    BeadPictures pictures(folder.path(), 0.1);
+    Deposit deposit(&pictures);
+    deposit.laid(bead({10, 10, 0.2}, {30, 10, 0.2}, 20 * 0.2 * 0.5));
+    deposit.laid(bead({20, 10, 0.4}, {20, 20, 0.4}, 10 * 0.2 * 0.5));
+    pictures.draw(deposit.extents());
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder.path())) files.push_back(entry.path().filename());
+  std::sort(files.begin(), files.end());
+  CHECK(files == std::vector<fs::path>{"deposit-0000.png", "deposit-0001.png"});
+}

@@ -1,0 +1,56 @@
+// A printer on the bench: lines in, replies and executed moves out, with the clock in the test's hand.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "sim/firmware/firmware.hpp"
+
+namespace unicursal::sim {
+
+struct MoveList : MoveSink {
+  std::vector<ExecutedMove> moves;
+  void moved(const ExecutedMove& move) override { moves.push_back(move); }
+};
+
+struct Bench {
+  using Replies = std::vector<std::string>;
+
+  explicit Bench(const Machine& machine = {})
+      : firmware(machine, sink, [this](std::string_view line) { replies.emplace_back(line); }) {}
+
+  /// One line as it is, with its newline; what the printer answered to it without time passing.
+  Replies send(const std::string& line) {
+    replies.clear();
+    firmware.receive(line + "\n");
+    return replies;
+  }
+  /// With number and a right checksum.
+  Replies send(std::int64_t number, const std::string& command) { return send(numbered(number, command)); }
+  /// As a host of a printer that leaps does: waits until the command is done.
+  Replies finish(const std::string& line) {
+    send(line);
+    leap();
+    return replies;
+  }
+  void leap() {
+    while (firmware.blocked()) firmware.advance(*firmware.next_event());
+  }
+  void heat() {
+    finish("M109 S210");
+    replies.clear();
+  }
+
+  static std::string numbered(std::int64_t number, const std::string& command) {
+    const std::string line = fmt::format("N{} {}", number, command);
+    return fmt::format("{}*{}", line, checksum(line));
+  }
+
+  MoveList sink;
+  Replies replies;
+  Firmware firmware;
+};
+
+}  // namespace unicursal::sim

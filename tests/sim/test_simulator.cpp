@@ -1,0 +1,338 @@
+// The simulator in a process of its own, at the other end of a real pseudo-terminal.
+#include <catch2/catch.hpp>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <deque>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bench.hpp"
+#include "folder.hpp"
+#include "sim/simulator.hpp"
+
+using namespace unicursal::sim;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int patience = 20000;  // ms before a test gives up on a silent child
+
+/// A running simulator. Ends it with SIGTERM unless it has ended before.
+class Child {
+ public:
+  explicit Child(const SimulatorOptions& options) {
+    std::array<int, 2> ends;
+    REQUIRE(::pipe(ends.data()) == 0);
+    process_ = ::fork();
+    REQUIRE(process_ >= 0);
+    if (process_ == 0) ::_exit(serve(options, ends[1]));
+    ::close(ends[1]);
+    char byte;
+    while (::read(ends[0], &byte, 1) == 1 && byte != '\n') path_ += byte;
+    ::close(ends[0]);
+  }
+  ~Child() {
+    if (process_ > 0) stop();
+  }
+
+  const std::string& path() const { return path_; }
+  int wait() {
+    int status = 0;
+    ::waitpid(std::exchange(process_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int stop() {
+    ::kill(process_, SIGTERM);
+    return wait();
+  }
+
+ private:
+  static int serve(const SimulatorOptions& options, int told) {
+    try {
+      return run_simulator(options, [told](const std::string& path) {
+        const std::string line = path + "\n";
+        if (::write(told, line.data(), line.size()) < 0) ::_exit(9);
+        ::close(told);
+      });
+    } catch (const std::exception&) {
+      return 7;
+    }
+  }
+
+  pid_t process_ = -1;
+  std::string path_;
+};
+
+/// A host that keeps a window of 127 bytes.
+class Host {
+ public:
+  explicit Host(const std::string& path) : port_(::open(path.c_str(), O_RDWR | O_NOCTTY)) {
+    REQUIRE(port_ >= 0);
+  }
+  ~Host() { hang_up(); }
+
+  void hang_up() {
+    if (port_ >= 0) ::close(std::exchange(port_, -1));
+  }
+  void write(const std::string& text) {
+    REQUIRE(::write(port_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+  }
+  std::string read_line() {
+    for (;;) {
+      const auto end = pending_.find('\n');
+      if (end != std::string::npos) {
+        std::string line = pending_.substr(0, end);
+        pending_.erase(0, end + 1);
+        return line;
+      }
+      pollfd wait{port_, POLLIN, 0};
+      REQUIRE(::poll(&wait, 1, patience) == 1);
+      std::array<char, 4096> bytes;
+      const auto count = ::read(port_, bytes.data(), bytes.size());
+      REQUIRE(count > 0);
+      pending_.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+  }
+  void expect(const std::string& wanted) {
+    while (read_line() != wanted) {
+    }
+  }
+  /// Sends commands[first…last) as lines first + 1, first + 2…, and returns when all have their ok.
+  void stream(const std::vector<std::string>& commands, std::size_t first, std::size_t last) {
+    std::size_t used = 0;
+    std::deque<std::size_t> in_flight;  // bytes of each line
+    while (first < last || !in_flight.empty()) {
+      std::string burst;
+      for (; first < last; ++first) {
+        const std::string line =
+            Bench::numbered(static_cast<std::int64_t>(first) + 1, commands[first]) + "\n";
+        if (used + line.size() > 127) break;
+        used += line.size();
+        in_flight.push_back(line.size());
+        burst += line;
+      }
+      if (!burst.empty()) write(burst);
+      if (!read_line().starts_with("ok")) continue;
+      used -= in_flight.front();
+      in_flight.pop_front();
+    }
+  }
+  void stream(const std::vector<std::string>& commands) { stream(commands, 0, commands.size()); }
+
+ private:
+  int port_;
+  std::string pending_;
+};
+
+json read_json(const fs::path& file) {
+  return json::parse(std::ifstream(file));
+}
+
+std::vector<std::string> small_print() {
+  std::vector<std::string> commands{"M109 S205",  "G28",        "G90",     "M83", "M163 S0 P1",
+                                    "M163 S1 P1", "M163 S2 P2", "M164 S3", "T3",  "G1 Z0.2 F600"};
+  for (int layer = 1; layer <= 2; ++layer) {
+    commands.push_back(fmt::format("G1 Z{:.1f}", 0.2 * layer));
+    commands.push_back("G0 X50 Y50 F6000");
+    for (int i = 0; i < 40; ++i) {
+      const double x = i % 4 < 2 ? 70 : 50;
+      commands.push_back(fmt::format("G1 X{} Y{} E{:.4f} F1500", x, 50 + 0.45 * ((i + 1) / 2),
+                                     i % 2 == 0 ? 0.7484 : 0.0168));
+    }
+  }
+  commands.push_back("M400");
+  return commands;
+}
+
+}  // namespace
+
+TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite of a damaged one") {
+  const Folder folder;
+  SimulatorOptions options;
+  options.once = true;
+  options.report = folder.path() / "report.json";
+  options.pictures = folder.path() / "pictures";
+  const auto commands = small_print();
+  Child child(options);
+  {
+    Host host(child.path());
+    host.expect("start");
+    host.expect("Marlin 2.1.2");
+    host.stream(commands, 0, 36);
+    host.write("N37 G1 X50*1\n");
+    host.expect("Error:checksum mismatch, Last Line: 36");
+    host.expect("Resend: 37");
+    host.expect("ok");
+    host.stream(commands, 36, commands.size());
+  }
+  REQUIRE(child.wait() == 0);
+
+  const json report = read_json(*options.report);
+  CHECK(report["lines"]["accepted"] == commands.size());
+  CHECK(report["lines"]["checksum_errors"] == 1);
+  CHECK(report["lines"]["resends"] == 1);
+  CHECK(report["lines"]["lost_bytes"] == 0);
+  CHECK(report["lines"]["unknown"] == 0);
+  CHECK(report["executed_lines_in_order"] == true);
+  CHECK(report["last_line"] == commands.size());
+  CHECK(report["warnings"].empty());
+  REQUIRE(report["layers"].size() == 2);
+  CHECK(report["layers"][1]["height"].get<double>() == Approx(0.2));
+  CHECK(report["layers"][0]["moves"] == 40);
+  CHECK(report["layers"][1]["travels"] == 1);
+  const double asked = 2 * 20 * (0.7484 + 0.0168);
+  CHECK(report["extruded_mm"].get<double>() == Approx(asked).epsilon(1e-4));
+  REQUIRE(report["mixtures"].size() == 1);
+  CHECK(report["mixtures"][0]["tool"] == 3);
+  CHECK(report["mixtures"][0]["factors"] == json({16384, 16384, 32768}));
+  const double feeder_3 = report["mixtures"][0]["feeder_steps"][2];
+  CHECK(feeder_3 == Approx(asked * 400 / 2).margin(2));
+  CHECK(report["printing_seconds"].get<double>() > 2 * 20 * 20 / 25.0);
+  CHECK(fs::exists(*options.pictures / "deposit-0000.png"));
+  CHECK(fs::exists(*options.pictures / "deposit-0001.png"));
+  CHECK_FALSE(fs::exists(*options.pictures / "deposit-0002.png"));
+}
+
+TEST_CASE("the same bytes give the same report") {
+  const Folder folder;
+  std::array<json, 2> reports;
+  for (std::size_t i = 0; i < 2; ++i) {
+    SimulatorOptions options;
+    options.once = true;
+    options.report = folder.path() / "report.json";
+    Child child(options);
+    Host host(child.path());
+    host.stream(small_print());
+    host.hang_up();
+    REQUIRE(child.wait() == 0);
+    reports[i] = read_json(*options.report);
+  }
+  CHECK(reports[0] == reports[1]);
+}
+
+TEST_CASE("a link to the terminal comes and goes, and never takes the place of a file") {
+  const Folder folder;
+  SimulatorOptions options;
+  options.link = folder.path() / "printer";
+  SECTION("new, and gone at the end") {
+    Child child(options);
+    CHECK(fs::read_symlink(*options.link) == child.path());
+    Host host(*options.link);
+    host.write("M105\n");
+    host.expect("ok T:25.00 /0.00 B:25.00 /0.00 @:0 B@:0");
+    CHECK(child.stop() == 0);
+    CHECK_FALSE(fs::exists(fs::symlink_status(*options.link)));
+  }
+  SECTION("a link that leads nowhere is replaced") {
+    fs::create_symlink(folder.path() / "gone", *options.link);
+    Child child(options);
+    CHECK(fs::read_symlink(*options.link) == child.path());
+  }
+  SECTION("a file stays") {
+    std::ofstream(*options.link) << "precious";
+    Child child(options);
+    CHECK(child.wait() == 7);
+    CHECK(fs::file_size(*options.link) == 8);
+  }
+  SECTION("a link to a file stays") {
+    std::ofstream(folder.path() / "precious") << "precious";
+    fs::create_symlink(folder.path() / "precious", *options.link);
+    Child child(options);
+    CHECK(child.wait() == 7);
+    CHECK(fs::read_symlink(*options.link) == folder.path() / "precious");
+  }
+}
+
+TEST_CASE("a printer outlives its hosts: the next one finds it as the last one left it") {
+  const Folder folder;
+  SimulatorOptions options;
+  options.report = folder.path() / "report.json";
+  Child child(options);
+  for (int visit = 1; visit <= 5; ++visit) {
+    Host host(child.path());
+    host.write(fmt::format("G1 X{}\nM114\n", 10 * visit));
+    std::string position;
+    while (!position.starts_with("X:")) position = host.read_line();
+    CHECK(position.starts_with(fmt::format("X:{}.00", 10 * visit)));
+  }
+  CHECK(child.stop() == 0);
+  CHECK(read_json(*options.report)["position"]["x"] == 50.0);
+}
+
+TEST_CASE("a host that leaves at once still counts, and its words are heard") {
+  const Folder folder;
+  SimulatorOptions options;
+  options.once = true;
+  options.report = folder.path() / "report.json";
+  Child child(options);
+  {
+    Host host(child.path());
+    host.write("G91\nG1 X7\n");
+  }
+  CHECK(child.wait() == 0);
+  CHECK(read_json(*options.report)["position"]["x"] == 7.0);
+}
+
+TEST_CASE("a stopped simulator writes its report") {
+  const Folder folder;
+  SimulatorOptions options;
+  options.report = folder.path() / "report.json";
+  Child child(options);
+  Host host(child.path());
+  host.write("M112\n");
+  host.expect("//action:poweroff");
+  CHECK(child.stop() == 0);
+  CHECK(read_json(*options.report)["killed"] == true);
+}
+
+TEST_CASE("options that make no printer are refused") {
+  SimulatorOptions options;
+  SECTION("no feeder") {
+    options.feeders = 0;
+  }
+  SECTION("a bed without height") {
+    options.bed = {200, 200};
+  }
+  SECTION("a speed of nothing") {
+    options.max_speed[1] = 0;
+  }
+  SECTION("pixels of nothing") {
+    options.pixel = 0;
+  }
+  CHECK_THROWS_AS(run_simulator(options, [](const std::string&) {}), std::invalid_argument);
+}
+
+TEST_CASE("a report that cannot be written is told before anything starts") {
+  SimulatorOptions options;
+  options.report = "/nonexistent/folder/report.json";
+  Child child(options);
+  CHECK(child.path().empty());
+  CHECK(child.wait() == 7);
+}
+
+TEST_CASE("with a paced clock replies come at their printer time") {
+  SimulatorOptions options;
+  options.speed = 50;
+  Child child(options);
+  Host host(child.path());
+  host.expect("start");
+  const auto start = std::chrono::steady_clock::now();
+  host.write("G4 S19\nM105\n");
+  int busy = 0;
+  std::string line;
+  while (!line.starts_with("ok T:")) {
+    line = host.read_line();
+    busy += line == "echo:busy: processing";
+  }
+  // Never early; how late depends on the computer.
+  CHECK(std::chrono::steady_clock::now() - start >= std::chrono::milliseconds(19000 / 50));
+  CHECK(busy == 9);
+}
