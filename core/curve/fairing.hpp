@@ -19,10 +19,10 @@ struct FairingOptions {
   double target_length = 0;      ///< mm
   bool hold_length = true;       ///< false: length follows from the price of coverage, as thin islands need
   double bead_width = 0;         ///< mm, area ÷ target length: the unit of every length below
-  int coarse_iterations = 60;    ///< on the curve as it comes
-  int fine_iterations = 40;      ///< on the subdivided curve
-  double samples_per_width = 5;  ///< lattice squares per bead width
-  double smoothness = 0.15;      ///< γ_Lap in units of area ÷ vertices (31)
+  int coarse_iterations = 50;    ///< on the curve as it comes
+  int fine_iterations = 30;      ///< on the subdivided curve
+  double samples_per_width = 6;  ///< lattice squares per bead width
+  double smoothness = 0.12;      ///< γ_Lap in units of area ÷ vertices (31)
 };
 
 struct FairingResult {

@@ -1,0 +1,134 @@
+#include "core/field/direction_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/field/direction_field.hpp"
+#include "core/model/file_bytes.hpp"
+#include "core/model/wording.hpp"
+
+namespace unicursal::core {
+namespace {
+
+constexpr std::size_t most_samples = 4'000'000;
+constexpr std::uintmax_t largest_file = 512u << 20;  ///< bytes
+constexpr double farthest_sample = 1e5;              ///< mm
+constexpr double largest_angle = 1e6;                ///< degrees; beyond, the fraction of a turn gets lost
+constexpr const char* remedy = "write x,y,angle or x,y,z,angle on each line, in mm and degrees";
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::optional<double> number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || word.empty()) return std::nullopt;
+  // Out of range is infinite here, and refused with the other numbers that are too large.
+  if (error == std::errc::result_out_of_range) return HUGE_VAL;
+  return error == std::errc{} ? std::optional(value) : std::nullopt;
+}
+
+class DirectionReader {
+ public:
+  DirectionReader(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {
+    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // byte order mark
+  }
+
+  std::vector<DirectionSample> read() {
+    std::vector<DirectionSample> samples;
+    bool first = true;
+    while (!rest_.empty()) {
+      const std::string_view line = next_line();
+      if (line.empty() || line.starts_with('#')) continue;
+      if (!(first && is_header(line))) samples.push_back(sample(line));
+      if (samples.size() > most_samples) refuse("there are more than 4 million samples", "thin them out");
+      first = false;
+    }
+    if (samples.empty()) throw ModelError(file_, "", "there is no direction in it", remedy);
+    return samples;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& problem, const char* what_to_do = remedy) const {
+    throw ModelError(file_, fmt::format("line {}", line_), problem, what_to_do);
+  }
+
+  std::string_view next_line() {
+    const std::string_view line = rest_.substr(0, rest_.find('\n'));
+    rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+    ++line_;
+    return trimmed(line);
+  }
+
+  /// A header names its columns: not one of them is a number.
+  static bool is_header(std::string_view line) {
+    for (;;) {
+      const auto comma = line.find(',');
+      if (number(trimmed(line.substr(0, comma)))) return false;
+      if (comma == std::string_view::npos) return true;
+      line.remove_prefix(comma + 1);
+    }
+  }
+
+  DirectionSample sample(std::string_view line) {
+    std::array<double, 4> values{};
+    std::size_t count = 0;
+    for (bool more = true; more; ++count) {
+      const auto comma = line.find(',');
+      const std::string_view word = trimmed(line.substr(0, comma));
+      if (count == values.size()) refuse("there are more than four numbers");
+      const std::optional<double> value = number(word);
+      if (!value) refuse(word.empty() ? "a number is missing" : in_quotes(word) + " is no number");
+      values[count] = *value;
+      more = comma != std::string_view::npos;
+      if (more) line.remove_prefix(comma + 1);
+    }
+    if (count < 3) refuse(count == 1 ? "there is only one number" : "there are only two numbers");
+    if (columns_ != 0 && count != columns_) {
+      refuse(fmt::format("there are {} numbers, but {} in the lines before", count, columns_));
+    }
+    columns_ = count;
+    return checked(values[0], values[1], count == 4 ? values[2] : 0, values[count - 1]);
+  }
+
+  DirectionSample checked(double x, double y, double z, double degrees) const {
+    // Written so that what is not a number fails too.
+    for (const double coordinate : {x, y, z}) {
+      if (!(std::abs(coordinate) <= farthest_sample)) {
+        refuse(fmt::format("a coordinate of {} mm is out of reach", coordinate));
+      }
+    }
+    if (!(std::abs(degrees) <= largest_angle)) refuse(fmt::format("{} is no angle in degrees", degrees));
+    return {{x, y}, z, doubled(std::numbers::pi / 180 * std::fmod(degrees, 180.0))};
+  }
+
+  std::string_view rest_;
+  std::string file_;
+  std::size_t line_ = 0, columns_ = 0;
+};
+
+}  // namespace
+
+std::vector<DirectionSample> read_directions(const std::filesystem::path& file) {
+  std::error_code no_size;  // file_bytes tells what is wrong with files that have none
+  if (const auto size = std::filesystem::file_size(file, no_size); !no_size && size > largest_file) {
+    throw ModelError(file.string(), "", "it is larger than 512 MiB", "thin out the samples");
+  }
+  const std::string bytes = file_bytes(file);
+  return DirectionReader(bytes, file.string()).read();
+}
+
+}  // namespace unicursal::core

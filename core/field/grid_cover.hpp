@@ -1,0 +1,15 @@
+// How much of every grid square a region covers, exactly. The transpose of the field's integral under an
+// edge: there an edge gathers from the squares below it, here it gives to them.
+#pragma once
+
+#include <vector>
+
+#include "core/field/grid.hpp"
+#include "core/geometry/region.hpp"
+
+namespace unicursal::core {
+
+/// Per square the covered share of its area, 0…1. Parts of the region beyond the grid are left out.
+std::vector<double> cover(const Grid& grid, const Region& region);
+
+}  // namespace unicursal::core

@@ -1,0 +1,56 @@
+// Does the library's perfect matching grow linearly on cell graphs? LEMON's blossom method (used) beside
+// Boost's, on squares of more and more cells.
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/max_cardinality_matching.hpp>
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "core/graph/cell_graph.hpp"
+#include "core/graph/matching.hpp"
+
+namespace {
+
+using namespace unicursal::core;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::size_t boost_matching(int nodes, const std::vector<std::pair<int, int>>& edges) {
+  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
+  Graph graph(edges.begin(), edges.end(), static_cast<std::size_t>(nodes));
+  std::vector<boost::graph_traits<Graph>::vertex_descriptor> mate(static_cast<std::size_t>(nodes));
+  boost::edmonds_maximum_cardinality_matching(graph, &mate[0]);
+  return boost::matching_size(graph, &mate[0]);
+}
+
+}  // namespace
+
+int main() {
+  for (const double side : {30.0, 60.0, 120.0, 240.0, 480.0}) {
+    Random random(1);
+    const auto graph = make_cell_graph({{{0, 0}, {side, 0}, {side, side}, {0, side}}, {}}, 1.0, random);
+    if (!graph) continue;
+    std::vector<std::pair<int, int>> edges;
+    for (int e = 0; e < static_cast<int>(graph->edge_count()); ++e) {
+      edges.emplace_back(graph->origin(2 * e), graph->target(2 * e));
+    }
+    const int nodes = static_cast<int>(graph->node_count());
+    auto start = std::chrono::steady_clock::now();
+    const bool perfect = !perfect_matching(nodes, edges).empty();
+    const double lemon = seconds_since(start);
+    fmt::print("nodes {:7}  LEMON {:.4f} s ({:.2f} µs a node, {})", nodes, lemon, 1e6 * lemon / nodes,
+               perfect ? "perfect" : "NOT PERFECT");
+    if (nodes < 40000) {
+      start = std::chrono::steady_clock::now();
+      const std::size_t matched = boost_matching(nodes, edges);
+      const double boost = seconds_since(start);
+      fmt::print("  Boost {:.4f} s ({:.2f} µs a node, {} of {})", boost, 1e6 * boost / nodes, 2 * matched, nodes);
+    }
+    fmt::print("\n");
+  }
+}
