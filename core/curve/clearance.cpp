@@ -42,11 +42,12 @@ bool meet(const Segment& s, const Segment& t) {
 
 }  // namespace
 
-std::vector<double> freedom(const Curve& curve, const BorderIndex& border, double reach) {
+std::vector<double> freedom(const Curve& curve, const BorderIndex& border, double reach,
+                            const Margins& margins) {
   const std::vector<Segment> segments = segments_of(curve);
   const SegmentGrid grid(segments, reach);
   std::vector<double> clear(segments.size(), reach);
-  const Vec2 margin(reach, reach);
+  const Vec2 margin = (reach + margins.self) * Vec2(1, 1);
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& s = segments[i];
     const Vec2 low = s.a.cwiseMin(s.b), high = s.a.cwiseMax(s.b);
@@ -55,12 +56,13 @@ std::vector<double> freedom(const Curve& curve, const BorderIndex& border, doubl
       const Segment& t = segments[j];
       const double limit = std::max(clear[i], clear[j]);
       const Vec2 gap = (low - t.a.cwiseMax(t.b)).cwiseMax(t.a.cwiseMin(t.b) - high);
-      if (gap.maxCoeff() >= limit) return;
-      const double d = distance_between_segments(s.a, s.b, t.a, t.b);
+      if (gap.maxCoeff() >= limit + margins.self) return;
+      const double d = std::max(distance_between_segments(s.a, s.b, t.a, t.b) - margins.self, 0.0);
       clear[i] = std::min(clear[i], d);
       clear[j] = std::min(clear[j], d);
     });
-    clear[i] = border.distance(s.a, s.b, clear[i]);
+    const double to_border = border.distance(s.a, s.b, clear[i] + margins.border) - margins.border;
+    clear[i] = std::clamp(to_border, 0.0, clear[i]);
   }
   std::vector<double> result(curve.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {

@@ -13,8 +13,16 @@
 
 namespace unicursal::core {
 
+/// Distances, mm, at which a curve counts as touching. Without them a curve that is pressed against something
+/// would halve its distance at every step until rounding puts it across.
+struct Margins {
+  double border = 0;
+  double self = 0;
+};
+
 /// Per vertex, at most 0.45 · `reach`. Precondition: at least 5 vertices, curve simple and inside.
-std::vector<double> freedom(const Curve& curve, const BorderIndex& border, double reach);
+std::vector<double> freedom(const Curve& curve, const BorderIndex& border, double reach,
+                            const Margins& margins = {});
 
 /// Pairs of segments without a common vertex that meet, decided with exact signs; 0 for a simple curve.
 std::size_t self_intersections(const Curve& curve);

@@ -22,6 +22,8 @@ constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
 constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
 constexpr double freedom_in_widths = 1.0;  ///< clearances are not looked for beyond it
+constexpr double border_margin = 0.02;     ///< bead widths; a curve this close counts as touching
+constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
 
@@ -99,7 +101,8 @@ class Leash {
 
   void fasten(const Curve& curve) {
     anchor_ = curve.vertices;
-    free_ = freedom(curve, border_, freedom_in_widths * width_);
+    free_ =
+        freedom(curve, border_, freedom_in_widths * width_, {border_margin * width_, self_margin * width_});
   }
 
   /// Shortens a move to what is free; returns the largest used share of freedom.

@@ -6,13 +6,15 @@
 
 #include "core/field/direction_field.hpp"
 #include "core/field/grid_cover.hpp"
+#include "core/field/grid_distance.hpp"
 
 namespace unicursal::core {
 namespace {
 
-constexpr double vanishing = 1e-9;  ///< ‖V‖ below which rounding decides the direction
-constexpr int cycles = 4;           ///< V-cycles per level; each leaves less than a fifth of the error
-constexpr int sweeps = 2;           ///< before and after each visit of the coarser level
+constexpr double least_distance = 0.5;  ///< squares; the border runs through a fixed square, not its centre
+constexpr double vanishing = 1e-9;      ///< ‖V‖ below which rounding decides the direction
+constexpr int cycles = 4;               ///< V-cycles per level; see the test against plain relaxation
+constexpr int sweeps = 2;               ///< before and after each visit of the coarser level
 constexpr int coarsest_sweeps = 16;
 
 enum class Square : std::uint8_t { outside, fixed, free };
@@ -21,18 +23,28 @@ enum class Square : std::uint8_t { outside, fixed, free };
 struct Level {
   std::size_t columns = 0, rows = 0;
   std::vector<Square> kind;
-  std::vector<Vec2> value;   ///< the solution, or the correction to the finer level's
-  std::vector<Vec2> source;  ///< right-hand side: sum of four neighbours − 4 · value = source
+  std::vector<double> stiffness;  ///< s; that between two neighbours is the mean of theirs
+  std::vector<Vec2> value;        ///< the solution, or the correction to the finer level's
+  std::vector<Vec2> source;  ///< right-hand side: sum over neighbours of 2 s · (theirs − own) = source
 
   Level(std::size_t columns_, std::size_t rows_)
       : columns(columns_),
         rows(rows_),
         kind(columns_ * rows_, Square::outside),
+        stiffness(columns_ * rows_, 0),
         value(columns_ * rows_, Vec2(0, 0)),
         source(columns_ * rows_, Vec2(0, 0)) {}
 
-  Vec2 neighbours(std::size_t k) const {
-    return value[k - 1] + value[k + 1] + value[k - rows] + value[k + rows];
+  struct Pull {
+    Vec2 sum{0, 0};    ///< of stiffness times neighbour
+    double total = 0;  ///< stiffness
+  };
+  Pull pull(std::size_t k) const {
+    const double own = stiffness[k];
+    const double below = own + stiffness[k - 1], above = own + stiffness[k + 1];
+    const double left = own + stiffness[k - rows], right = own + stiffness[k + rows];
+    return {below * value[k - 1] + above * value[k + 1] + left * value[k - rows] + right * value[k + rows],
+            below + above + left + right};
   }
 
   template <typename Visit>
@@ -47,8 +59,10 @@ struct Level {
 
   void relax(int times) {
     for (int k = 0; k < 2 * times; ++k) {
-      each_free(static_cast<std::size_t>(k % 2), 2,
-                [&](std::size_t i) { value[i] = (neighbours(i) - source[i]) / 4; });
+      each_free(static_cast<std::size_t>(k % 2), 2, [&](std::size_t i) {
+        const Pull p = pull(i);
+        value[i] = (p.sum - source[i]) / p.total;
+      });
     }
   }
 };
@@ -79,6 +93,16 @@ struct BorderMeans {
   }
 };
 
+/// The weight 1/d² of the header.
+void set_stiffness(Level& level, const Grid& grid) {
+  std::vector<std::uint8_t> fixed(grid.size());
+  for (std::size_t k = 0; k < grid.size(); ++k) fixed[k] = level.kind[k] == Square::fixed;
+  const std::vector<double> distance = distance_to_marked(grid, fixed);
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    level.stiffness[k] = std::pow(std::max(distance[k], least_distance), -2);
+  }
+}
+
 Level finest_level(const Grid& grid, const Region& region) {
   const BorderMeans border(grid, region);
   const std::vector<double> inside = cover(grid, region);
@@ -91,6 +115,7 @@ Level finest_level(const Grid& grid, const Region& region) {
       level.kind[k] = Square::free;
     }
   }
+  set_stiffness(level, grid);
   return level;
 }
 
@@ -104,6 +129,7 @@ Level coarser(const Level& fine) {
       coarse.kind[to] = coarse.kind[to] == Square::fixed || fine.kind[from] == Square::outside
                             ? coarse.kind[to]
                             : fine.kind[from];
+      coarse.stiffness[to] += fine.stiffness[from] / 4;
       if (fine.kind[from] != Square::fixed) continue;
       coarse.value[to] += fine.value[from];
       ++fixed[to];
@@ -153,9 +179,10 @@ class Multigrid {
     std::fill(coarse.value.begin(), coarse.value.end(), Vec2(0, 0));
     std::fill(coarse.source.begin(), coarse.source.end(), Vec2(0, 0));
     fine.each_free(0, 1, [&](std::size_t i) {
+      const Level::Pull p = fine.pull(i);
       // The sum over four squares: their mean, times 4 for a difference quotient over twice the pitch.
       coarse.source[i / fine.rows / 2 * coarse.rows + i % fine.rows / 2] +=
-          fine.source[i] - (fine.neighbours(i) - 4 * fine.value[i]);
+          fine.source[i] - (p.sum - p.total * fine.value[i]);
     });
   }
 

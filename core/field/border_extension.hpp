@@ -2,9 +2,14 @@
 // 11, 25: "parallel" and "orthogonal" to the boundary; how to extend is left open there).
 //
 // V (see direction_field.hpp) of the border's tangents is held fixed in every square that the border meets,
-// as the mean weighted by length, so that a jagged border counts by its general run. Inside, V solves
-// Laplace's equation: the smoothest extension in the sense of least ∫ ‖∇V‖². It is then scaled to unit
-// length. Where V vanishes (singular points, and lines where two borders cancel each other) it stays zero.
+// as the mean weighted by length, so that a jagged border counts by its general run. Inside, V is the field
+// of least ∫ ‖∇V‖² / d², d the distance to the border: to turn near the border costs more than in the middle,
+// so strands keep parallel to the border for most of the way and the turning happens between opposite
+// borders. Next to a straight border each point sees the border's V averaged with d³/r⁴ over the distance r
+// (L. Caffarelli and L. Silvestre 2007, with their exponent −2); without the weight (Laplace's equation,
+// d/r²) every far corner would be felt, and with V of the nearest border point alone the field would tear
+// along the medial axis. V is then scaled to unit length; where it vanishes (singular points, and lines where
+// two borders cancel each other) it stays zero.
 //
 // Solver: full multigrid on the grid, red-black Gauss–Seidel, bilinear prolongation; time is linear in the
 // number of squares, and the result depends on nothing but the arguments.

@@ -35,6 +35,7 @@ constexpr double far_samples = 8;  ///< lattice squares per bead width when look
 struct Draft {
   Curve curve;
   std::size_t split_and_reconnect = 0, doubled_edges = 0;
+  bool faired = false;
 };
 
 double half_width(const PlanOptions& options) {
@@ -59,7 +60,7 @@ std::optional<Draft> cycle_draft(const FillableRegion& part, double d, double w,
     const Stopwatch watch(plan.cycle);
     const std::optional<Cycle> cycle = first_cycle(*graph);
     if (cycle && sound(cycle->curve, part.region, w)) {
-      return Draft{cycle->curve, cycle->split_and_reconnect, cycle->doubled_edges};
+      return Draft{cycle->curve, cycle->split_and_reconnect, cycle->doubled_edges, false};
     }
   }
   return std::nullopt;
@@ -72,7 +73,7 @@ std::optional<Draft> first_draft(const FillableRegion& part, const PlanOptions& 
     if (std::optional<Draft> draft = cycle_draft(part, d, w, random, plan)) return draft;
   }
   const Stopwatch watch(plan.graph);
-  if (std::optional<Curve> curve = contour(part.region, w)) return Draft{std::move(*curve), 0, 0};
+  if (std::optional<Curve> curve = contour(part.region, w)) return Draft{std::move(*curve), 0, 0, false};
   return std::nullopt;
 }
 
@@ -85,7 +86,8 @@ void fair_draft(Draft& draft, const FillableRegion& part, double w, IslandPlan& 
   fairing.hold_length = !part.thin;
   const Curve smooth = smoothed(draft.curve, part.region, w);
   Curve result = fair(smooth, part.region, fairing).curve;
-  if (sound(result, part.region, w)) draft.curve = std::move(result);
+  draft.faired = sound(result, part.region, w);
+  if (draft.faired) draft.curve = std::move(result);
 }
 
 /// Segment areas: each segment's own cell and half of the cells of its ends (§3.4).
@@ -141,6 +143,7 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, const Island
   planned.zone_crossings = material_changes(planned.path, zones);
   planned.self_intersections = self_intersections(draft.curve);
   planned.outside_segments = segments_outside(draft.curve, BorderIndex(part.region, w));
+  planned.faired = draft.faired;
   planned.split_and_reconnect = draft.split_and_reconnect;
   planned.doubled_edges = draft.doubled_edges;
   look_for_holes(draft.curve, part.region, w, planned, plan.far_area);

@@ -38,6 +38,7 @@ struct PlannedCurve {
   BeadPath path;
   double area = 0;  ///< mm², of the piece of the island that this curve fills
   CurveObjectives objectives;
+  bool faired = false;             ///< the geometric optimiser's result was sound and is what `path` is
   std::size_t zone_crossings = 0;      ///< times the curve passes between material zones
   std::size_t self_intersections = 0;  ///< pairs of non-neighbouring segments that meet; 0 by construction
   std::size_t outside_segments = 0;  ///< segments that touch or cross the island's border; 0 by construction

@@ -38,8 +38,10 @@ Mixture Mixture::with_floor(double floor) const {
     changed = false;
     double free_share = 1, free_weight = 0;
     for (std::size_t i = 0; i < max_feeders; ++i) {
-      if (fixed[i]) free_share -= floor;
-      else free_weight += shares_[i];
+      if (fixed[i])
+        free_share -= floor;
+      else
+        free_weight += shares_[i];
     }
     for (std::size_t i = 0; i < max_feeders; ++i) {
       if (fixed[i]) continue;

@@ -1,6 +1,12 @@
 // From bead paths to firmware lines: a streaming transducer, layer in, chunk out.
 // Deposition follows the paper's §4.2: the feeders turn at a constant rate and each segment's speed is
 // flow ÷ (bead width × layer height). E is mm of filament, all feeders together (firmware-facts).
+//
+// Every layer is printed path by path, the nearest first, each from its vertex nearest to the nozzle all
+// the way round and back to it (no look-ahead over layers yet). A move of more than 1.5 bead widths to
+// such a start is a travel: the filament is drawn back by a virtual tool of equal shares, so that every
+// inlet gives way alike; when materials take all virtual tools, by the tool in use.
+// The filament is drawn back at the end of a print and taken to be so at its beginning.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +16,7 @@
 
 #include "core/curve/bead_path.hpp"
 #include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/toolpath/chunk.hpp"
 #include "firmware_gcode/toolpath/printer.hpp"
 
 namespace unicursal::gcode {
@@ -21,11 +28,11 @@ struct Material {
 };
 
 struct PrintSettings {
-  double flow = 2;                  ///< mm³/s
-  std::vector<Material> materials;  ///< at most 16, one virtual tool each
+  double flow = 2;                          ///< mm³/s
+  std::vector<Material> materials;          ///< at most 16, one virtual tool each
   std::vector<std::size_t> zone_materials;  ///< Bead::zone → index into materials
-  core::Box extent;                 ///< of the part on the bed, so that the prime line keeps clear of it
-  double part_height = 0;           ///< mm, for the park position
+  core::Box extent;        ///< of the part on the bed, so that the prime line keeps clear of it
+  double part_height = 0;  ///< mm, for the park position
 };
 
 /// One layer ready to print: bead paths in the bed's frame.
@@ -36,28 +43,25 @@ struct PlacedLayer {
   std::vector<core::BeadPath> paths;
 };
 
-/// Finished text with what it means. Lines carry no number, no checksum and no newline; comment lines
-/// (starting with ';') belong in files only and must not be sent over the wire.
-struct Chunk {
-  std::vector<std::string> lines;
-  double seconds = 0;  ///< estimated printing time
-  double volume = 0;   ///< mm³ extruded
-};
-
-/// Preconditions: settings name at least one material, every zone has one. Throws core::DataError for a
-/// position outside the bed, more than 16 materials, or a value the printer cannot do; nothing of a
-/// refused chunk is returned.
+/// Throws core::DataError for a printer or settings that make no sense, a position outside the bed, more
+/// than 16 materials, a zone without material, or a flow above the printer's; nothing of a refused chunk is
+/// returned, and the encoder is as it was before.
 class Encoder {
  public:
   Encoder(const Printer& printer, const PrintSettings& settings);
   ~Encoder();
   Encoder(Encoder&&) noexcept;
 
-  Chunk start();                          ///< heat, home, tools, prime
-  Chunk layer(const PlacedLayer& layer);  ///< in order, from the first
-  Chunk finish();                         ///< park, heaters off
+  /// Heat, home, the user's own lines, modes, tools. Once, before any layer.
+  Chunk start();
+  /// In order, from the first, which begins with the prime line: only here are its height and first
+  /// mixture known.
+  Chunk layer(const PlacedLayer& layer);
+  /// Park, heaters and motors off. At any time after start().
+  Chunk finish();
 
-  /// The mixture that the firmware will really use for a material: floored and quantised.
+  /// The mixture that the firmware will really use for a material: floor share applied, then rounded to
+  /// what is written (four decimals for Marlin) and normalised.
   Mixture intended(std::size_t material) const;
 
  private:

@@ -1,1 +1,182 @@
-// Replaced by the first real file.
+#include "host/cli/cli.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/version.hpp"
+
+namespace unicursal::host {
+namespace {
+
+/// CLI11 keeps options in plain values; empty means that the option was not given.
+std::optional<std::filesystem::path> path_if(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
+}
+
+struct JobArguments {
+  std::string job, profile, layers, report, pictures;
+
+  void declare(CLI::App& app) {
+    app.add_option("job", job, "the job, a TOML file")->required()->type_name("JOB");
+    app.add_option("--profile", profile, "printer profile instead of the one that the job names")
+        ->type_name("FILE");
+    app.add_option("--layers", layers, "only these, first:last counted from 0, lowered onto the bed")
+        ->type_name("A:B");
+    app.add_option("--report", report, "write what was measured as JSON")->type_name("FILE");
+    app.add_option("--picture", pictures, "write a picture of each layer into this folder")->type_name("DIR");
+  }
+
+  JobOptions options() const {
+    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}};
+    if (!layers.empty()) result.layers = parse_layers(layers);
+    return result;
+  }
+};
+
+/// The options of every command, and which one was given.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.set_version_flag("--version", std::string("unicursal ") + version);
+    app_.require_subcommand(1);
+    app_.footer("unicursal COMMAND --help tells more about a command, with an example.");
+    declare_dry_run();
+    declare_plan();
+    declare_print();
+    declare_curve();
+    declare_simulate();
+    command("ports", "list the serial ports that a printer may hang on", "unicursal ports");
+  }
+
+  Exit run(int argc, char** argv) {
+    app_.parse(argc, argv);
+    const std::string name = app_.get_subcommands().front()->get_name();
+    if (name == "dry-run") return dry_run({job_.options(), speed_});
+    if (name == "plan") return plan({job_.options(), output_});
+    if (name == "print") return print({job_.options(), port_.empty() ? std::nullopt : std::optional(port_)});
+    if (name == "curve") return curve(curve_command());
+    if (name == "simulate") return simulate(simulate_command());
+    return ports();
+  }
+
+  int exit(const CLI::ParseError& error) {
+    // --help and --version come as errors of code 0.
+    if (error.get_exit_code() == 0) return app_.exit(error);
+    fmt::print(stderr, "unicursal: {}; unicursal --help lists what there is\n", error.what());
+    return static_cast<int>(Exit::bad_input);
+  }
+
+ private:
+  CLI::App* command(const std::string& name, const std::string& what, const std::string& example) {
+    CLI::App* app = app_.add_subcommand(name, what);
+    app->footer("Example:\n  " + example);
+    return app;
+  }
+
+  void declare_dry_run() {
+    CLI::App* app = command("dry-run", "print on a simulated printer, and see what would come out",
+                            "unicursal dry-run heart.toml --report heart.json --picture pictures");
+    job_.declare(*app);
+    app->add_option("--speed", speed_, "printer seconds per second; 0, the default, is as fast as possible")
+        ->check(CLI::NonNegativeNumber);
+  }
+
+  void declare_plan() {
+    CLI::App* app = command("plan", "write a G-code file", "unicursal plan heart.toml -o heart.gcode");
+    job_.declare(*app);
+    app->add_option("-o,--output", output_, "the G-code file")->required()->type_name("FILE");
+  }
+
+  void declare_print() {
+    CLI::App* app =
+        command("print", "stream to a printer over USB", "unicursal print heart.toml --port /dev/ttyUSB0");
+    job_.declare(*app);
+    app->add_option("--port", port_, "serial port, or auto; the default is the profile's")->type_name("PORT");
+  }
+
+  void declare_curve() {
+    CLI::App* app =
+        command("curve", "write the curve of one island",
+                "unicursal curve heart.toml --layer 0 -o heart.txt -o heart.svg --report heart.json");
+    app->add_option("job", job_.job, "the job, a TOML file")->required()->type_name("JOB");
+    app->add_option("--profile", job_.profile, "printer profile instead of the one that the job names")
+        ->type_name("FILE");
+    app->add_option("--layer", layer_, "counted from 0")->type_name("N");
+    app->add_option("--island", island_, "counted from 0, the largest")->type_name("K");
+    app->add_option("-o,--output", outputs_, ".txt (x y width), .svg or .png; may be given several times")
+        ->type_name("FILE");
+    app->add_option("--report", job_.report, "write what was measured as JSON")->type_name("FILE");
+  }
+
+  void declare_simulate() {
+    CLI::App* app = command("simulate", "be a simulated printer on a pseudo-terminal, and print its path",
+                            "unicursal simulate --link /tmp/printer --speed 10 --report seen.json");
+    app->add_option("--link", link_, "symbolic link to make to the pseudo-terminal")->type_name("PATH");
+    app->add_option("--speed", speed_, "printer seconds per second; 0, the default, is as fast as lines come")
+        ->check(CLI::NonNegativeNumber);
+    app->add_option("--profile", job_.profile, "bed, filament and accelerations of this printer")
+        ->type_name("FILE");
+    app->add_option("--report", job_.report, "write what was seen as JSON at the end")->type_name("FILE");
+    app->add_option("--picture", job_.pictures, "write a picture of each layer's deposit into this folder")
+        ->type_name("DIR");
+    app->add_option("--pixel", pixel_, "mm per picture pixel")
+        ->check(CLI::Range(0.01, 10.0))
+        ->type_name("MM");
+    app->add_flag("--once", once_, "end when a host has used the line and closed it");
+  }
+
+  CurveCommand curve_command() const {
+    CurveCommand command{job_.job, path_if(job_.profile), layer_, island_, {}, path_if(job_.report)};
+    command.outputs.assign(outputs_.begin(), outputs_.end());
+    return command;
+  }
+
+  SimulateCommand simulate_command() const {
+    SimulateCommand command;
+    command.profile = path_if(job_.profile);
+    command.options.link = path_if(link_);
+    command.options.speed = speed_;
+    command.options.report = path_if(job_.report);
+    command.options.pictures = path_if(job_.pictures);
+    command.options.pixel = pixel_;
+    command.options.once = once_;
+    return command;
+  }
+
+  CLI::App app_{"One closed space-filling curve per layer, for printers with three feeders and one nozzle.",
+                "unicursal"};
+  JobArguments job_;
+  double speed_ = 0;
+  double pixel_ = 0.1;
+  std::size_t layer_ = 0, island_ = 0;
+  std::string output_, port_, link_;
+  std::vector<std::string> outputs_;
+  bool once_ = false;
+};
+
+int report(const std::exception& error, Exit code) {
+  fmt::print(stderr, "unicursal: {}\n", error.what());
+  return static_cast<int>(code);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  try {
+    CommandLine line;
+    try {
+      return static_cast<int>(line.run(argc, argv));
+    } catch (const CLI::ParseError& error) {
+      return line.exit(error);
+    }
+  } catch (const core::DataError& error) {
+    return report(error, Exit::bad_input);
+  } catch (const std::exception& error) {
+    return report(error, Exit::failed);
+  }
+}
+
+}  // namespace unicursal::host

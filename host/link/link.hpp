@@ -1,5 +1,6 @@
 // The serial line to a printer: numbered, checksummed lines out, replies in, every line executed once.
-// One Asio loop runs it; nothing here blocks. Firmware behaviour: docs "firmware facts" as quoted in link.cpp.
+// One Asio loop runs it on one thread; nothing here blocks. How firmwares behave, and what follows from that,
+// stands in link.cpp.
 //
 //   asio::io_context loop;
 //   Link link(loop.get_executor(), open_port("/dev/ttyUSB0", 250000), LinkOptions{});
@@ -10,7 +11,6 @@
 
 #include <asio/any_io_executor.hpp>
 #include <asio/awaitable.hpp>
-#include <asio/posix/stream_descriptor.hpp>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -34,28 +34,32 @@ struct PortInfo {
   std::string path;         ///< /dev/ttyUSB0
   std::string stable_path;  ///< /dev/serial/by-id/…, empty when there is none
   std::string description;
+  bool usb = false;
 };
 
+/// Those on USB first.
 std::vector<PortInfo> list_ports();
 
 /// Opens exclusively, raw, 8N1, HUPCL cleared; libserialport for real ports, directly for pseudo-terminals.
-/// "auto" takes the only serial port there is. Returns the file descriptor, owned by the caller.
-/// Throws LinkError.
+/// "auto" takes the only port on USB, or else the only port, that there is. Returns the file descriptor,
+/// owned by the caller. Throws LinkError.
 int open_port(const std::string& path, unsigned baud);
 
 struct LinkOptions {
-  std::size_t receive_buffer = 127;              ///< bytes that may be in flight (firmware's buffer less one)
-  std::chrono::milliseconds boot{3000};          ///< how long to wait for a boot message before asking
-  std::chrono::milliseconds silence{15000};      ///< no line at all from the printer: probe, then give up
-  std::chrono::milliseconds no_ok{600000};       ///< lines but no ok (heating, homing)
+  std::size_t receive_buffer = 127;          ///< bytes that may be in flight (firmware's buffer less one)
+  std::chrono::milliseconds boot{3000};      ///< how long to wait for a boot message before asking
+  std::chrono::milliseconds silence{15000};  ///< neither ok nor busy from the printer: probe, then give up
+  std::chrono::milliseconds no_ok{600000};   ///< signs of life but no ok (heating, homing): give up
+  std::chrono::milliseconds quiet{40};       ///< without a byte: all that the printer had to say is said
 };
 
 struct LinkStatistics {
-  std::uint64_t lines = 0;     ///< lines handed to send()
-  std::uint64_t sent = 0;      ///< lines written, repeats included
-  std::uint64_t acknowledged = 0;
-  std::uint64_t resends = 0;   ///< resend requests obeyed
-  std::uint64_t bytes = 0;     ///< written
+  std::uint64_t lines = 0;         ///< lines handed to send()
+  std::uint64_t sent = 0;          ///< numbered lines written, repeats and the link's own queries included
+  std::uint64_t acknowledged = 0;  ///< of `lines`, those that the printer has taken
+  std::uint64_t resends = 0;       ///< resend requests obeyed
+  std::uint64_t probes = 0;        ///< times the link had to ask where the printer is
+  std::uint64_t bytes = 0;         ///< written
 };
 
 class Link {
@@ -65,20 +69,21 @@ class Link {
   ~Link();
   Link(Link&&) noexcept;
 
-  /// Waits for the firmware, asks M115, resets the line number. Throws LinkError.
+  /// Waits for the firmware, asks M115, resets the line number. Throws LinkError. Once.
   asio::awaitable<void> connect();
   /// Queues lines in order (no number, no checksum, no newline, no comments; at most 80 bytes) and returns
-  /// when the last one has been written. Throws LinkError; std::invalid_argument for a malformed line.
+  /// when the last one has been written. Throws LinkError; std::invalid_argument for a malformed line, in
+  /// which case none of the lines is sent. Precondition: connected.
   asio::awaitable<void> send(std::vector<std::string> lines);
-  /// Returns when every line has been acknowledged.
+  /// Returns when every line has been acknowledged. Throws LinkError. Precondition: connected.
   asio::awaitable<void> drain();
-  /// Out of band, now: M112 past every queue. Best effort.
+  /// Out of band, now: M112 past every queue. Best effort; every later send() and drain() throws.
   void emergency_stop() noexcept;
 
   const LinkStatistics& statistics() const;
-  /// What M115 answered (FIRMWARE_NAME…), empty before connect().
+  /// What M115 answered (FIRMWARE_NAME…), empty before connect() and for firmwares that do not tell.
   const std::string& firmware() const;
-  /// Called with every line from the printer that is not a plain ok; keep it short.
+  /// Called with every line from the printer that is not a plain ok, made safe to show; keep it short.
   void on_message(std::function<void(const std::string&)> listener);
 
  private:

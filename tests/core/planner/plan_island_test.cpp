@@ -24,6 +24,7 @@ void check_plan(const IslandPlan& plan, const Polygon& outline, double w) {
   for (const PlannedCurve& curve : plan.curves) {
     REQUIRE(curve.self_intersections == 0);
     REQUIRE(curve.outside_segments == 0);
+    REQUIRE(curve.faired);
     REQUIRE(curve.path.size() >= 5);
     REQUIRE(curve.path.total_area() == Approx(curve.area).epsilon(1e-9));
     for (const Bead& bead : curve.path.beads) {

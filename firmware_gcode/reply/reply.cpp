@@ -1,0 +1,147 @@
+#include "firmware_gcode/reply/reply.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace unicursal::gcode {
+namespace {
+
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Removes `prefix` from the front if it is there.
+bool take(std::string_view& text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return false;
+  text.remove_prefix(prefix.size());
+  return true;
+}
+
+/// A number at the front, spaces before it allowed; none when there is no number or it is too large.
+std::optional<std::uint32_t> take_count(std::string_view& text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return value;
+}
+
+std::optional<double> take_degrees(std::string_view& text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return value;
+}
+
+/// What stands behind `label`, where the label begins a word; empty when it does not occur.
+std::string_view after_label(std::string_view text, std::string_view label) {
+  for (auto at = text.find(label); at != std::string_view::npos; at = text.find(label, at + 1)) {
+    if (at == 0 || is_space(text[at - 1])) return text.substr(at + label.size());
+  }
+  return {};
+}
+
+Temperatures temperatures_in(std::string_view text) {
+  Temperatures result;
+  const auto read = [&](std::string_view label, auto& now, auto& target) {
+    std::string_view rest = after_label(text, label);
+    now = take_degrees(rest);
+    if (now && take(rest = trimmed(rest), "/")) target = take_degrees(rest);
+  };
+  read("T:", result.nozzle, result.nozzle_target);
+  read("B:", result.bed, result.bed_target);
+  return result;
+}
+
+reply::Ok ok_with(std::string_view rest) {
+  reply::Ok ok;
+  ok.temperatures = temperatures_in(rest);
+  if (!ok.temperatures.empty()) return ok;
+  for (rest = trimmed(rest); !rest.empty(); rest = trimmed(rest)) {
+    if (take(rest, "N"))
+      ok.line = take_count(rest);
+    else if (take(rest, "P"))
+      ok.planner_places = take_count(rest);
+    else if (take(rest, "B"))
+      ok.command_places = take_count(rest);
+    else if (const auto number = take_count(rest))
+      ok.line = number;
+    else
+      break;
+  }
+  return ok;
+}
+
+reply::Error error_with(std::string_view rest) {
+  reply::Error error{std::string(trimmed(rest)), std::nullopt, false};
+  if (std::string_view tail = after_label(rest, "Last Line:"); !tail.empty()) {
+    error.last_line = take_count(tail);
+  }
+  error.halted =
+      rest.find("halted") != std::string_view::npos || rest.find("kill()") != std::string_view::npos;
+  return error;
+}
+
+bool ends_word(std::string_view rest) {
+  return rest.empty() || is_space(rest.front());
+}
+
+}  // namespace
+
+Reply parse_reply(std::string_view line) {
+  const std::string_view whole = trimmed(line);
+  std::string_view rest = whole;
+  if (rest.empty()) return reply::Blank{};
+  if (take(rest, "ok") && ends_word(rest)) return ok_with(rest);
+  rest = whole;
+  if (take(rest, "Resend:") || take(rest, "rs ")) {
+    if (const auto number = take_count(rest); number && ends_word(rest)) return reply::Resend{*number};
+    return reply::Unknown{std::string(whole)};
+  }
+  if (take(rest, "Error:")) return error_with(rest);
+  if (take(rest, "fatal:")) return reply::Error{std::string(trimmed(rest)), std::nullopt, true};
+  if (whole == "start") return reply::Start{};
+  if (whole == "wait") return reply::Wait{};
+  if (take(rest, "skip") && ends_word(rest)) return reply::Skip{take_count(rest)};
+  rest = whole;
+  if (take(rest, "echo:busy:") || take(rest, "busy:")) return reply::Busy{};
+  if (take(rest, "echo:")) {
+    rest = trimmed(rest);
+    return reply::Echo{std::string(rest), rest.starts_with("Unknown command")};
+  }
+  if (take(rest, "//action:")) return reply::Action{std::string(trimmed(rest))};
+  if (rest.starts_with("FIRMWARE_NAME:")) return reply::Firmware{std::string(rest)};
+  if (rest.starts_with("X:") && !after_label(rest, "Y:").empty()) return reply::Position{std::string(rest)};
+  if (rest.starts_with("T:") || rest.starts_with("B:")) {
+    if (const Temperatures t = temperatures_in(rest); !t.empty()) {
+      return reply::TemperatureReport{t, !after_label(rest, "W:").empty()};
+    }
+  }
+  return reply::Unknown{std::string(whole)};
+}
+
+std::string printable(std::string_view text, std::size_t limit) {
+  std::string result;
+  for (char c : text.substr(0, limit)) {
+    if (c >= ' ' && c <= '~')
+      result += c;
+    else
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  }
+  if (text.size() > limit) result += "...";
+  return result;
+}
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,138 @@
+#include "firmware_gcode/toolpath/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace unicursal::gcode {
+namespace {
+
+constexpr double outside_tolerance = 5e-4;   ///< mm; half of what a written position can tell
+constexpr std::size_t longest_command = 80;  ///< characters; leaves room for line number and checksum
+
+void require(bool good, const std::string& place, const std::string& problem, const std::string& remedy) {
+  if (!good) throw core::DataError("", place, problem, remedy);
+}
+
+/// False for NaN, too.
+bool within(double value, double low, double high) {
+  return value >= low && value <= high;
+}
+
+void require_positive(double value, const std::string& key) {
+  require(std::isfinite(value) && value > 0, key, "is not a number above zero", "give a positive number");
+}
+
+std::string where(const PlacedLayer& layer, const core::Vec2& point) {
+  return fmt::format("layer {} at x {:.3f}, y {:.3f} mm", layer.index, point.x(), point.y());
+}
+
+void check_bead(const core::Bead& bead, const PlacedLayer& layer, const PrintSettings& settings,
+                const Printer& printer) {
+  const core::Vec2& p = bead.position;
+  require(p.allFinite() && std::isfinite(bead.area) && bead.area >= 0, where(layer, p),
+          "a position or an area is not a finite number", "this is a defect of the curve; please report it");
+  require(within(p.x(), -outside_tolerance, printer.bed[0] + outside_tolerance) &&
+              within(p.y(), -outside_tolerance, printer.bed[1] + outside_tolerance),
+          where(layer, p),
+          fmt::format("the nozzle would leave the bed of {:g} x {:g} mm", printer.bed[0], printer.bed[1]),
+          "place the part inside the bed or make it smaller");
+  require(bead.zone < settings.zone_materials.size(), where(layer, p),
+          fmt::format("zone {} has no mixture", bead.zone), "give every zone a mixture");
+}
+
+std::string stripped(std::string line) {
+  line = line.substr(0, line.find(';'));
+  const auto first = line.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return {};
+  return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+}
+
+bool printable(std::string_view text) {
+  for (char c : text) {
+    if (c < ' ' || c > '~') return false;
+  }
+  return true;
+}
+
+bool breaks_numbering(const std::string& line) {
+  return line.find('*') != std::string::npos || line.front() == 'N' || line.front() == 'n' ||
+         line.starts_with("M110");
+}
+
+}  // namespace
+
+void check_printer(const Printer& printer) {
+  for (double side : printer.bed) require_positive(side, "bed");
+  for (double speed : printer.max_speed) require_positive(speed, "max_speed");
+  for (double acceleration : printer.max_acceleration) require_positive(acceleration, "max_acceleration");
+  require_positive(printer.nozzle, "nozzle");
+  require_positive(printer.filament_diameter, "filament_diameter");
+  require_positive(printer.max_flow, "max_flow");
+  require_positive(printer.retraction_speed, "retraction_speed");
+  require(within(printer.retraction_length, 0, 100), "retraction_length", "is not between 0 and 100 mm",
+          "give the millimetres of filament that stop the nozzle from oozing, for example 4");
+  require(within(printer.nozzle_temperature, 0, 500), "nozzle temperature", "is not between 0 and 500 °C",
+          "give the temperature that the filament's maker states");
+  require(within(printer.bed_temperature, 0, 200), "bed temperature", "is not between 0 and 200 °C",
+          "give 0 for an unheated bed");
+  require(within(printer.floor_share, 0, 1.0 / max_feeders), "floor_share", "is not between 0 and one third",
+          "give a small share such as 0.02");
+  require(printer.feeders == max_feeders, "feeders",
+          fmt::format("{} feeders cannot be mixed", printer.feeders), "use a printer with three feeders");
+}
+
+void check_settings(const PrintSettings& settings, const Printer& printer, const Dialect& dialect) {
+  const std::size_t tools = dialect.limits().virtual_tools;
+  require(!settings.materials.empty(), "mixture", "there is none", "define at least one mixture");
+  require(settings.materials.size() <= tools, "mixture",
+          fmt::format("{} mixtures do not fit into the firmware's {} virtual tools",
+                      settings.materials.size(), tools),
+          fmt::format("use at most {} mixtures", tools));
+  for (std::size_t material : settings.zone_materials) {
+    require(material < settings.materials.size(), "zone", "a zone's mixture does not exist",
+            "name a mixture that the job defines");
+  }
+  require_positive(settings.flow, "flow");
+  require(settings.flow <= printer.max_flow, "flow",
+          fmt::format("{:g} mm³/s is more than the printer's max_flow of {:g} mm³/s", settings.flow,
+                      printer.max_flow),
+          "lower the job's flow");
+}
+
+void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const Printer& printer) {
+  const std::string place = fmt::format("layer {}", layer.index);
+  require(std::isfinite(layer.height) && layer.height > 0, place, "its height is not above zero",
+          "give a positive layer height");
+  require(layer.top > 0 && layer.top <= printer.bed[2] + outside_tolerance, place,
+          fmt::format("its top at {:g} mm is not within the printer's height of {:g} mm", layer.top,
+                      printer.bed[2]),
+          "make the part lower");
+  for (const core::BeadPath& path : layer.paths) {
+    for (const core::Bead& bead : path.beads) check_bead(bead, layer, settings, printer);
+  }
+}
+
+std::vector<std::string> user_commands(const std::string& text, const std::string& key) {
+  std::vector<std::string> commands;
+  std::istringstream stream(text);
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    line = stripped(line);
+    if (line.empty()) continue;
+    const std::string place = fmt::format("{}, line {}", key, number);
+    require(printable(line), place, "a character is not plain ASCII", "write G-code with ASCII letters only");
+    require(line.size() <= longest_command, place,
+            fmt::format("the command is longer than {} characters", longest_command), "shorten it");
+    require(!breaks_numbering(line), place, "line numbers and checksums are the program's own business",
+            "remove the N, the * or the M110");
+    commands.push_back(line);
+  }
+  return commands;
+}
+
+}  // namespace unicursal::gcode

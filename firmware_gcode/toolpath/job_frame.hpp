@@ -1,0 +1,29 @@
+// What stands around the layers: the lines that make a printer ready and those that leave it safe.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/toolpath/encoder.hpp"
+
+namespace unicursal::gcode {
+
+/// A comment that cannot become a command: control characters and bytes beyond ASCII are replaced.
+std::string comment(const std::string& text);
+
+/// For people and viewers: who made the file, for which printer, with which mixtures.
+std::vector<std::string> job_comments(const Printer& printer, const PrintSettings& settings);
+
+/// Inactivity shutdown, factors reset, heat, home. Bed and nozzle warm up while the axes home, which saves
+/// a minute; the waits come after, so that whatever has oozed meanwhile stays away from the bed.
+std::vector<std::string> warm_up(const Printer& printer);
+
+/// Millimetres, absolute positions, relative extrusion. M83 follows G90, which would override it. After the
+/// user's own lines, so that these cannot change a mode under the toolpath.
+std::vector<std::string> modes();
+
+/// Heaters, fan and motors off, the user's last lines in between.
+std::vector<std::string> shut_down(const std::vector<std::string>& user_lines);
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,59 @@
+// Writes moves as lines and remembers what a firmware remembers: position, feed rate, tool.
+// Lengths in mm, speeds in mm/s, volumes in mm³; E is mm of filament, all feeders together, relative (M83).
+//
+// Resolution: positions are written in 0.001 mm, E in 0.00001 mm. What rounding takes from one bead's E is
+// added to the next, so that their sum is exact. A feed rate is written only when it differs by more than
+// 1 % from the one in force. Coordinates that do not change are left out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/geometry/polygon.hpp"
+#include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/toolpath/chunk.hpp"
+#include "firmware_gcode/toolpath/printer.hpp"
+
+namespace unicursal::gcode {
+
+class MoveWriter {
+ public:
+  /// Both must outlive the writer. Preconditions: a checked printer (checks.hpp).
+  MoveWriter(const Printer& printer, const Dialect& dialect);
+
+  /// Where the nozzle is; none until the first travel.
+  std::optional<core::Vec2> position() const;
+  /// Height of the nozzle; none until the first rise.
+  std::optional<double> height() const;
+
+  void select_tool(Chunk& chunk, std::size_t tool);
+  void rise(Chunk& chunk, double z);
+  void travel(Chunk& chunk, const core::Vec2& to);
+  /// Extrudes `volume` on the way. Precondition: a position is known.
+  void bead(Chunk& chunk, const core::Vec2& to, double volume, double speed);
+  /// Moves filament alone, `length` mm forwards or (negative) back.
+  void filament(Chunk& chunk, double length, double speed);
+
+ private:
+  struct GridPoint {
+    std::int64_t x = 0, y = 0;  ///< in 0.001 mm
+  };
+
+  static GridPoint on_grid(const core::Vec2& point);
+  void append_position(std::string& line, const GridPoint& to);
+  void append_feed(std::string& line, double speed);
+  void straight_bead(Chunk& chunk, const core::Vec2& to, double volume, double speed);
+
+  const Printer& printer_;
+  const Dialect& dialect_;
+  double filament_area_;  ///< mm²
+  std::optional<GridPoint> position_;
+  std::optional<std::int64_t> height_;  ///< in 0.001 mm
+  std::optional<std::size_t> tool_;
+  double feed_ = 0;  ///< mm/min in force, 0: unknown
+  double owed_ = 0;  ///< mm of filament that rounding has kept back
+};
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,65 @@
+// What each command of the command line does, once its options are known. They throw; cli.cpp turns that
+// into sentences and exit codes.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/cli/cli.hpp"
+#include "host/engine/prepared_job.hpp"
+#include "host/engine/run.hpp"
+#include "sim/simulator.hpp"
+
+namespace unicursal::host {
+
+/// What the commands that take a whole job share.
+struct JobOptions {
+  std::filesystem::path job;
+  std::optional<std::filesystem::path> profile;
+  std::optional<LayerRange> layers;
+  RunOutputs outputs;
+};
+
+struct PlanCommand {
+  JobOptions job;
+  std::filesystem::path output;  ///< G-code
+};
+
+struct DryRunCommand {
+  JobOptions job;
+  double speed = 0;  ///< printer seconds per real second; 0: as fast as possible
+};
+
+struct PrintCommand {
+  JobOptions job;
+  std::optional<std::string> port;  ///< absent: the profile's
+};
+
+struct CurveCommand {
+  std::filesystem::path job;
+  std::optional<std::filesystem::path> profile;
+  std::size_t layer = 0;
+  std::size_t island = 0;  ///< 0: the largest
+  std::vector<std::filesystem::path> outputs;
+  std::optional<std::filesystem::path> report;
+};
+
+struct SimulateCommand {
+  sim::SimulatorOptions options;
+  std::optional<std::filesystem::path> profile;  ///< bed, filament, accelerations and feeders of this printer
+};
+
+Exit plan(const PlanCommand& command);
+Exit dry_run(const DryRunCommand& command);
+Exit print(const PrintCommand& command);
+Exit curve(const CurveCommand& command);
+Exit simulate(SimulateCommand command);
+Exit ports();
+
+/// "3", "3:7", ":7" or "3:"; both ends included. Throws core::DataError.
+LayerRange parse_layers(const std::string& text);
+
+}  // namespace unicursal::host

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/words.hpp"
+#include "host/engine/simulator_process.hpp"
+#include "host/report/summary.hpp"
+
+namespace unicursal::host {
+namespace {
+
+std::vector<std::string> simulator_arguments(const DryRunCommand& command, const PreparedJob& prepared) {
+  std::vector<std::string> arguments = {"--profile", prepared.job.profile.file.string(), "--speed",
+                                        fmt::format("{}", command.speed)};
+  if (command.job.outputs.pictures) {
+    arguments.insert(arguments.end(), {"--picture", command.job.outputs.pictures->string()});
+  }
+  return arguments;
+}
+
+Comparison compare_with(const nlohmann::json& simulator, const Run& run, const StreamResult& result) {
+  Fed fed;
+  fed.filament_diameter = run.prepared().job.profile.printer.filament_diameter;
+  fed.feeder_steps_per_mm = sim::SimulatorOptions{}.feeder_steps_per_mm;
+  fed.lines_sent = result.statistics.lines;
+  return compare(run.totals().materials, simulator, fed);
+}
+
+}  // namespace
+
+Exit dry_run(const DryRunCommand& command) {
+  const PreparedJob prepared = prepare_and_warn(command.job);
+  Run run(prepared, "dry-run", command.job.outputs);
+  SimulatorProcess simulator(simulator_arguments(command, prepared));
+  Lookahead lookahead(*prepared.part, lookahead_options(prepared));
+  const int port = open_port(simulator.port(), prepared.job.profile.baud);
+  const StreamResult result = stream_with_progress(port, lookahead, run, "dry run");
+  const nlohmann::json seen = simulator.finish();
+  const Comparison comparison = compare_with(seen, run, result);
+  run.write_report({{"ended", result.stopped ? "stopped" : "completed"},
+                    {"planning", planning_json(lookahead)},
+                    {"link", link_json(result)},
+                    {"simulator", seen},
+                    {"comparison", to_json(comparison)}});
+  fmt::print("{}", summary(run.totals(), lookahead.effort()));
+  if (result.stopped) {
+    fmt::print("stopped by the user\n");
+    return Exit::failed;
+  }
+  fmt::print("{}", summary(comparison));
+  return comparison.lines_whole() ? Exit::success : Exit::failed;
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,126 @@
+#include "host/engine/prepared_job.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace unicursal::host {
+namespace {
+
+/// How far rounding may carry a part over the bed's edge that fills it exactly, mm.
+constexpr double fit_tolerance = 1e-6;
+
+core::Vec2 offset_on_bed(const Placement& place, const core::Box& extent, const gcode::Printer& printer) {
+  switch (place.kind) {
+    case Placement::Kind::as_is:
+      return {0, 0};
+    case Placement::Kind::at:
+      return place.point - extent.center();
+    case Placement::Kind::center:
+      break;
+  }
+  return core::Vec2(printer.bed[0], printer.bed[1]) / 2 - extent.center();
+}
+
+[[noreturn]] void refuse(const Job& job, const std::string& place, const std::string& problem,
+                         const std::string& remedy) {
+  throw JobError(job.file.string(), place, problem, remedy);
+}
+
+void check_fit(const PreparedJob& prepared, double height) {
+  const Job& job = prepared.job;
+  const auto& bed = job.profile.printer.bed;
+  const core::Box extent = prepared.part->extent();
+  const core::Vec2 size = extent.size();
+  if (!size.allFinite() || size.x() > bed[0] + fit_tolerance || size.y() > bed[1] + fit_tolerance ||
+      height > bed[2] + fit_tolerance) {
+    refuse(job, "part",
+           fmt::format("is {:.1f} x {:.1f} x {:.1f} mm, larger than the bed of {:.1f} x {:.1f} x {:.1f} mm",
+                       size.x(), size.y(), height, bed[0], bed[1], bed[2]),
+           "scale or cut the part, or choose a larger printer with --profile");
+  }
+  const core::Vec2 low = extent.min + prepared.offset, high = extent.max + prepared.offset;
+  if (low.minCoeff() < -fit_tolerance || high.x() > bed[0] + fit_tolerance ||
+      high.y() > bed[1] + fit_tolerance) {
+    refuse(job, "part.place",
+           fmt::format("puts the part at x {:.1f} to {:.1f}, y {:.1f} to {:.1f} mm, beyond the bed of {:.1f} "
+                       "x {:.1f} mm",
+                       low.x(), high.x(), low.y(), high.y(), bed[0], bed[1]),
+           "write place = \"center\", or a point further inside");
+  }
+}
+
+void choose_layers(PreparedJob& prepared, const std::optional<LayerRange>& layers) {
+  const std::size_t all = prepared.part->layer_count();
+  if (all == 0) refuse(prepared.job, "part", "has no layer", "check height and layer_height");
+  const LayerRange range = layers.value_or(LayerRange{0, all - 1});
+  if (range.first > range.last || range.first >= all) {
+    throw core::DataError("", "--layers",
+                          fmt::format("{}:{} names no layer of this part", range.first, range.last),
+                          fmt::format("its layers are 0:{}", all - 1));
+  }
+  prepared.first = range.first;
+  prepared.count = std::min(range.last, all - 1) - range.first + 1;
+  prepared.lowered = static_cast<double>(prepared.first) * prepared.job.source.layer_height;
+}
+
+core::BeadPath on_bed(core::BeadPath path, const core::Vec2& offset) {
+  for (core::Bead& bead : path.beads) bead.position += offset;
+  return path;
+}
+
+void thin(core::BeadPath& path, double width) {
+  for (std::size_t i = 0; i < path.size(); ++i) path.beads[i].area = width * path.length(i);
+}
+
+}  // namespace
+
+PreparedJob prepare(Job job, const std::optional<LayerRange>& layers) {
+  PreparedJob prepared;
+  prepared.job = std::move(job);
+  prepared.part = core::read_part(prepared.job.source);
+  choose_layers(prepared, layers);
+  prepared.offset = offset_on_bed(prepared.job.place, prepared.part->extent(), prepared.job.profile.printer);
+  const double height = layers ? static_cast<double>(prepared.count) * prepared.job.source.layer_height
+                               : prepared.part->height();
+  check_fit(prepared, height);
+  return prepared;
+}
+
+gcode::PrintSettings print_settings(const PreparedJob& prepared) {
+  gcode::PrintSettings settings;
+  settings.flow = prepared.job.flow;
+  settings.materials = prepared.job.materials;
+  for (const core::Zone& zone : prepared.part->zones()) settings.zone_materials.push_back(zone.material);
+  settings.extent = prepared.part->extent();
+  settings.extent.min += prepared.offset;
+  settings.extent.max += prepared.offset;
+  settings.part_height = prepared.part->height() - prepared.lowered;
+  return settings;
+}
+
+LookaheadOptions lookahead_options(const PreparedJob& prepared) {
+  LookaheadOptions options;
+  options.plan.bead_width = prepared.job.bead_width;
+  options.plan.seed_distance = prepared.job.seed_distance;
+  options.plan.min_bead_width = prepared.job.profile.printer.bead_width_range[0];
+  options.first = prepared.first;
+  options.count = prepared.count;
+  return options;
+}
+
+gcode::PlacedLayer placed(const PreparedJob& prepared, const PlannedLayer& planned) {
+  gcode::PlacedLayer layer;
+  layer.index = planned.layer.index - prepared.first;
+  layer.top = planned.layer.top - prepared.lowered;
+  layer.height = planned.layer.height;
+  for (const core::IslandPlan& plan : planned.plans) {
+    for (const core::PlannedCurve& curve : plan.curves) {
+      layer.paths.push_back(on_bed(curve.path, prepared.offset));
+      if (prepared.job.line_width) thin(layer.paths.back(), *prepared.job.line_width);
+    }
+  }
+  return layer;
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,42 @@
+// A job that has been checked as far as that is possible without a printer: settings read, part read,
+// placed on the bed and found to fit. mm.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "core/model/part.hpp"
+#include "firmware_gcode/toolpath/encoder.hpp"
+#include "host/job/job.hpp"
+#include "host/lookahead/lookahead.hpp"
+
+namespace unicursal::host {
+
+/// Layers from `first` to `last`, both included, counted from 0.
+struct LayerRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+struct PreparedJob {
+  Job job;
+  std::unique_ptr<const core::Part> part;
+  core::Vec2 offset{0, 0};  ///< from the part's frame to the bed's
+  std::size_t first = 0;    ///< index of the first layer to print
+  std::size_t count = 0;    ///< how many
+  double lowered = 0;       ///< by how much the layers come down, so that the first one lies on the bed
+};
+
+/// `layers`: print these only; all when absent. Throws core::DataError, among others when the part does not
+/// fit on the bed or the range names no layer.
+PreparedJob prepare(Job job, const std::optional<LayerRange>& layers = {});
+
+gcode::PrintSettings print_settings(const PreparedJob& prepared);
+LookaheadOptions lookahead_options(const PreparedJob& prepared);
+
+/// The layer's bead paths on the bed, thinned to the job's line width if it has one.
+gcode::PlacedLayer placed(const PreparedJob& prepared, const PlannedLayer& planned);
+
+}  // namespace unicursal::host

@@ -1,0 +1,70 @@
+// One print from its planned layers to its chunks, with the books kept: figures, volumes, report, pictures.
+// The same for a file, a simulator and a printer. mm³, s.
+//
+//   Run run(prepared, "plan", {.report = "out.json"});   // throws before anything is sent
+//   use(run.start());
+//   while (auto layer = lookahead.wait()) use(run.layer(std::move(*layer)));
+//   use(run.finish());
+//   run.write_report(extra);
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_gcode/toolpath/encoder.hpp"
+#include "host/engine/prepared_job.hpp"
+#include "host/report/layer_log.hpp"
+#include "host/report/picture_writer.hpp"
+#include "host/report/totals.hpp"
+
+namespace unicursal::host {
+
+struct RunOutputs {
+  std::optional<std::filesystem::path> report;    ///< JSON
+  std::optional<std::filesystem::path> pictures;  ///< folder
+};
+
+class Run {
+ public:
+  /// Encodes the start and opens the outputs. `prepared` must outlive this object. Throws core::DataError.
+  Run(const PreparedJob& prepared, std::string command, const RunOutputs& outputs);
+
+  const gcode::Chunk& start() const { return start_; }
+  gcode::Chunk layer(PlannedLayer planned);
+  gcode::Chunk finish();
+
+  const PreparedJob& prepared() const { return prepared_; }
+  const RunTotals& totals() const { return totals_; }
+  /// What was odd: of the job, the part and the run, one sentence each.
+  std::vector<std::string> warnings() const;
+
+  /// Waits for the last picture and writes the report, with the keys of `extra` added, if one was asked for.
+  void write_report(const nlohmann::json& extra);
+
+ private:
+  void count(const gcode::Chunk& chunk);
+
+  const PreparedJob& prepared_;
+  std::string command_;
+  std::vector<std::size_t> zone_materials_;
+  gcode::Encoder encoder_;
+  gcode::Chunk start_;
+  RunTotals totals_;
+  std::unique_ptr<LayerLog> log_;
+  std::unique_ptr<PictureWriter> pictures_;
+};
+
+/// Whether the firmware gets this line; comments and blank lines belong in files.
+bool is_command(const std::string& line);
+
+/// The greatest memory that this process has held, MiB; 0 where the system does not tell.
+double peak_memory();
+
+/// How the curves of this job are drawn.
+CurveStyle curve_style(const PreparedJob& prepared);
+
+}  // namespace unicursal::host

@@ -1,0 +1,184 @@
+#include "host/job/job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "host/job/settings_file.hpp"
+#include "host/job/zones.hpp"
+
+namespace unicursal::host {
+namespace {
+
+/// Spacing of the curve ÷ distance of the seeds, between the jobs' isotropic and anisotropic figures.
+constexpr double bead_width_per_seed_distance = 0.58;
+
+/// Far above anything printable, so that a slip of the keyboard is told here and not by a full memory.
+constexpr double greatest_length = 10000;  // mm
+
+const char* const place_remedy = "write \"center\", \"as-is\" or [x, y] in mm on the bed";
+
+std::vector<std::filesystem::path> read_files(const Section& part) {
+  const char* const remedy = "name an SVG or STL file, or several STL files in a list";
+  const toml::node* node = part.find("file");
+  if (!node) part.fail("file", "is missing", remedy);
+  const std::filesystem::path folder = part.file().parent_path();
+  if (!node->is_array()) return {folder / part.text("file", remedy)};
+  std::vector<std::filesystem::path> files;
+  for (const toml::node& item : *node->as_array()) {
+    const std::optional<std::string> name = item.value<std::string>();
+    if (!name) part.fail("file", "holds something that is no text", remedy);
+    files.push_back(folder / *name);
+  }
+  if (files.empty()) part.fail("file", "is an empty list", remedy);
+  return files;
+}
+
+bool is_drawing(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".svg";
+}
+
+core::PartSource read_source(const Section& part) {
+  core::PartSource source;
+  source.files = read_files(part);
+  const Range length{0, greatest_length, true, "mm"};
+  source.layer_height = part.number("layer_height", length, "write for example layer_height = 0.2");
+  const bool drawing = std::any_of(source.files.begin(), source.files.end(), is_drawing);
+  if (drawing || part.has("height")) {
+    source.height =
+        part.number("height", length, "write how high the drawing is to become, for example height = 1.0");
+  }
+  return source;
+}
+
+Placement read_place(const Section& part) {
+  Placement place;
+  const toml::node* node = part.find("place");
+  if (!node) return place;
+  if (!node->is_array()) {
+    if (!node->is_string()) part.fail("place", "is neither a name nor a point", place_remedy);
+    const std::string name = part.choice("place", *node, {"center", "as-is"});
+    place.kind = name == "center" ? Placement::Kind::center : Placement::Kind::as_is;
+    return place;
+  }
+  const auto point =
+      part.numbers_or<2>("place", {0, 0}, between(-greatest_length, greatest_length, "mm"), place_remedy);
+  place.kind = Placement::Kind::at;
+  place.point = {point[0], point[1]};
+  return place;
+}
+
+std::optional<double> read_deposit(const Section& part, const gcode::Printer& printer) {
+  const toml::node* node = part.find("deposit");
+  if (!node) return {};
+  if (!node->is_table()) {
+    part.choice("deposit", *node, {"fill"});
+    return {};
+  }
+  const Section deposit = part.section("deposit", {"width"}, "write \"fill\" or { width = 0.4 }");
+  const Range range{0, printer.bead_width_range[1], true, "mm"};
+  return deposit.number("width", range, "write a width that the nozzle can lay");
+}
+
+void read_bead_width(const Section& part, Job& job) {
+  const char* const remedy = "write for example bead_width = 0.45";
+  const Range length{0, greatest_length, true, "mm"};
+  if (part.has("seed_distance")) {
+    job.seed_distance = part.number("seed_distance", length, "write the paper's d in mm, or leave it out");
+  }
+  if (!part.has("bead_width") && job.seed_distance) {
+    job.bead_width = bead_width_from_seed_distance(*job.seed_distance);
+  } else {
+    job.bead_width = part.number("bead_width", length, remedy);
+  }
+  const auto [least, greatest] = job.profile.printer.bead_width_range;
+  if (job.bead_width < least || job.bead_width > greatest) {
+    part.fail(part.has("bead_width") ? "bead_width" : "seed_distance",
+              fmt::format("asks for beads {} mm wide, but the printer lays {} to {} mm", job.bead_width,
+                          least, greatest),
+              "choose a width in that range, or a profile with another nozzle");
+  }
+}
+
+void read_flow(const Section& part, Job& job) {
+  const double greatest = job.profile.printer.max_flow;
+  job.flow = std::min(job.flow, greatest);
+  const toml::node* node = part.find("flow");
+  if (!node) return;
+  if (node->is_string()) {
+    part.choice("flow", *node, {"auto"});
+    job.warnings.push_back(fmt::format("{}: part.flow = \"auto\" is not yet followed; {} mm³/s is used",
+                                       job.file.string(), job.flow));
+    return;
+  }
+  job.flow = part.number("flow", above(0, "mm³/s"), "write for example flow = 2.0");
+  if (job.flow > greatest) {
+    part.fail("flow", fmt::format("is {} mm³/s, but the printer melts at most {} mm³/s", job.flow, greatest),
+              "lower it, or raise extruder.max_flow in the profile if that is wrong");
+  }
+}
+
+/// Keys that later versions follow; their values are checked all the same.
+void read_future_keys(const Section& part, Job& job) {
+  const auto warn = [&](std::string_view key) {
+    job.warnings.push_back(fmt::format("{}: {} is not yet followed", job.file.string(), part.path(key)));
+  };
+  const double perimeters =
+      part.number_or("perimeters", 0, between(0, 100, ""), "write a whole number of contours");
+  if (perimeters != static_cast<int>(perimeters))
+    part.fail("perimeters", "is no whole number", "write for example 1");
+  if (perimeters > 0) warn("perimeters");
+  if (const toml::node* seam = part.find("seam")) {
+    if (part.choice("seam", *seam, {"hidden", "scattered", "aligned", "none-extra-travel"}) !=
+        "none-extra-travel") {
+      warn("seam");
+    }
+  }
+}
+
+std::filesystem::path profile_path(const Section& root, const std::optional<std::filesystem::path>& chosen) {
+  if (chosen) return *chosen;
+  const std::filesystem::path path =
+      root.file().parent_path() /
+      root.text("printer", "name a profile in the job, or give one with --profile");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    root.fail("printer", fmt::format("names {}, which does not exist", path.string()),
+              "check the path, or give a profile with --profile");
+  }
+  return path;
+}
+
+}  // namespace
+
+double bead_width_from_seed_distance(double d) {
+  return bead_width_per_seed_distance * d;
+}
+
+Job load_job(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile) {
+  const SettingsFile file(path);
+  const Section root = file.root({"printer", "part", "zone", "mixture"});
+  Job job;
+  job.file = path;
+  job.profile = load_profile(profile_path(root, profile));
+  const Section part = root.section("part",
+                                    {"file", "height", "layer_height", "bead_width", "seed_distance", "flow",
+                                     "perimeters", "deposit", "place", "seam"},
+                                    "write [part] and below it file, layer_height and bead_width");
+  job.source = read_source(part);
+  job.place = read_place(part);
+  job.line_width = read_deposit(part, job.profile.printer);
+  read_bead_width(part, job);
+  read_flow(part, job);
+  read_future_keys(part, job);
+  ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders, job.warnings);
+  job.source.zones = std::move(zones.zones);
+  job.materials = std::move(zones.materials);
+  return job;
+}
+
+}  // namespace unicursal::host

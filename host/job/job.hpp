@@ -1,0 +1,52 @@
+// A job: which part to print, how, and on what printer, as written in a TOML file.
+// Lengths in mm, flow in mm³/s, angles in the file in degrees, in memory in radians.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/model/part.hpp"
+#include "firmware_gcode/toolpath/encoder.hpp"
+#include "host/job/profile.hpp"
+
+namespace unicursal::host {
+
+/// A mistake in a job or a profile; names file, line and key.
+class JobError : public core::DataError {
+ public:
+  using DataError::DataError;
+};
+
+/// Where the part goes on the bed.
+struct Placement {
+  enum class Kind { center, as_is, at };
+  Kind kind = Kind::center;
+  core::Vec2 point{0, 0};  ///< on the bed, where the centre of the part's extent goes, for Kind::at
+};
+
+struct Job {
+  std::filesystem::path file;
+  core::PartSource source;  ///< zones name materials by index
+  double bead_width = 0;
+  std::optional<double> seed_distance;
+  double flow = 2;
+  std::optional<double> line_width;  ///< of a thin line that shows the curve; absent: beads fill their area
+  Placement place;
+  /// The mixtures that zones use, equal ones once, in order of first use; one virtual tool each.
+  std::vector<gcode::Material> materials;
+  Profile profile;
+  std::vector<std::string> warnings;  ///< keys that are accepted but not followed yet, one sentence each
+};
+
+/// Reads and checks a job and the profile it names, or `profile` instead. File names in a job are relative
+/// to it. Throws JobError, core::FileError, core::DataError.
+Job load_job(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile = {});
+
+/// The bead width that seeds at distance `d` (mm, the paper's d) come out with, mm.
+double bead_width_from_seed_distance(double d);
+
+}  // namespace unicursal::host

@@ -1,0 +1,96 @@
+#include "host/job/profile.hpp"
+
+#include <fmt/format.h>
+
+#include "firmware_gcode/mixing/mixture.hpp"
+#include "host/job/settings_file.hpp"
+
+namespace unicursal::host {
+namespace {
+
+void read_machine(const Section& section, Profile& profile) {
+  gcode::Printer& printer = profile.printer;
+  printer.name = section.text_or("name", profile.file.stem().string(), "write a name in quotes");
+  if (const toml::node* firmware = section.find("firmware")) {
+    printer.firmware = section.choice("firmware", *firmware, {"marlin", "repetier", "reprapfirmware"});
+    if (printer.firmware != "marlin") {
+      section.fail("firmware",
+                   fmt::format("is \"{}\", which this version does not speak yet", printer.firmware),
+                   "only \"marlin\" works so far");
+    }
+  }
+  profile.port = section.text_or("port", profile.port, "write \"auto\" or a path such as \"/dev/ttyUSB0\"");
+  profile.baud = static_cast<unsigned>(section.number_or(
+      "baud", profile.baud, between(300, 4000000, "bits/s"), "write for example baud = 250000"));
+  printer.bed = section.numbers_or("bed", printer.bed, above(0, "mm"), "write bed = [x, y, z] in mm");
+  printer.nozzle =
+      section.number_or("nozzle", printer.nozzle, above(0, "mm"), "write for example nozzle = 0.4");
+  printer.bead_width_range = section.numbers_or("bead_width_range", printer.bead_width_range, above(0, "mm"),
+                                                "write bead_width_range = [least, greatest] in mm");
+  if (printer.bead_width_range[0] > printer.bead_width_range[1]) {
+    section.fail("bead_width_range", "has its least width above its greatest", "swap the two numbers");
+  }
+  printer.max_speed = section.numbers_or("max_speed", printer.max_speed, above(0, "mm/s"),
+                                         "write max_speed = [x, y, z] in mm/s");
+  printer.max_acceleration =
+      section.numbers_or("max_acceleration", printer.max_acceleration, above(0, "mm/s²"),
+                         "write max_acceleration = [x, y, z] in mm/s²");
+}
+
+void read_extruder(const Section& section, gcode::Printer& printer) {
+  const double feeders = section.number_or("feeders", printer.feeders, between(1, gcode::max_feeders, ""),
+                                           "write how many feeders meet in the nozzle");
+  if (feeders != static_cast<int>(feeders)) section.fail("feeders", "is no whole number", "write 1, 2 or 3");
+  printer.feeders = static_cast<int>(feeders);
+  printer.filament_diameter = section.number_or("filament_diameter", printer.filament_diameter,
+                                                above(0, "mm"), "write for example filament_diameter = 1.75");
+  printer.max_flow =
+      section.number_or("max_flow", printer.max_flow, above(0, "mm³/s"), "write for example max_flow = 8.0");
+  printer.floor_share = section.number_or("floor_share", printer.floor_share, between(0, 0.3, ""),
+                                          "write for example floor_share = 0.02");
+  printer.retraction_length =
+      section.number_or("retraction_length", printer.retraction_length, at_least(0, "mm"),
+                        "write for example retraction_length = 4.0");
+  printer.retraction_speed = section.number_or("retraction_speed", printer.retraction_speed, above(0, "mm/s"),
+                                               "write for example retraction_speed = 25.0");
+}
+
+void read_temperature(const Section& section, gcode::Printer& printer) {
+  printer.nozzle_temperature = section.number_or("nozzle", printer.nozzle_temperature,
+                                                 between(150, 450, "°C"), "write for example nozzle = 210");
+  printer.bed_temperature =
+      section.number_or("bed", printer.bed_temperature, between(0, 200, "°C"), "write for example bed = 60");
+}
+
+void read_transition(const Section& section, gcode::Printer& printer) {
+  printer.dead_volume = section.number_or("dead_volume", printer.dead_volume, at_least(0, "mm³"),
+                                          "write for example dead_volume = 2.1");
+  printer.mixing_volume = section.number_or("mixing_volume", printer.mixing_volume, at_least(0, "mm³"),
+                                            "write for example mixing_volume = 4.0");
+}
+
+}  // namespace
+
+Profile load_profile(const std::filesystem::path& path) {
+  const SettingsFile file(path);
+  Profile profile;
+  profile.file = std::filesystem::absolute(path);
+  const Section root = file.root({"printer", "extruder", "temperature", "transition", "gcode"});
+  read_machine(root.section("printer",
+                            {"name", "firmware", "port", "baud", "bed", "nozzle", "bead_width_range",
+                             "max_speed", "max_acceleration"},
+                            "a profile describes the machine below [printer]; is this file a profile?"),
+               profile);
+  read_extruder(root.section_or_empty("extruder", {"feeders", "filament_diameter", "max_flow", "floor_share",
+                                                   "retraction_length", "retraction_speed"}),
+                profile.printer);
+  read_temperature(root.section_or_empty("temperature", {"nozzle", "bed"}), profile.printer);
+  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume"}), profile.printer);
+  const Section gcode = root.section_or_empty("gcode", {"start", "end"});
+  profile.printer.start_gcode =
+      gcode.text_or("start", "", "write the extra lines in \"\"\"triple quotes\"\"\"");
+  profile.printer.end_gcode = gcode.text_or("end", "", "write the extra lines in \"\"\"triple quotes\"\"\"");
+  return profile;
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,182 @@
+#include "host/job/zones.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/job/job.hpp"
+#include "host/job/nearest.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr std::size_t most_tools = 16;  ///< virtual tools that Marlin keeps
+
+using Palette = std::vector<gcode::Material>;
+
+const char* const pattern_remedy =
+    "write a name such as \"isotropic\", { angle = 45 } or { field = \"directions.csv\" }";
+
+std::array<double, gcode::max_feeders> padded(const std::vector<double>& values) {
+  std::array<double, gcode::max_feeders> shares{};
+  std::copy(values.begin(), values.end(), shares.begin());
+  return shares;
+}
+
+gcode::Mixture read_mixture(const Section& section, std::string_view name, int feeders) {
+  const std::string example = fmt::format("write one share of 0 or more for each of the {} feeders", feeders);
+  const std::vector<double> shares = section.numbers(name, at_least(0, ""), example);
+  if (shares.size() != static_cast<std::size_t>(feeders)) {
+    section.fail(name, fmt::format("has {} shares, but the printer has {} feeders", shares.size(), feeders),
+                 example);
+  }
+  try {
+    return gcode::Mixture(padded(shares));
+  } catch (const core::DataError& error) {
+    section.fail(name, error.problem(), error.remedy());
+  }
+}
+
+Palette read_palette(const Section& root, int feeders) {
+  const Section section =
+      root.section("mixture", {}, "write [mixture] and below it for example white = [0.34, 0.33, 0.33]");
+  Palette palette;
+  for (auto&& [key, node] : section.table()) {
+    palette.push_back({std::string(key.str()), read_mixture(section, key.str(), feeders)});
+  }
+  return palette;
+}
+
+/// The patterns are read into their final types already; curves follow directions in a later version.
+void warn_pattern(const Section& zone, std::vector<std::string>& warnings) {
+  warnings.push_back(fmt::format("{}: {} is not yet followed; filled without direction", zone.file().string(),
+                                 zone.path("pattern")));
+}
+
+core::Pattern named_pattern(const Section& zone, const toml::node& node, std::vector<std::string>& warnings) {
+  const std::string name =
+      zone.choice("pattern", node, {"isotropic", "anisotropic", "parallel", "orthogonal", "none"});
+  core::Pattern pattern;
+  if (name == "none") pattern.kind = core::PatternKind::none;
+  if (name == "anisotropic") pattern.kind = core::PatternKind::anisotropic;
+  if (name == "parallel") pattern.kind = core::PatternKind::parallel;
+  if (name == "orthogonal") pattern.kind = core::PatternKind::orthogonal;
+  if (name != "isotropic" && name != "none") warn_pattern(zone, warnings);
+  return pattern;
+}
+
+core::Pattern directed_pattern(const Section& zone, std::vector<std::string>& warnings) {
+  const Section table = zone.section("pattern", {"angle", "field"}, pattern_remedy);
+  if (table.has("angle") == table.has("field")) {
+    zone.fail("pattern", "needs either an angle or a field", pattern_remedy);
+  }
+  core::Pattern pattern;
+  if (table.has("angle")) {
+    pattern.kind = core::PatternKind::angle;
+    pattern.angle =
+        table.number("angle", between(-360, 360, "°"), "write degrees counter-clockwise from +x") *
+        std::numbers::pi / 180;
+  } else {
+    pattern.kind = core::PatternKind::field;
+    pattern.field =
+        zone.file().parent_path() / table.text("field", "name a CSV file of x, y, angle in degrees");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(pattern.field, error)) {
+      table.fail("field", fmt::format("names {}, which does not exist", pattern.field.string()),
+                 "check the path");
+    }
+  }
+  warn_pattern(zone, warnings);
+  return pattern;
+}
+
+core::Pattern read_pattern(const Section& zone, std::vector<std::string>& warnings) {
+  core::Pattern pattern;
+  if (const toml::node* node = zone.find("pattern")) {
+    pattern = node->is_table() ? directed_pattern(zone, warnings) : named_pattern(zone, *node, warnings);
+  }
+  if (const toml::node* node = zone.find("boundary")) {
+    pattern.along_zone_border = zone.choice("boundary", *node, {"island", "zone"}) == "zone";
+  }
+  return pattern;
+}
+
+/// The name of the mixture; of a gradient, which is not yet followed, the one it starts from.
+std::string mixture_name(const Section& zone, std::vector<std::string>& warnings) {
+  const char* const remedy = "write the name of a mixture below [mixture] in quotes";
+  const toml::node* node = zone.find("mixture");
+  if (!node || !node->is_table()) return zone.text("mixture", remedy);
+  const Section gradient = zone.section("mixture", {"from", "to", "along"}, remedy);
+  warnings.push_back(
+      fmt::format("{}: {}: gradients are not yet followed; filled with the mixture it starts from",
+                  zone.file().string(), zone.path("mixture")));
+  return gradient.text("from", remedy);
+}
+
+const gcode::Material& find_material(const Section& zone, const Palette& palette, const std::string& name) {
+  std::vector<std::string> names;
+  for (const gcode::Material& material : palette) {
+    if (material.name == name) return material;
+    names.push_back(material.name);
+  }
+  const std::string close = nearest(name, names);
+  zone.fail("mixture", fmt::format("is \"{}\", which is not defined", name),
+            close.empty() ? "define it below [mixture]"
+                          : fmt::format("define it below [mixture], or did you mean \"{}\"?", close));
+}
+
+/// Shares are normalised, so [3, 0, 1] and [0.6, 0, 0.2] may differ by rounding.
+bool equal(const gcode::Mixture& a, const gcode::Mixture& b) {
+  constexpr double rounding = 1e-9;
+  return std::equal(a.shares().begin(), a.shares().end(), b.shares().begin(),
+                    [](double x, double y) { return std::abs(x - y) < rounding; });
+}
+
+/// Zones of equal mixture form one material zone, whatever the names of the mixtures.
+std::size_t index_in(std::vector<gcode::Material>& used, const gcode::Material& material) {
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (equal(used[i].mixture, material.mixture)) return i;
+  }
+  used.push_back(material);
+  return used.size() - 1;
+}
+
+core::Zone read_zone(const Section& section, const Palette& palette, std::vector<gcode::Material>& used,
+                     std::vector<std::string>& warnings) {
+  core::Zone zone;
+  zone.select = section.text("select", "write a fill colour, an object's name or a file's name in quotes");
+  zone.pattern = read_pattern(section, warnings);
+  zone.material = index_in(used, find_material(section, palette, mixture_name(section, warnings)));
+  if (section.flag_or("transition", false, "write true or false")) {
+    warnings.push_back(
+        fmt::format("{}: {} is not yet followed", section.file().string(), section.path("transition")));
+  }
+  if (used.size() > most_tools) {
+    section.fail("mixture", fmt::format("is the mixture number {}", used.size()),
+                 fmt::format("use at most {} different mixtures in one job", most_tools));
+  }
+  return zone;
+}
+
+}  // namespace
+
+ZonesAndMaterials read_zones(const Section& root, int feeders, std::vector<std::string>& warnings) {
+  const char* const remedy = "write [[zone]] and below it select, pattern and mixture";
+  const toml::node* node = root.find("zone");
+  if (!node) root.fail("zone", "is missing", remedy);
+  const toml::array* list = node->as_array();
+  if (!list || list->empty() || !list->is_homogeneous<toml::table>()) {
+    root.fail("zone", "is no list of zones", remedy);
+  }
+  const Palette palette = read_palette(root, feeders);
+  ZonesAndMaterials result;
+  for (const toml::node& item : *list) {
+    const Section section(root.file(), *item.as_table(), fmt::format("zone[{}]", result.zones.size()),
+                          {"select", "pattern", "boundary", "mixture", "transition"});
+    result.zones.push_back(read_zone(section, palette, result.materials, warnings));
+  }
+  return result;
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,22 @@
+// The zones of a job and the mixtures that they are printed in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/part.hpp"
+#include "firmware_gcode/toolpath/encoder.hpp"
+#include "host/job/settings_file.hpp"
+
+namespace unicursal::host {
+
+struct ZonesAndMaterials {
+  std::vector<core::Zone> zones;
+  std::vector<gcode::Material> materials;
+};
+
+/// Reads [[zone]] and [mixture] of a job's root. `feeders`: how many shares a mixture has.
+/// Appends a sentence to `warnings` for what is accepted but not followed yet. Throws JobError.
+ZonesAndMaterials read_zones(const Section& root, int feeders, std::vector<std::string>& warnings);
+
+}  // namespace unicursal::host

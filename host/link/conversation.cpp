@@ -1,0 +1,194 @@
+// The link's protocol: greeting a firmware, answering its resend requests, finding it again after silence.
+// See state.hpp for the facts behind it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/link/state.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto boot_chatter = 500ms;    ///< without a line: the firmware has finished booting
+constexpr auto ask_again = 1000ms;      ///< between questions to a firmware that may not have been ready
+constexpr auto longest_drain = 1000ms;  ///< for printers that never stop talking
+constexpr int number_attempts = 5;      ///< to set the line number, over a noisy line
+constexpr int probe_attempts = 4;       ///< each as long as LinkOptions::silence
+constexpr int patience = 50;            ///< resends in a row that bring the job no further
+constexpr auto finishes_nothing =
+    "the printer is alive but has finished no command for very long; look at it, then start again";
+constexpr std::uint32_t probe_distance = 1000;  ///< ahead of any number that could be right
+
+}  // namespace
+
+asio::awaitable<void> Link::State::until(const std::function<bool()>& ready) {
+  const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
+  co_await signal.wait(Clock::time_point::max(), ready_or_failed);
+  if (failure) throw LinkError(*failure);
+}
+
+asio::awaitable<bool> Link::State::until(const std::function<bool()>& ready, Clock::time_point deadline) {
+  const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
+  const bool woken = co_await signal.wait(deadline, ready_or_failed);
+  if (failure) throw LinkError(*failure);
+  co_return woken;
+}
+
+void Link::State::fail(const std::string& message) {
+  if (!failure) failure = message;
+  holding = true;
+  signal.notify();
+}
+
+void Link::State::give_up(const std::string& message) {
+  fail(message);
+  throw LinkError(*failure);
+}
+
+asio::awaitable<void> Link::State::quiet(Clock::duration pause) {
+  const auto limit = Clock::now() + longest_drain + pause;
+  std::uint64_t seen = 0;
+  const std::function<bool()> more = [&] { return bytes_heard != seen; };
+  do {
+    seen = bytes_heard;
+  } while (co_await until(more, Clock::now() + pause) && Clock::now() < limit);
+}
+
+// ---- greeting
+
+asio::awaitable<void> Link::State::greet() {
+  const std::function<bool()> spoken = [this] { return lines_heard > 0; };
+  if (co_await until(spoken, Clock::now() + options.boot)) {
+    co_await quiet(std::min<Clock::duration>(boot_chatter, options.boot));
+  }
+  co_await ask_firmware();
+  co_await reset_numbers();
+  doubt = false;
+  phase = Phase::streaming;
+}
+
+asio::awaitable<void> Link::State::ask_firmware() {
+  const auto started = Clock::now();
+  const auto lines_before = lines_heard;
+  const std::function<bool()> told = [this] { return !firmware.empty(); };
+  // A newline first: it ends what an earlier program may have left half written.
+  for (int asked_times = 1;; ++asked_times) {
+    write("\nM115\n");
+    if (co_await until(told, Clock::now() + std::min<Clock::duration>(ask_again, options.silence))) break;
+    if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name to tell
+    const auto patient_until = std::max(started, last_life) + options.silence;
+    if (Clock::now() < std::min(patient_until, started + options.no_ok)) continue;
+    give_up(lines_heard > lines_before
+                ? "the printer does not answer M115 as a printer would; check the baud rate in its profile"
+                : "the printer does not answer; check that it is on and that port and baud rate are right");
+  }
+  co_await quiet(options.quiet);
+}
+
+/// Alone, since Marlin acts upon it twice: when it is received and again when it is executed.
+asio::awaitable<void> Link::State::reset_numbers() {
+  for (int attempt = 0; attempt < number_attempts; ++attempt) {
+    const auto oks_before = oks, refusals_before = refusals;
+    const std::function<bool()> answered = [&] { return oks > oks_before || refusals > refusals_before; };
+    doubt = false;
+    write(framed(0, "M110 N0"));
+    const bool heard = co_await until(answered, Clock::now() + options.silence);
+    co_await quiet(options.quiet);
+    if (heard && refusals == refusals_before && !doubt) co_return;
+  }
+  give_up("the printer does not accept M110, or the line to it is too noisy; check the cable");
+}
+
+// ---- keeping it going
+
+asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<State> self) {
+  const auto unproven = [this] { return draining && doubt && !holding && ledger.settled(); };
+  const std::function<bool()> trouble = [&] { return asked || stranger || unproven(); };
+  try {
+    for (;;) {
+      co_await until(trouble, stall_deadline());
+      if (asked)
+        co_await answer_resend();
+      else if (stranger || unproven() || Clock::now() >= stall_deadline())
+        co_await resynchronise();
+    }
+  } catch (const LinkError&) {
+    // fail() has told everyone who waits.
+  }
+}
+
+Clock::time_point Link::State::stall_deadline() const {
+  if (!ledger.in_flight()) return Clock::now() + options.silence;
+  return std::min(last_life + options.silence, last_ok + options.no_ok);
+}
+
+asio::awaitable<void> Link::State::answer_resend() {
+  co_await quiet(options.quiet);
+  if (!asked) co_return;
+  if (ledger.acknowledged() > best_acknowledged)
+    best_acknowledged = ledger.acknowledged(), fruitless_resends = 0;
+  if (++fruitless_resends > patience) {
+    give_up(
+        fmt::format("the printer has asked {} times for line {} and those around it; the line to it is "
+                    "too noisy, check the cable and keep it away from motors and mains",
+                    patience, *asked));
+  }
+  ++statistics.resends;
+  resume_from(*asked, false);
+}
+
+void Link::State::resume_from(std::uint32_t number, bool with_fence) {
+  ledger.rewind(number);
+  if (with_fence) ledger.fence();
+  statistics.acknowledged = ledger.acknowledged();
+  asked.reset();
+  stranger.reset();
+  holding = false;
+  last_ok = last_life = Clock::now();
+  pump();
+  signal.notify();
+}
+
+asio::awaitable<void> Link::State::resynchronise() {
+  if (ledger.in_flight() && Clock::now() >= last_ok + options.no_ok) {
+    give_up(finishes_nothing);
+  }
+  const auto waiting_since = ledger.in_flight() ? last_ok : Clock::now();
+  holding = true;
+  co_await quiet(options.quiet);
+  for (int attempt = 0; attempt < probe_attempts; ++attempt) {
+    if (!co_await probe()) continue;
+    co_await quiet(options.quiet);
+    probing = false;
+    resume_from(*asked, true);
+    last_ok = waiting_since;  // a probe's answer is no progress
+    co_return;
+  }
+  if (Clock::now() >= last_ok + options.no_ok) give_up(finishes_nothing);
+  give_up(stranger
+              ? fmt::format("the printer asks for line {}, which was sent long ago: it must have been reset; "
+                            "clear the bed and start the print again",
+                            *stranger)
+              : "the printer has fallen silent; check its power and the cable");
+}
+
+asio::awaitable<bool> Link::State::probe() {
+  ++statistics.probes;
+  probing = true;
+  doubt = false;
+  asked.reset();
+  stranger.reset();
+  // The newline ends a line whose own has been lost.
+  write("\n" + framed(ledger.next() + probe_distance, "M105"));
+  const std::function<bool()> answered = [this] { return asked || stranger; };
+  last_life = Clock::now();
+  // A printer whose command queue is full reads nothing, but says that it is busy.
+  while (!answered() && Clock::now() < std::min(last_life + options.silence, last_ok + options.no_ok)) {
+    co_await until(answered, std::min(last_life + options.silence, last_ok + options.no_ok));
+  }
+  co_return asked.has_value();
+}
+
+}  // namespace unicursal::host

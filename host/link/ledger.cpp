@@ -1,0 +1,114 @@
+#include "host/link/ledger.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <iterator>
+
+namespace unicursal::host {
+namespace {
+
+/// Acknowledged lines that are kept: more than can be in flight with the shortest lines, several times over.
+/// A firmware that asks for older ones has not missed a line, it has been reset.
+constexpr std::uint32_t kept = 64;
+
+constexpr std::uint32_t repetier_modulus = 65536;
+
+bool is_query(std::string_view command) {
+  return command == "M105" || command.starts_with("M105 ");
+}
+
+}  // namespace
+
+std::string framed(std::uint32_t number, std::string_view command) {
+  std::string line = fmt::format("N{} {}", number, command);
+  unsigned char checksum = 0;
+  for (char c : line) checksum = static_cast<unsigned char>(checksum ^ static_cast<unsigned char>(c));
+  fmt::format_to(std::back_inserter(line), "*{}\n", checksum);
+  return line;
+}
+
+void Ledger::number(std::string_view command, bool fence) {
+  lines_.push_back({framed(end(), command), is_query(command), fence});
+}
+
+std::size_t Ledger::fill(std::string& bytes) {
+  std::size_t count = 0;
+  for (;; ++count) {
+    if (next_ == end()) {
+      if (waiting_.empty()) break;
+      number(waiting_.front(), false);
+      waiting_.pop_front();
+    }
+    const std::string& frame = line(next_).frame;
+    if (in_flight() && bytes_in_flight_ + frame.size() > window_) break;
+    bytes += frame;
+    bytes_in_flight_ += frame.size();
+    ++next_;
+  }
+  return count;
+}
+
+void Ledger::advance(std::uint32_t front) {
+  for (; front_ < front; ++front_) {
+    if (front_ < next_) bytes_in_flight_ -= line(front_).frame.size();
+    if (!line(front_).fence) ++acknowledged_;
+  }
+}
+
+void Ledger::forget() {
+  while (front_ - base_ > kept) lines_.pop_front(), ++base_;
+}
+
+bool Ledger::acknowledge() {
+  if (!in_flight() || line(front_).fence) return false;
+  advance(front_ + 1);
+  forget();
+  return true;
+}
+
+bool Ledger::acknowledge_number(std::uint32_t number) {
+  const auto known = locate(number);
+  if (!known || *known < front_ || *known >= next_) return false;
+  const bool oldest = *known == front_;
+  advance(*known + 1);
+  forget();
+  return oldest;
+}
+
+bool Ledger::acknowledge_query() {
+  for (std::uint32_t n = front_; n < next_; ++n) {
+    if (!line(n).query) continue;
+    advance(n + 1);
+    forget();
+    return true;
+  }
+  return false;
+}
+
+std::optional<std::uint32_t> Ledger::locate(std::uint32_t number) const {
+  if (number >= base_ && number <= end()) return number;
+  const std::uint32_t behind = (end() - number) % repetier_modulus;
+  if (number < repetier_modulus && behind <= end() - base_) return end() - behind;
+  return std::nullopt;
+}
+
+void Ledger::rewind(std::uint32_t number) {
+  assert(number >= base_ && number <= end());
+  advance(number);
+  for (; front_ > number; --front_) {
+    if (!line(front_ - 1).fence) --acknowledged_;
+  }
+  next_ = number;
+  bytes_in_flight_ = 0;
+  forget();
+}
+
+void Ledger::fence() {
+  for (std::uint32_t n = front_; n < end(); ++n) {
+    if (line(n).fence) return;
+  }
+  number("M105", true);
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,86 @@
+#include "host/link/link.hpp"
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <cassert>
+
+#include "host/link/state.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr std::size_t longest_command = 80;  ///< bytes; with number and checksum at most 95
+
+/// Why a line cannot be sent, or nothing.
+std::string defect(const std::string& line) {
+  if (line.empty()) return "it is empty, and the printer would not answer it";
+  if (line.size() > longest_command) return "it is longer than 80 characters";
+  for (char c : line) {
+    if (c < ' ' || c > '~') return "it holds a byte that is not printable ASCII";
+    if (c == ';' || c == '*') return "it holds a comment or a checksum";
+  }
+  if (line.front() == 'N' || line.front() == ' ') return "it begins with a line number or a space";
+  if (line.starts_with("M110")) return "it would change the line number";
+  return {};
+}
+
+}  // namespace
+
+Link::Link(asio::any_io_executor executor, int descriptor, LinkOptions options)
+    : state_(std::make_shared<State>(std::move(executor), descriptor, options)) {}
+
+Link::~Link() {
+  if (state_) state_->close();
+}
+
+Link::Link(Link&&) noexcept = default;
+
+asio::awaitable<void> Link::connect() {
+  const auto state = state_;
+  asio::co_spawn(state->executor, state->listen(state), asio::detached);
+  co_await state->greet();
+  asio::co_spawn(state->executor, state->supervise(state), asio::detached);
+}
+
+asio::awaitable<void> Link::send(std::vector<std::string> lines) {
+  const auto state = state_;
+  assert(state->phase == State::Phase::streaming || state->failure);
+  for (const std::string& line : lines) {
+    if (const std::string why = defect(line); !why.empty()) {
+      throw std::invalid_argument("the line \"" + line + "\" cannot be sent: " + why);
+    }
+  }
+  state->statistics.lines += lines.size();
+  for (std::string& line : lines) state->ledger.push(std::move(line));
+  state->pump();
+  const std::function<bool()> written = [state] { return state->ledger.all_written(); };
+  co_await state->until(written);
+}
+
+asio::awaitable<void> Link::drain() {
+  const auto state = state_;
+  assert(state->phase == State::Phase::streaming || state->failure);
+  state->draining = true;
+  const std::function<bool()> settled = [state] { return state->settled(); };
+  state->signal.notify();
+  co_await state->until(settled);
+  state->draining = false;
+}
+
+void Link::emergency_stop() noexcept {
+  state_->emergency_stop();
+}
+
+const LinkStatistics& Link::statistics() const {
+  return state_->statistics;
+}
+
+const std::string& Link::firmware() const {
+  return state_->firmware;
+}
+
+void Link::on_message(std::function<void(const std::string&)> listener) {
+  state_->listener = std::move(listener);
+}
+
+}  // namespace unicursal::host

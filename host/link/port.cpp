@@ -1,0 +1,178 @@
+// Finding and opening serial ports. libserialport 0.1.1 looks devices up in sysfs and refuses what it does
+// not find there, such as pseudo-terminals; those are opened and set raw directly.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <libserialport.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "firmware_gcode/reply/reply.hpp"
+#include "host/link/link.hpp"
+
+namespace unicursal::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FreePort {
+  void operator()(sp_port* port) const { sp_free_port(port); }
+};
+using Port = std::unique_ptr<sp_port, FreePort>;
+
+struct FreeConfig {
+  void operator()(sp_port_config* config) const { sp_free_config(config); }
+};
+
+/// Closes on the way out unless released.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+[[noreturn]] void refuse(const std::string& path, int error) {
+  std::string why;
+  switch (error) {
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      why = "there is no such port; plug the printer in and see `unicursal ports`";
+      break;
+    case EACCES:
+    case EPERM:
+      why = "you may not open it; add yourself to the group dialout and log in again";
+      break;
+    case EBUSY:
+      why = "another program is using it; close that program first";
+      break;
+    case ENOTTY:
+    case EISDIR:
+      why = "it is not a serial port; see `unicursal ports` for those that are";
+      break;
+    default:
+      why = std::string(std::strerror(error)) + "; check the cable and the printer's power";
+  }
+  throw LinkError(gcode::printable(path) + ": " + why);
+}
+
+/// Where /dev/serial/by-id points, by device.
+std::map<fs::path, std::string> stable_names() {
+  std::map<fs::path, std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator("/dev/serial/by-id", none)) {
+    std::error_code dangling;
+    const fs::path device = fs::canonical(entry.path(), dangling);
+    if (!dangling) names[device] = entry.path().string();
+  }
+  return names;
+}
+
+std::string text(const char* from) {
+  return from == nullptr ? std::string() : gcode::printable(from);
+}
+
+/// HUPCL off: otherwise closing the port drops DTR, which resets many boards at the next opening.
+void keep_dtr(int fd) {
+  termios settings{};
+  if (::tcgetattr(fd, &settings) != 0) return;
+  settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
+  ::tcsetattr(fd, TCSANOW, &settings);
+}
+
+int open_real(sp_port* port, const std::string& path, unsigned baud) {
+  if (sp_open(port, SP_MODE_READ_WRITE) != SP_OK) refuse(path, sp_last_error_code());
+  const std::unique_ptr<sp_port, decltype(&sp_close)> closing(port, &sp_close);
+  sp_port_config* made = nullptr;
+  if (sp_new_config(&made) != SP_OK) refuse(path, ENOMEM);
+  const std::unique_ptr<sp_port_config, FreeConfig> config(made);
+  sp_set_config_baudrate(config.get(), static_cast<int>(baud));
+  sp_set_config_bits(config.get(), 8);
+  sp_set_config_parity(config.get(), SP_PARITY_NONE);
+  sp_set_config_stopbits(config.get(), 1);
+  sp_set_config_flowcontrol(config.get(), SP_FLOWCONTROL_NONE);
+  if (sp_set_config(port, config.get()) != SP_OK) {
+    throw LinkError(
+        fmt::format("{}: the port cannot run at {} baud; correct the rate in the printer's profile",
+                    gcode::printable(path), baud));
+  }
+  int handle = -1;
+  if (sp_get_port_handle(port, &handle) != SP_OK) refuse(path, ENODEV);
+  keep_dtr(handle);
+  const int own = ::fcntl(handle, F_DUPFD_CLOEXEC, 0);  // outlives the library's port
+  if (own < 0) refuse(path, errno);
+  return own;
+}
+
+/// What libserialport does not know: a pseudo-terminal, which has no baud rate.
+int open_direct(const std::string& path) {
+  Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (port.get() < 0) refuse(path, errno);
+  termios settings{};
+  if (::tcgetattr(port.get(), &settings) != 0) refuse(path, errno);
+  if (::ioctl(port.get(), TIOCEXCL) != 0) refuse(path, errno);
+  ::cfmakeraw(&settings);
+  settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
+  settings.c_cflag |= CLOCAL | CREAD;
+  if (::tcsetattr(port.get(), TCSANOW, &settings) != 0) refuse(path, errno);
+  return port.release();
+}
+
+std::string only_port() {
+  const std::vector<PortInfo> ports = list_ports();
+  if (ports.empty()) throw LinkError("no serial port was found; plug the printer in and switch it on");
+  const auto on_usb = std::count_if(ports.begin(), ports.end(), [](const PortInfo& p) { return p.usb; });
+  if (on_usb == 1 || ports.size() == 1) return ports.front().path;
+  std::string names;
+  for (const PortInfo& port : ports) names += (names.empty() ? "" : ", ") + port.path;
+  throw LinkError("there are several serial ports (" + names + "); say which with --port");
+}
+
+}  // namespace
+
+std::vector<PortInfo> list_ports() {
+  sp_port** found = nullptr;
+  if (sp_list_ports(&found) != SP_OK) return {};
+  const std::unique_ptr<sp_port*, decltype(&sp_free_port_list)> freeing(found, &sp_free_port_list);
+  const auto names = stable_names();
+  std::vector<PortInfo> ports;
+  for (sp_port** port = found; *port != nullptr; ++port) {
+    PortInfo info{text(sp_get_port_name(*port)), "", text(sp_get_port_description(*port)),
+                  sp_get_port_transport(*port) == SP_TRANSPORT_USB};
+    if (const auto name = names.find(info.path); name != names.end()) info.stable_path = name->second;
+    ports.push_back(info);
+  }
+  std::stable_sort(ports.begin(), ports.end(),
+                   [](const PortInfo& a, const PortInfo& b) { return a.usb && !b.usb; });
+  return ports;
+}
+
+int open_port(const std::string& path, unsigned baud) {
+  const std::string wanted = path == "auto" ? only_port() : path;
+  std::error_code missing;
+  const fs::path device = fs::canonical(wanted, missing);  // libserialport does not follow links
+  if (missing) refuse(wanted, missing.value());
+  sp_port* found = nullptr;
+  if (sp_get_port_by_name(device.c_str(), &found) != SP_OK) return open_direct(device.string());
+  const Port port(found);
+  return open_real(port.get(), wanted, baud);
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,112 @@
+// What the printer's replies mean for the link. See state.hpp for the facts behind it.
+#include <variant>
+
+#include "host/link/state.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace gcode;
+
+/// How many oks a line holds that noise has touched: a single "ok" with one letter hit, or several replies
+/// run together. Taking one too many is harmless: the firmware's command queue is as large again as its
+/// receive buffer; one too few would narrow the window for good.
+int damaged_oks(std::string_view text) {
+  if (text.size() <= 2) return text.find_first_of("ok") != std::string_view::npos ? 1 : 0;
+  if (!text.starts_with("ok") && !text.ends_with("ok")) return 0;
+  int count = 0;
+  for (auto at = text.find("ok"); at != std::string_view::npos; at = text.find("ok", at + 2)) ++count;
+  return count;
+}
+
+bool is_plain_ok(const Reply& reply) {
+  const auto* ok = std::get_if<reply::Ok>(&reply);
+  return ok != nullptr && ok->temperatures.empty();
+}
+
+}  // namespace
+
+void Link::State::hear(std::string_view line) {
+  const Reply reply = parse_reply(line);
+  if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard;
+  std::visit([this](const auto& what) { take(what); }, reply);
+  if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
+    listener(printable(line));
+  }
+}
+
+void Link::State::take(const reply::Ok& ok) {
+  ++oks;
+  last_ok = last_life = Clock::now();
+  if (phase == Phase::greeting || holding) return;
+  bool expected;
+  if (ok.line)
+    expected = ledger.acknowledge_number(*ok.line);
+  else if (!ok.temperatures.empty() && ledger.acknowledge_query())
+    expected = true;
+  else
+    expected = ledger.acknowledge() || ledger.at_fence();
+  if (!expected) doubt = true;
+  statistics.acknowledged = ledger.acknowledged();
+}
+
+void Link::State::take(const reply::Resend& resend) {
+  asked_for(resend.line);
+}
+
+void Link::State::take(const reply::Error& error) {
+  if (error.last_line) return asked_for(*error.last_line + 1);
+  if (!error.halted) {
+    last_error = printable(error.text);
+    ++refusals;
+    return;
+  }
+  fail("the printer has stopped itself (" + (last_error.empty() ? printable(error.text) : last_error) +
+       "); see to the cause, then switch it off and on again");
+}
+
+void Link::State::asked_for(std::uint32_t number) {
+  ++refusals;
+  if (phase == Phase::greeting) return;
+  if (!probing) doubt = true;
+  const auto known = ledger.locate(number);
+  if (known)
+    asked = known;
+  else
+    stranger = number;
+  holding = true;
+}
+
+void Link::State::take(const reply::Start&) {
+  ++refusals;
+  if (phase == Phase::greeting) return;
+  fail(
+      "the printer has reset itself in the middle of the job, its position and heat are gone; "
+      "check its power supply, clear the bed and start the print again");
+}
+
+void Link::State::take(const reply::Busy&) {
+  last_life = Clock::now();
+}
+
+void Link::State::take(const reply::TemperatureReport& report) {
+  if (report.waiting) last_life = Clock::now();
+}
+
+void Link::State::take(const reply::Firmware& told) {
+  firmware = printable(told.text, 1000);
+}
+
+void Link::State::take(const reply::Echo& echo) {
+  if (!echo.unknown_command) return;
+  ++refusals;
+  doubt = true;
+}
+
+void Link::State::take(const reply::Unknown& unknown) {
+  doubt = true;
+  const int count = damaged_oks(unknown.text);
+  for (int i = 0; i < count; ++i) take(reply::Ok{});
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,34 @@
+// Coroutines of one event loop waiting for each other: until something is so, or a deadline has passed.
+#pragma once
+
+#include <asio/any_io_executor.hpp>
+#include <asio/awaitable.hpp>
+#include <asio/steady_timer.hpp>
+#include <chrono>
+#include <functional>
+#include <list>
+
+namespace unicursal::host {
+
+using Clock = std::chrono::steady_clock;
+
+class Signal {
+ public:
+  explicit Signal(asio::any_io_executor executor) : executor_(std::move(executor)) {}
+
+  /// Returns whether `ready` holds, at the latest at `deadline`. `ready` and the signal must live until then.
+  asio::awaitable<bool> wait(Clock::time_point deadline, const std::function<bool()>& ready);
+  /// Wakes those whose condition has come true. To be called after anything they may wait for.
+  void notify();
+
+ private:
+  struct Waiter {
+    asio::steady_timer timer;
+    const std::function<bool()>& ready;
+  };
+
+  asio::any_io_executor executor_;
+  std::list<Waiter> waiters_;
+};
+
+}  // namespace unicursal::host

@@ -1,0 +1,121 @@
+// The inside of a link: one conversation with one firmware.
+//
+// What is known of firmwares (Marlin 2.1, Repetier 1.0; observed), and what follows:
+// - A damaged line is answered by "Error:… Last Line: 3", "Resend: 4", "ok"; that ok belongs to the error.
+//   The receive buffer is flushed, so lines behind it vanish or raise their own errors. Hence one resend at a
+//   time: nothing is sent and no ok counts until the line has been quiet for a while; then everything from
+//   the number last asked for goes out again.
+// - A repeated line is dropped silently, without an ok, and oks may be lost or damaged. Hence oks only move
+//   the window, and numbers decide what the printer has.
+// - A line with a number that cannot be right makes the firmware tell its last one, at once and without
+//   effect. After silence, this probe finds out where the printer is; a M105 behind it (whose answer looks
+//   unlike any other ok) then proves that all before it has been executed.
+// - After anything odd the end of a job is in doubt: the last line may have got the ok of another. drain()
+//   therefore ends with a probe if there was any oddity since the last one.
+// - Damage that makes a numbered line look like an unnumbered command gets "Unknown command" and an ok; the
+//   gap shows with the next number. Damage that the 8-bit checksum does not see cannot be found by anyone.
+// - "start" in mid-print means that the printer has forgotten everything: nothing may be sent any more.
+// - Numbers count up from 1 and never wrap: lines stay within 95 characters up to number 99 999 999, which at
+//   600 lines/s is reached after two days without pause; the link then ends the job with an error.
+#pragma once
+
+#include <asio/any_io_executor.hpp>
+#include <asio/awaitable.hpp>
+#include <asio/posix/stream_descriptor.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "firmware_gcode/reply/reply.hpp"
+#include "host/link/ledger.hpp"
+#include "host/link/line_splitter.hpp"
+#include "host/link/link.hpp"
+#include "host/link/signal.hpp"
+
+namespace unicursal::host {
+
+struct Link::State : std::enable_shared_from_this<Link::State> {
+  enum class Phase { greeting, streaming };
+
+  State(asio::any_io_executor on, int descriptor, LinkOptions with);
+
+  // Bytes (wire.cpp)
+  /// Reads until the port ends; `self` keeps the state alive meanwhile, here and in supervise().
+  asio::awaitable<void> listen(std::shared_ptr<State> self);
+  void write(std::string_view text);
+  void pump();  ///< writes what may be written now
+  void wait_for_port();
+  void emergency_stop() noexcept;
+  void close();
+
+  // What replies mean (replies.cpp)
+  void hear(std::string_view line);
+  void take(const gcode::reply::Ok& ok);
+  void take(const gcode::reply::Resend& resend);
+  void take(const gcode::reply::Error& error);
+  void take(const gcode::reply::Start& start);
+  void take(const gcode::reply::Busy& busy);
+  void take(const gcode::reply::TemperatureReport& report);
+  void take(const gcode::reply::Firmware& firmware);
+  void take(const gcode::reply::Echo& echo);
+  void take(const gcode::reply::Unknown& unknown);
+  template <class Other>
+  void take(const Other&) {}
+  void asked_for(std::uint32_t number);
+
+  // Conversation (conversation.cpp)
+  asio::awaitable<void> greet();
+  asio::awaitable<void> supervise(std::shared_ptr<State> self);
+  asio::awaitable<void> ask_firmware();
+  asio::awaitable<void> reset_numbers();
+  asio::awaitable<void> answer_resend();
+  asio::awaitable<void> resynchronise();
+  asio::awaitable<bool> probe();
+  void resume_from(std::uint32_t number, bool with_fence);
+  /// Until no byte has come for `pause`, or for about a second at most.
+  asio::awaitable<void> quiet(Clock::duration pause);
+  Clock::time_point stall_deadline() const;
+  bool settled() const { return ledger.settled() && !doubt && !holding; }
+
+  /// Waits without a deadline of its own; throws LinkError when the link fails meanwhile.
+  asio::awaitable<void> until(const std::function<bool()>& ready);
+  /// Returns whether `ready` came true by the deadline; throws LinkError when the link fails meanwhile.
+  asio::awaitable<bool> until(const std::function<bool()>& ready, Clock::time_point deadline);
+  /// The end: everyone who waits gets a LinkError with this message. The first failure counts.
+  void fail(const std::string& message);
+  [[noreturn]] void give_up(const std::string& message);  ///< fails and throws the LinkError
+
+  asio::any_io_executor executor;
+  asio::posix::stream_descriptor port;
+  const LinkOptions options;
+  LinkStatistics statistics;
+  std::string firmware;
+  std::function<void(const std::string&)> listener;
+  std::optional<std::string> failure;
+  Signal signal;
+
+  Ledger ledger;
+  LineSplitter splitter;
+  std::string unsent;             ///< bytes that the port has not taken yet
+  bool waiting_for_port = false;  ///< until it takes them
+
+  Phase phase = Phase::greeting;
+  bool draining = false;                  ///< someone waits in drain()
+  bool holding = false;                   ///< nothing may be sent and no ok counts: resend or probe under way
+  bool probing = false;                   ///< the next error is our own doing
+  bool doubt = false;                     ///< something odd has happened since the last proof
+  std::optional<std::uint32_t> asked;     ///< the line that the printer wants
+  std::optional<std::uint32_t> stranger;  ///< one that it asked for and cannot be given
+  int fruitless_resends = 0;              ///< since more lines were acknowledged than ever before
+  std::uint64_t best_acknowledged = 0;
+  std::string last_error;
+
+  std::uint64_t bytes_heard = 0;
+  std::uint64_t oks = 0, refusals = 0, lines_heard = 0;
+  Clock::time_point last_ok = Clock::now();
+  Clock::time_point last_life = Clock::now();  ///< of an ok or a busy
+};
+
+}  // namespace unicursal::host

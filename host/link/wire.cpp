@@ -1,0 +1,103 @@
+// The link's bytes: reading, writing as much as the port takes, closing.
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <asio/buffer.hpp>
+#include <asio/redirect_error.hpp>
+#include <asio/use_awaitable.hpp>
+
+#include "host/link/state.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr std::uint32_t last_number = 99999999;  ///< longer numbers would make lines too long
+
+std::string lost(const asio::error_code& error) {
+  return "the connection to the printer was lost (" + error.message() +
+         "); check the cable and the printer's power";
+}
+
+}  // namespace
+
+Link::State::State(asio::any_io_executor on, int descriptor, LinkOptions with)
+    : executor(std::move(on)),
+      port(executor, descriptor),
+      options(with),
+      signal(executor),
+      ledger(options.receive_buffer) {
+  port.non_blocking(true);
+}
+
+asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State> self) {
+  std::array<char, 4096> buffer;
+  for (;;) {
+    asio::error_code ended;
+    const std::size_t count =
+        co_await port.async_read_some(asio::buffer(buffer), asio::redirect_error(asio::use_awaitable, ended));
+    if (ended) {
+      fail(lost(ended));
+      co_return;
+    }
+    bytes_heard += count;
+    splitter.feed({buffer.data(), count}, [this](std::string_view line) { hear(line); });
+    pump();
+    signal.notify();
+  }
+}
+
+void Link::State::write(std::string_view text) {
+  unsent += text;
+  pump();
+}
+
+void Link::State::pump() {
+  while (!waiting_for_port && !failure) {
+    if (unsent.empty() && phase == Phase::streaming && !holding) {
+      if (!ledger.in_flight()) last_ok = last_life = Clock::now();
+      statistics.sent += ledger.fill(unsent);
+      if (ledger.next() > last_number) fail("the job has too many lines for one print; split it");
+    }
+    if (unsent.empty()) return;
+    asio::error_code error;
+    const std::size_t count = port.write_some(asio::buffer(unsent), error);
+    unsent.erase(0, count);
+    statistics.bytes += count;
+    if (error == asio::error::would_block || error == asio::error::try_again)
+      wait_for_port();
+    else if (error)
+      fail(lost(error));
+  }
+}
+
+void Link::State::wait_for_port() {
+  waiting_for_port = true;
+  port.async_wait(asio::posix::descriptor_base::wait_write,
+                  [self = shared_from_this()](const asio::error_code& error) {
+                    self->waiting_for_port = false;
+                    if (!error) self->pump();
+                    self->signal.notify();
+                  });
+}
+
+void Link::State::emergency_stop() noexcept {
+  try {
+    const int descriptor = port.native_handle();
+    ::tcflush(descriptor, TCOFLUSH);
+    constexpr std::string_view stop = "\nM112\n";  // the newline ends what may be half written
+    [[maybe_unused]] const auto written = ::write(descriptor, stop.data(), stop.size());
+    fail("the printer was stopped in an emergency; switch it off and on again before the next print");
+  } catch (...) {
+    // Nothing more can be done from here; the printer's own switch remains.
+  }
+}
+
+void Link::State::close() {
+  fail("the link was closed");
+  listener = nullptr;  // whatever still comes in, nobody may be there to hear it
+  asio::error_code ignored;
+  port.close(ignored);
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,25 @@
+// One island's curves as a file, by its ending: .txt, .svg or .png. Coordinates in the part's frame, mm.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "host/lookahead/lookahead.hpp"
+#include "host/report/curve_picture.hpp"
+
+namespace unicursal::host {
+
+/// `x y width` for each vertex, the width being that of the segment which begins there; every digit is kept.
+/// A blank line parts several curves.
+std::string curve_text(const core::IslandPlan& plan);
+
+/// The outline and a closed path for each curve and zone, y flipped as SVG wants it.
+std::string curve_svg(const PlannedLayer& layer, const CurveStyle& style);
+
+/// `layer` holds the one island to write. Throws core::FileError.
+void write_curve(const std::filesystem::path& file, const PlannedLayer& layer, const CurveStyle& style);
+
+/// Throws core::DataError unless write_curve knows the ending.
+void check_curve_file(const std::filesystem::path& file);
+
+}  // namespace unicursal::host

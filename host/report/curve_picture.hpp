@@ -1,0 +1,25 @@
+// Pictures of curves: the line in its mixture's colour over the island that it fills. mm in, pixels out.
+#pragma once
+
+#include <vector>
+
+#include "core/picture/image.hpp"
+#include "firmware_gcode/toolpath/encoder.hpp"
+#include "host/lookahead/lookahead.hpp"
+
+namespace unicursal::host {
+
+/// What a mixture of the three feeders looks like on a screen: filaments in blue, red and white.
+picture::Colour colour_of(const gcode::Mixture& mixture);
+
+/// What the picture has to know beside the layer.
+struct CurveStyle {
+  core::Box extent;                           ///< shown, mm in the part's frame
+  std::vector<picture::Colour> zone_colours;  ///< by Bead::zone
+  double bead_width = 0.4;                    ///< mm; the line is drawn at some half of it
+};
+
+/// Islands light with a thin outline, curves on top, y up.
+picture::Image draw_curves(const PlannedLayer& layer, const CurveStyle& style);
+
+}  // namespace unicursal::host

@@ -1,0 +1,43 @@
+// What was measured of curves: of one island, and added up over a layer or a print. mm, mm², s.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/planner/plan_island.hpp"
+#include "host/lookahead/lookahead.hpp"
+
+namespace unicursal::host {
+
+struct Figures {
+  std::size_t islands = 0;
+  std::size_t empty_islands = 0;  ///< too thin for any curve
+  std::size_t curves = 0;
+  std::size_t vertices = 0;
+  double length = 0;                 ///< of the curves
+  double area = 0;                   ///< that their segments fill
+  core::CurveObjectives objectives;  ///< sums; the normalised one is computed from them
+  std::size_t zone_crossings = 0;
+  std::size_t self_intersections = 0;
+  std::size_t outside_segments = 0;
+  std::size_t split_and_reconnect = 0;
+  std::size_t doubled_edges = 0;
+  double farthest = 0;       ///< the greatest
+  double unfilled_area = 0;  ///< too thin for a bead
+  double far_area = 0;       ///< farther than 1.2 bead widths from the curve
+  core::StageTime graph, cycle, fairing, widths;
+
+  /// mm, area ÷ length; 0 without a curve.
+  double mean_spacing() const { return length > 0 ? area / length : 0; }
+  /// Coverage ÷ (area × mean spacing²); straight parallel lines give 1/12.
+  double normalised_coverage() const;
+};
+
+Figures measure(const core::IslandPlan& plan);
+Figures measure(const PlannedLayer& layer);
+Figures& operator+=(Figures& sum, const Figures& more);
+
+/// The keys of the report's contract: vertices, area_mm2, length_mm, seconds { graph, … }, objectives, …
+nlohmann::json to_json(const Figures& figures);
+
+}  // namespace unicursal::host

@@ -1,0 +1,53 @@
+#include "host/report/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace unicursal::host {
+
+std::string duration_words(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string summary(const RunTotals& totals, const PlanningEffort& planning) {
+  const Figures& f = totals.figures;
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{} layers, {} islands, {} closed curves, {:.1f} m of bead {:.3f} mm apart\n",
+                 totals.layers, f.islands, f.curves, f.length / 1000, f.mean_spacing());
+  fmt::format_to(out, "material:  {:.1f} mm³", totals.volume);
+  for (const MaterialVolume& material : totals.materials) {
+    fmt::format_to(out, ", {} {:.1f}", material.name, material.part);
+  }
+  fmt::format_to(out, "\nplanning:  {} ({} of processor time)\n", duration_words(planning.seconds),
+                 duration_words(planning.cpu_seconds));
+  fmt::format_to(out, "printing:  about {} at the asked flow\n", duration_words(totals.print_seconds));
+  if (f.self_intersections + f.outside_segments > 0) {
+    fmt::format_to(out, "defects:   {} self-intersections, {} segments outside\n", f.self_intersections,
+                   f.outside_segments);
+  }
+  if (f.unfilled_area > 0 || f.far_area > 0) {
+    fmt::format_to(out, "not filled: {:.2f} mm² too thin for a bead, {:.2f} mm² too far from one\n",
+                   f.unfilled_area, f.far_area);
+  }
+  return text;
+}
+
+std::string summary(const Comparison& comparison) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "simulator: {} lines lost, {} run twice, {}\n", comparison.lines_lost,
+                 comparison.lines_twice, comparison.in_order ? "all in order" : "OUT OF ORDER");
+  for (const Comparison::Mixture& mixture : comparison.mixtures) {
+    fmt::format_to(out, "           {}: fed {:.2f} mm³ of {:.2f} ({:+.3f} %)\n", mixture.name, mixture.fed,
+                   mixture.intended, 100 * mixture.relative_error);
+  }
+  return text;
+}
+
+}  // namespace unicursal::host

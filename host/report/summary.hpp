@@ -1,0 +1,19 @@
+// What a run came to, in plain words for a terminal.
+#pragma once
+
+#include <string>
+
+#include "host/report/totals.hpp"
+
+namespace unicursal::host {
+
+/// "2 h 05 min", "3 min 20 s", "12.4 s"
+std::string duration_words(double seconds);
+
+/// Layers, curves, material and times, a line each.
+std::string summary(const RunTotals& totals, const PlanningEffort& planning);
+
+/// What the simulator's feeders and its line counts say about it.
+std::string summary(const Comparison& comparison);
+
+}  // namespace unicursal::host

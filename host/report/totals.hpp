@@ -1,0 +1,22 @@
+// What a run adds up to. mm³, s.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "host/report/figures.hpp"
+#include "host/report/volumes.hpp"
+
+namespace unicursal::host {
+
+struct RunTotals {
+  Figures figures;
+  std::size_t layers = 0;
+  double print_seconds = 0;  ///< estimated
+  double volume = 0;         ///< extruded by all chunks
+  std::uint64_t lines = 0;   ///< that the firmware gets: without comments
+  std::vector<MaterialVolume> materials;
+};
+
+}  // namespace unicursal::host

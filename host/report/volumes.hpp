@@ -1,0 +1,70 @@
+// How much of each mixture a job wants, and how far the simulator's feeders came to it. mm³, mm.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "firmware_gcode/toolpath/encoder.hpp"
+
+namespace unicursal::host {
+
+struct MaterialVolume {
+  std::string name;
+  gcode::Mixture asked;
+  gcode::Mixture intended;  ///< after floor share and quantisation: what the feeders should do
+  double part = 0;          ///< Σ area × layer height
+  double prime = 0;         ///< laid beside the part before it
+
+  double total() const { return part + prime; }
+};
+
+/// Adds the layer's beads to the volumes of their materials.
+void add_layer(std::vector<MaterialVolume>& volumes, const gcode::PlacedLayer& layer,
+               const std::vector<std::size_t>& zone_materials);
+
+/// Adds the prime line, if the chunk of the layer added last holds one, to the material it was laid with:
+/// the one of which more left the nozzle than the part has by now.
+void add_prime(std::vector<MaterialVolume>& volumes, const gcode::Chunk& chunk);
+
+/// mm³ for each feeder, of all materials together.
+std::array<double, gcode::max_feeders> feeder_volumes(const std::vector<MaterialVolume>& volumes);
+
+nlohmann::json to_json(const std::vector<MaterialVolume>& volumes);
+
+/// What the simulator needs for the comparison beside its own report.
+struct Fed {
+  double filament_diameter = 1.75;  ///< mm
+  double feeder_steps_per_mm = 400;
+  std::uint64_t lines_sent = 0;  ///< numbered lines, each once
+};
+
+/// Steps per feeder against the intended volume of each mixture, and the fate of every line.
+struct Comparison {
+  struct Mixture {
+    std::string name;
+    double intended = 0;        ///< mm³
+    double fed = 0;             ///< mm³, from the feeders' steps
+    double relative_error = 0;  ///< of the sum, signed
+    std::array<double, gcode::max_feeders>
+        feeder_error{};  ///< of each feeder, relative to its intended volume
+  };
+  std::vector<Mixture> mixtures;
+  double worst_error = 0;  ///< greatest magnitude of the mixtures' relative errors, feeders included
+  std::int64_t lines_lost = 0;
+  std::int64_t lines_twice = 0;
+  bool in_order = false;
+
+  bool lines_whole() const { return lines_lost == 0 && lines_twice == 0 && in_order; }
+};
+
+/// `simulator` is the report of sim; what it lacks counts as zero.
+Comparison compare(const std::vector<MaterialVolume>& volumes, const nlohmann::json& simulator,
+                   const Fed& fed);
+
+nlohmann::json to_json(const Comparison& comparison);
+
+}  // namespace unicursal::host

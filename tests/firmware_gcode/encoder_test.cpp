@@ -1,0 +1,432 @@
+#include "firmware_gcode/toolpath/encoder.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "core/error.hpp"
+
+using namespace unicursal;
+using namespace unicursal::gcode;
+
+namespace {
+
+constexpr double filament_area = std::numbers::pi / 4 * 1.75 * 1.75;
+
+/// One line as a firmware reads it: the command and its letters.
+struct Words {
+  std::string command;
+  std::map<char, double> values;
+
+  explicit Words(const std::string& line) {
+    std::istringstream stream(line);
+    stream >> command;
+    for (std::string word; stream >> word;) values[word[0]] = std::stod(word.substr(1));
+  }
+  bool has(char letter) const { return values.contains(letter); }
+  double at(char letter) const { return values.at(letter); }
+};
+
+std::vector<std::string> commands(const Chunk& chunk) {
+  std::vector<std::string> result;
+  for (const std::string& line : chunk.lines) {
+    if (!line.starts_with(';')) result.push_back(line);
+  }
+  return result;
+}
+
+std::size_t index_of(const std::vector<std::string>& lines, const std::string& start) {
+  const auto found =
+      std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.starts_with(start); });
+  INFO("looking for " << start);
+  REQUIRE(found != lines.end());
+  return static_cast<std::size_t>(found - lines.begin());
+}
+
+PrintSettings two_colours() {
+  PrintSettings settings;
+  settings.materials = {{"sky", Mixture({0.7, 0.3, 0})}, {"rose", Mixture({0, 0.2, 0.8})}};
+  settings.zone_materials = {0, 1};
+  settings.extent = {{60, 60}, {140, 140}};
+  settings.part_height = 10;
+  return settings;
+}
+
+/// A wavy closed curve round (100, 100), its second half in zone 1.
+core::BeadPath wavy_path(std::size_t count, double radius = 30) {
+  core::BeadPath path;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+    const double r = radius + std::sin(7 * angle);
+    path.beads.push_back({core::Vec2(100, 100) + r * core::Vec2(std::cos(angle), std::sin(angle)), 0.0,
+                          2 * i < count ? 0u : 1u});
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    path.beads[i].area = path.length(i) * (0.8 + 0.2 * std::sin(static_cast<double>(i)));
+  }
+  return path;
+}
+
+PlacedLayer layer_of(std::vector<core::BeadPath> paths, std::size_t index = 0) {
+  return {index, 0.2 * static_cast<double>(index + 1), 0.2, std::move(paths)};
+}
+
+/// What a chunk does to the filament, read back from its text.
+struct Played {
+  double bead_filament = 0;       ///< mm, with motion in the plane
+  double still_filament = 0;      ///< mm, without
+  std::map<int, double> by_tool;  ///< mm, of bead_filament
+  double travel = 0;              ///< mm
+  core::Vec2 position{0, 0};
+  int tool = -1;
+  double z = 0, feed = 0;
+  double most_filament = 0;                      ///< mm, of one line
+  std::vector<std::pair<double, double>> flows;  ///< mm of filament per s, mm long
+};
+
+void play(const Chunk& chunk, Played& state) {
+  for (const std::string& line : commands(chunk)) {
+    if (line.starts_with('T')) state.tool = std::stoi(line.substr(1));
+    if (!line.starts_with("G0") && !line.starts_with("G1")) continue;
+    const Words words(line);
+    const core::Vec2 to(words.has('X') ? words.at('X') : state.position.x(),
+                        words.has('Y') ? words.at('Y') : state.position.y());
+    const double length = (to - state.position).norm();
+    const double e = words.has('E') ? words.at('E') : 0;
+    if (words.has('F')) state.feed = words.at('F') / 60;
+    if (words.has('Z')) state.z = words.at('Z');
+    if (length > 0 && words.has('E')) {
+      state.bead_filament += e, state.by_tool[state.tool] += e;
+      state.flows.push_back({e / length * state.feed, length});
+    } else if (length > 0) {
+      state.travel += length;
+    } else {
+      state.still_filament += e;
+    }
+    state.most_filament = std::max(state.most_filament, e);
+    state.position = to;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the start: shutdown timer first, heat, home, modes, tools") {
+  Encoder encoder({}, two_colours());
+  const auto lines = commands(encoder.start());
+  CHECK(lines.front() == "M85 S1800");
+  CHECK(index_of(lines, "M140 S60") < index_of(lines, "G28"));
+  CHECK(index_of(lines, "M104 S210") < index_of(lines, "G28"));
+  CHECK(index_of(lines, "G28") < index_of(lines, "M190 S60"));
+  CHECK(index_of(lines, "G28") < index_of(lines, "M109 S210"));
+  CHECK(index_of(lines, "G90") < index_of(lines, "M83"));  // G90 overrides M83
+  index_of(lines, "M220 S100");
+  index_of(lines, "M221 S100");
+  index_of(lines, "G21");
+  index_of(lines, "G92 E0");
+}
+
+TEST_CASE("every tool is defined by all three feeders before it is used") {
+  Encoder encoder({}, two_colours());
+  auto lines = commands(encoder.start());
+  for (const Chunk& chunk : {encoder.layer(layer_of({wavy_path(100)})), encoder.finish()}) {
+    for (const auto& line : commands(chunk)) lines.push_back(line);
+  }
+  std::map<int, double> shares;
+  std::map<int, bool> defined;
+  for (const auto& line : lines) {
+    const Words words(line);
+    if (words.command == "M163") shares[static_cast<int>(words.at('S'))] = words.at('P');
+    if (words.command == "M164") {
+      REQUIRE(shares.size() == 3);
+      double sum = 0;
+      for (const auto& [feeder, share] : shares) {
+        CHECK(share >= 0.0199);
+        sum += share;
+      }
+      CHECK(sum == Approx(1).margin(2e-4));
+      shares.clear();
+      defined[static_cast<int>(words.at('S'))] = true;
+    }
+    if (line.starts_with('T')) CHECK(defined[std::stoi(line.substr(1))]);
+  }
+  CHECK(defined.size() == 3);  // two materials and the retraction tool
+}
+
+TEST_CASE("intended mixtures are floored and as the lines write them") {
+  Encoder encoder({}, two_colours());
+  const Mixture sky = encoder.intended(0);
+  CHECK(sky.share(0) == Approx(0.686));  // 0.7 and 0.3 share what the floor of 0.02 leaves
+  CHECK(sky.share(1) == Approx(0.294));
+  CHECK(sky.share(2) == Approx(0.02));
+  const auto lines = commands(encoder.start());
+  const auto first = index_of(lines, "M163 S0");
+  CHECK(lines[first] == "M163 S0 P.686");
+  CHECK(lines[first + 1] == "M163 S1 P.294");
+  CHECK(lines[first + 2] == "M163 S2 P.02");
+  CHECK(lines[first + 3] == "M164 S0");
+}
+
+TEST_CASE("sixteen materials leave no retraction tool, seventeen are refused") {
+  PrintSettings settings = two_colours();
+  while (settings.materials.size() < 16) settings.materials.push_back({"more", Mixture({1, 1, 0})});
+  Encoder encoder({}, settings);
+  const auto lines = commands(encoder.start());
+  CHECK(std::count(lines.begin(), lines.end(), "M164 S15") == 1);
+  CHECK(std::none_of(lines.begin(), lines.end(), [](const auto& l) { return l == "M164 S16"; }));
+  settings.materials.push_back({"one more", Mixture({1, 1, 0})});
+  CHECK_THROWS_WITH(Encoder({}, settings), Catch::Contains("17 mixtures") && Catch::Contains("at most 16"));
+}
+
+TEST_CASE("extruded filament is area times height, for each mixture") {
+  Encoder encoder({}, two_colours());
+  encoder.start();
+  Played played;
+  double volume = 0, prime = 0;
+  std::map<int, double> wanted;
+  for (std::size_t index = 0; index < 20; ++index) {
+    const auto path = wavy_path(997 + index);
+    for (const core::Bead& bead : path.beads) wanted[static_cast<int>(bead.zone)] += bead.area * 0.2;
+    const Chunk chunk = encoder.layer(layer_of({path}, index));
+    const auto first_bead = std::find_if(chunk.lines.begin(), chunk.lines.end(),
+                                         [](const auto& line) { return line == "T0" || line == "T1"; });
+    if (index == 0) wanted[first_bead->at(1) - '0'] += chunk.prime_volume;
+    play(chunk, played);
+    volume += chunk.volume;
+    prime += chunk.prime_volume;
+    CHECK(chunk.volume == Approx(chunk.prime_volume + path.total_area() * 0.2).epsilon(1e-12));
+    CHECK(chunk.material_volumes[0] + chunk.material_volumes[1] == Approx(chunk.volume).epsilon(1e-12));
+  }
+  CHECK(played.bead_filament == Approx(volume / filament_area).margin(2e-5));
+  // Where the tool changes, one rounding unit may go to the other side.
+  CHECK(played.by_tool[1] == Approx(wanted[1] / filament_area).margin(20 * 2e-5));
+  CHECK(played.by_tool[0] + played.by_tool[1] == Approx(volume / filament_area).margin(2e-5));
+  CHECK(prime > 2 * 6.1 * 0.99);
+}
+
+TEST_CASE("flow is constant to one per cent where the axes allow it") {
+  PrintSettings settings = two_colours();
+  settings.flow = 1.5;
+  Encoder encoder({}, settings);
+  encoder.start();
+  Played played;
+  play(encoder.layer(layer_of({wavy_path(500)})), played);
+  REQUIRE(played.flows.size() > 490);
+  for (const auto& [flow, length] : played.flows) {
+    // 0.001 mm of position in beads of 0.4 mm adds to the tolerance of the feed rate
+    CHECK(flow * filament_area == Approx(1.5).epsilon(0.02));
+  }
+}
+
+TEST_CASE("speed never exceeds what an axis can do") {
+  Printer printer;
+  printer.max_speed = {10, 20, 5};
+  PrintSettings settings = two_colours();
+  settings.flow = 8;  // would be 50 mm/s
+  Encoder encoder(printer, settings);
+  encoder.start();
+  Chunk chunk = encoder.layer(layer_of({wavy_path(200)}));
+  core::Vec2 at(0, 0);
+  double feed = 0;
+  for (const auto& line : commands(chunk)) {
+    const Words words(line);
+    if (words.command != "G0" && words.command != "G1") continue;
+    if (words.has('F')) feed = words.at('F') / 60;
+    const core::Vec2 to(words.has('X') ? words.at('X') : at.x(), words.has('Y') ? words.at('Y') : at.y());
+    if (to != at && words.has('E')) {
+      const core::Vec2 velocity = (to - at).normalized() * feed;
+      CHECK(std::abs(velocity.x()) <= 10 * 1.015);
+      CHECK(std::abs(velocity.y()) <= 20 * 1.015);
+    }
+    at = to;
+  }
+}
+
+TEST_CASE("a layer starts where the nozzle is, goes all round, and ends where it started") {
+  Encoder encoder({}, two_colours());
+  encoder.start();
+  Played played;
+  const auto path = wavy_path(300);
+  play(encoder.layer(layer_of({path}, 0)), played);
+  const core::Vec2 end = played.position;
+  const auto at_vertex = [&](const core::Bead& bead) { return (bead.position - end).norm() < 1e-3; };
+  CHECK(std::any_of(path.beads.begin(), path.beads.end(), at_vertex));
+
+  Played next = played;
+  next.travel = 0;
+  const Chunk second = encoder.layer(layer_of({path}, 1));
+  play(second, next);
+  CHECK(next.travel == 0);  // no travel, no retraction: the same curve begins where it ended
+  CHECK(next.still_filament == played.still_filament);
+  CHECK((next.position - end).norm() < 1e-9);
+  CHECK(next.z == Approx(0.4));
+}
+
+TEST_CASE("a travel draws every inlet back alike and pushes as much forward again") {
+  auto far = wavy_path(50, 4);
+  for (auto& bead : far.beads) bead.position += core::Vec2(60, 0);
+  Encoder encoder({}, two_colours());
+  encoder.start();
+  encoder.layer(layer_of({wavy_path(300)}, 0));
+  const auto lines = commands(encoder.layer(layer_of({wavy_path(300), far}, 1)));
+  const auto back = index_of(lines, "G1 E-4");
+  CHECK(lines[back - 1] == "T2");
+  CHECK(lines[back + 1].starts_with("G0 X"));
+  CHECK(lines[back + 2].starts_with("G1 E4"));
+  CHECK(lines[back + 3].starts_with("T"));
+  CHECK(lines[back + 3] != "T2");
+}
+
+TEST_CASE("the prime line keeps clear of the part or is left out") {
+  const auto primed = [](const core::Box& extent) {
+    PrintSettings settings = two_colours();
+    settings.extent = extent;
+    Encoder encoder({}, settings);
+    encoder.start();
+    return encoder.layer(layer_of({wavy_path(100)}));
+  };
+  const Chunk front = primed({{60, 60}, {140, 140}});
+  CHECK(index_of(commands(front), "G0 X5 Y5") < index_of(commands(front), "G1 E4"));
+  CHECK(front.prime_volume > 12);
+  // The part reaches over the front edge: the left one is next.
+  const Chunk left = primed({{60, 0}, {140, 140}});
+  CHECK(index_of(commands(left), "G0 X5 Y5") < index_of(commands(left), "G1 Y"));
+  CHECK(index_of(commands(left), "G1 Y") < index_of(commands(left), "G1 E-4"));
+  const Chunk none = primed({{0, 0}, {200, 200}});
+  CHECK(none.prime_volume == 0);
+  index_of(none.lines, "; no prime line");
+}
+
+TEST_CASE("the nozzle is primed with what it needs first") {
+  Encoder encoder({}, two_colours());
+  encoder.start();
+  const auto lines = commands(encoder.layer(layer_of({wavy_path(300)})));
+  std::vector<std::string> tools;
+  std::copy_if(lines.begin(), lines.end(), std::back_inserter(tools),
+               [](const auto& line) { return line.starts_with('T'); });
+  REQUIRE(tools.size() >= 4);  // push forward, prime, draw back and push forward, first bead
+  CHECK(tools[0] == "T2");
+  CHECK(tools[1] == tools[3]);
+}
+
+TEST_CASE("long beads are split below the firmware's limit") {
+  core::BeadPath path;
+  path.beads = {{{50, 50}, 5000.0, 0}, {{150, 50}, 1.0, 0}, {{150, 51}, 1.0, 0}};
+  PrintSettings settings = two_colours();
+  Encoder encoder({}, settings);
+  encoder.start();
+  Played played;
+  const Chunk chunk = encoder.layer({0, 0.3, 0.3, {path}});
+  play(chunk, played);
+  CHECK(played.most_filament < 200);
+  CHECK(played.bead_filament == Approx(chunk.volume / filament_area).margin(2e-5));
+}
+
+TEST_CASE("no line is longer than a firmware keeps, even numbered") {
+  Printer printer;
+  printer.start_gcode = "M117 " + std::string(75, 'x') + "\n; only a comment\n\n  G29 ; probe\n";
+  Encoder encoder(printer, two_colours());
+  std::vector<Chunk> chunks = {encoder.start()};
+  for (std::size_t i = 0; i < 5; ++i) chunks.push_back(encoder.layer(layer_of({wavy_path(1000)}, i)));
+  chunks.push_back(encoder.finish());
+  for (const Chunk& chunk : chunks) {
+    for (const auto& line : commands(chunk)) CHECK(line.size() + std::string("N99999999 *255").size() <= 95);
+  }
+  const auto start = commands(chunks.front());
+  CHECK(start[index_of(start, "M117") + 1] == "G29");
+  CHECK(index_of(start, "M109") < index_of(start, "G29"));
+  CHECK(index_of(start, "G29") < index_of(start, "G90"));
+}
+
+TEST_CASE("the end leaves the printer cold and away from the part") {
+  Printer printer;
+  printer.end_gcode = "M300";
+  Encoder encoder(printer, two_colours());
+  encoder.start();
+  encoder.layer(layer_of({wavy_path(100)}, 0));
+  const auto lines = commands(encoder.finish());
+  CHECK(index_of(lines, "G1 E-4") < index_of(lines, "G1 Z20"));  // part height 10 and 10 above
+  CHECK(index_of(lines, "G1 Z20") < index_of(lines, "G0 X0 Y200"));
+  index_of(lines, "M140 S0");
+  index_of(lines, "M107");
+  CHECK(index_of(lines, "M104 S0") < index_of(lines, "M300"));
+  CHECK(lines.back() == "M84");
+}
+
+TEST_CASE("an end without a beginning moves nothing") {
+  Encoder encoder({}, two_colours());
+  encoder.start();
+  for (const auto& line : commands(encoder.finish())) CHECK(line.front() != 'G');
+}
+
+TEST_CASE("names cannot smuggle commands into a file") {
+  PrintSettings settings = two_colours();
+  settings.materials[0].name = "sky\nM104 S300";
+  Encoder encoder({}, settings);
+  for (const auto& line : encoder.start().lines) CHECK(line.find('\n') == std::string::npos);
+}
+
+TEST_CASE("what the printer cannot do is refused, naming layer and place, and changes nothing") {
+  Encoder encoder({}, two_colours()), undisturbed({}, two_colours());
+  encoder.start(), undisturbed.start();
+  auto outside = wavy_path(100);
+  outside.beads[50].position.x() = -0.5;
+  CHECK_THROWS_WITH(encoder.layer(layer_of({outside}, 7)), Catch::Contains("layer 7") &&
+                                                               Catch::Contains("x -0.500") &&
+                                                               Catch::Contains("leave the bed"));
+  auto broken = wavy_path(100);
+  broken.beads[3].position.y() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
+  broken = wavy_path(100);
+  broken.beads[3].area = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
+  broken.beads[3].area = -1;
+  CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
+  broken = wavy_path(100);
+  broken.beads[3].zone = 2;
+  CHECK_THROWS_WITH(encoder.layer(layer_of({broken})), Catch::Contains("zone 2 has no mixture"));
+  CHECK_THROWS_AS(encoder.layer({0, 0.2, 0, {wavy_path(10)}}), core::DataError);
+  CHECK_THROWS_AS(encoder.layer({0, 200.3, 0.2, {wavy_path(10)}}), core::DataError);
+  CHECK(encoder.layer(layer_of({wavy_path(100)})).lines ==
+        undisturbed.layer(layer_of({wavy_path(100)})).lines);
+}
+
+TEST_CASE("printers and settings that make no sense are refused") {
+  const auto refused = [](const Printer& printer, const PrintSettings& settings, const std::string& part) {
+    CHECK_THROWS_WITH(Encoder(printer, settings), Catch::Contains(part));
+  };
+  PrintSettings settings = two_colours();
+  settings.flow = 8.1;
+  refused({}, settings, "max_flow");
+  settings.flow = 0;
+  refused({}, settings, "flow");
+  settings = two_colours();
+  settings.zone_materials = {0, 2};
+  refused({}, settings, "does not exist");
+  settings.materials.clear();
+  refused({}, settings, "at least one mixture");
+  Printer printer;
+  printer.firmware = "klipper";
+  refused(printer, two_colours(), "klipper");
+  printer = {}, printer.floor_share = 0.4;
+  refused(printer, two_colours(), "floor_share");
+  printer = {}, printer.max_speed[1] = 0;
+  refused(printer, two_colours(), "max_speed");
+  printer = {}, printer.start_gcode = "G28\nN5 G28*12";
+  refused(printer, two_colours(), "start_gcode, line 2");
+  printer = {}, printer.end_gcode = std::string(81, 'M');
+  refused(printer, two_colours(), "longer than 80");
+}
+
+TEST_CASE("empty layers and paths of one point pass") {
+  Encoder encoder({}, two_colours());
+  encoder.start();
+  core::BeadPath point;
+  point.beads = {{{100, 100}, 0.0, 0}};
+  CHECK(commands(encoder.layer(layer_of({}))).empty());
+  CHECK(commands(encoder.layer(layer_of({point, {}}))).empty());
+  CHECK(encoder.layer(layer_of({wavy_path(10)})).prime_volume > 0);  // the first that is printed
+}

@@ -1,0 +1,102 @@
+#include "firmware_gcode/reply/reply.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace unicursal::gcode;
+
+namespace {
+
+template <class What>
+What parsed(std::string_view line) {
+  const Reply result = parse_reply(line);
+  INFO(line);
+  REQUIRE(std::holds_alternative<What>(result));
+  return std::get<What>(result);
+}
+
+}  // namespace
+
+TEST_CASE("oks of both firmwares") {
+  CHECK_FALSE(parsed<reply::Ok>("ok").line);
+  CHECK_FALSE(parsed<reply::Ok>(" ok\r").line);
+  const auto advanced = parsed<reply::Ok>("ok N2 P14 B3");
+  CHECK(advanced.line == 2u);
+  CHECK(advanced.planner_places == 14u);
+  CHECK(advanced.command_places == 3u);
+  const auto unnumbered = parsed<reply::Ok>("ok P15 B3");
+  CHECK_FALSE(unnumbered.line);
+  CHECK(unnumbered.planner_places == 15u);
+  CHECK(parsed<reply::Ok>("ok 12").line == 12u);
+  const auto heat = parsed<reply::Ok>("ok T:25.00 /0.00 B:24.50 /60.00 @:0 B@:0");
+  CHECK_FALSE(heat.line);
+  CHECK(heat.temperatures == Temperatures{25.0, 0.0, 24.5, 60.0});
+  CHECK_FALSE(parsed<reply::Ok>("ok N99999999999").line);
+}
+
+TEST_CASE("what only looks like an ok is none") {
+  for (const char* line : {"okay", "ok:", "nok", "OK", "o", "okok"}) {
+    CHECK(std::holds_alternative<reply::Unknown>(parse_reply(line)));
+  }
+}
+
+TEST_CASE("resend requests") {
+  CHECK(parsed<reply::Resend>("Resend: 4").line == 4);
+  CHECK(parsed<reply::Resend>("Resend:2").line == 2);
+  CHECK(parsed<reply::Resend>("rs 7").line == 7);
+  for (const char* line : {"Resend:", "Resend: x", "Resend: -3", "Resend: 4x", "Resend: 99999999999"}) {
+    CHECK(std::holds_alternative<reply::Unknown>(parse_reply(line)));
+  }
+}
+
+TEST_CASE("errors tell the last line, or that the end has come") {
+  const auto mismatch = parsed<reply::Error>("Error:checksum mismatch, Last Line: 3");
+  CHECK(mismatch.last_line == 3u);
+  CHECK_FALSE(mismatch.halted);
+  CHECK(parsed<reply::Error>("Error:No Checksum with line number, Last Line: 2").last_line == 2u);
+  CHECK(parsed<reply::Error>("Error:Line Number is not Last Line Number+1, Last Line: 0").last_line == 0u);
+  CHECK(parsed<reply::Error>("Error:Printer halted. kill() called!").halted);
+  CHECK(parsed<reply::Error>("fatal: heater/sensor error").halted);
+  CHECK_FALSE(parsed<reply::Error>("Error:Last Line: none").last_line);
+}
+
+TEST_CASE("temperatures") {
+  const auto report = parsed<reply::TemperatureReport>(" T:182.13 /210.00 B:60.02 /60.00 @:127 B@:30 W:?");
+  CHECK(report.temperatures == Temperatures{182.13, 210.0, 60.02, 60.0});
+  CHECK(report.waiting);
+  const auto repetier = parsed<reply::TemperatureReport>("T:25.0 B:24.0");
+  CHECK(repetier.temperatures == Temperatures{25.0, {}, 24.0, {}});
+  CHECK_FALSE(repetier.waiting);
+  CHECK(parsed<reply::TemperatureReport>("T:-12.5 /0.0").temperatures.nozzle == -12.5);
+  CHECK(std::holds_alternative<reply::Unknown>(parse_reply("T:nan /inf")));
+}
+
+TEST_CASE("the rest of the vocabulary") {
+  parsed<reply::Start>("start");
+  parsed<reply::Wait>("wait");
+  parsed<reply::Busy>("echo:busy: processing");
+  parsed<reply::Busy>("busy:processing");
+  CHECK(parsed<reply::Skip>("skip 1").line == 1u);
+  CHECK(parsed<reply::Action>("//action:out_of_filament T0").text == "out_of_filament T0");
+  CHECK(parsed<reply::Echo>("echo:Unknown command: \"M9999\"").unknown_command);
+  CHECK_FALSE(parsed<reply::Echo>("echo: cold extrusion prevented").unknown_command);
+  CHECK(parsed<reply::Firmware>("FIRMWARE_NAME:Marlin 2.1.2").text == "FIRMWARE_NAME:Marlin 2.1.2");
+  parsed<reply::Blank>("");
+  parsed<reply::Blank>(" \r");
+  parsed<reply::Position>("X:0.00 Y:0.00 Z:0.00 E:0.00 Count X:0 Y:0 Z:0");
+  parsed<reply::Unknown>("restart");
+}
+
+TEST_CASE("any bytes parse to something, and can be shown") {
+  std::mt19937 random(11);
+  const std::vector<std::string> starts = {
+      "", "ok ", "ok N", "Resend:", "Error:", "T:", " T:1 /", "echo:", "skip "};
+  for (int i = 0; i < 100000; ++i) {
+    std::string line = starts[random() % starts.size()];
+    for (auto n = random() % 40; n > 0; --n) line += static_cast<char>(random() % 256);
+    parse_reply(line);
+    for (char c : printable(line)) REQUIRE((c >= ' ' && c <= '~'));
+  }
+  CHECK(printable(std::string(1000, 'a')).size() == 203);
+  CHECK(printable("a\x1b[2J\xff") == "a\\x1b[2J\\xff");
+}

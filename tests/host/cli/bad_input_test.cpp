@@ -1,0 +1,194 @@
+// Bad input ends with one sentence, exit code 2, and not a byte on the printer's line.
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal {
+namespace {
+
+using test::Outcome;
+using test::replaced;
+using test::run;
+using test::sample_drawing;
+using test::sample_job;
+using test::sample_profile;
+using test::TempFolder;
+
+/// A terminal whose other end tells whether anything was ever written to it.
+class QuietPrinter {
+ public:
+  QuietPrinter() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+    grantpt(master_);
+    unlockpt(master_);
+    path_ = ptsname(master_);
+    slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY);
+  }
+  ~QuietPrinter() {
+    close(slave_);
+    close(master_);
+  }
+  QuietPrinter(const QuietPrinter&) = delete;
+  QuietPrinter& operator=(const QuietPrinter&) = delete;
+
+  const std::string& path() const { return path_; }
+  bool heard_nothing() const {
+    char byte = 0;
+    return read(master_, &byte, 1) <= 0;
+  }
+
+ private:
+  int master_, slave_ = -1;
+  std::string path_;
+};
+
+const char* const tetrahedron_facets[] = {"0 0 0  0 10 0  10 0 0", "0 0 0  10 0 0  0 0 10",
+                                          "0 0 0  0 0 10  0 10 0", "10 0 0  0 10 0  0 0 10"};
+
+std::string stl(std::size_t facets) {
+  std::string text = "solid part\n";
+  for (std::size_t i = 0; i < facets; ++i) {
+    double v[9];
+    std::istringstream numbers(tetrahedron_facets[i]);
+    for (double& value : v) numbers >> value;
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (int k = 0; k < 9; k += 3) {
+      text += "vertex " + std::to_string(v[k]) + ' ' + std::to_string(v[k + 1]) + ' ' +
+              std::to_string(v[k + 2]) + '\n';
+    }
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid part\n";
+}
+
+struct Bad {
+  std::string name;
+  std::string job = sample_job, drawing = sample_drawing;
+  std::vector<std::string> words;  ///< in the sentence
+};
+
+std::string mesh_job(const std::string& file) {
+  return "printer = \"bench.toml\"\n[part]\nfile = \"" + file +
+         "\"\nlayer_height = 0.2\nbead_width = 1.0\n[[zone]]\nselect = \"" + file +
+         "\"\nmixture = \"sea\"\n[mixture]\nsea = [1, 1, 1]\n";
+}
+
+std::vector<Bad> bad_jobs() {
+  return {
+      {"missing drawing", replaced(sample_job, "plate.svg", "lost.svg"), sample_drawing, {"lost.svg"}},
+      {"empty drawing",
+       sample_job,
+       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"/>",
+       {"plate.svg"}},
+      {"open mesh", mesh_job("open.stl"), sample_drawing, {"open.stl"}},
+      {"NaN in a mesh", mesh_job("nan.stl"), sample_drawing, {"nan.stl"}},
+      {"zero height",
+       replaced(sample_job, "height = 0.4", "height = 0"),
+       sample_drawing,
+       {"line 5", "part.height"}},
+      {"mixture of zeros",
+       replaced(sample_job, "[0.6, 0.0, 0.2]", "[0, 0, 0]"),
+       sample_drawing,
+       {"line 21", "mixture.sea", "zero"}},
+      {"unknown key",
+       replaced(sample_job, "flow", "flwo"),
+       sample_drawing,
+       {"line 8", "did you mean \"flow\"?"}},
+      {"part wider than the bed",
+       sample_job,
+       replaced(replaced(sample_drawing, "20mm", "200mm"), "16mm", "160mm"),
+       {"200.0 x 160.0", "120.0 x 100.0", "bed"}},
+      {"part higher than the bed",
+       replaced(sample_job, "height = 0.4", "height = 81"),
+       sample_drawing,
+       {"81.0", "80.0", "bed"}},
+      {"part placed off the bed",
+       replaced(sample_job, "flow = 3.0", "place = [5, 50]"),
+       sample_drawing,
+       {"part.place", "-5.0", "center"}},
+      {"no such colour", replaced(sample_job, "#ff0000", "#00ff00"), sample_drawing, {"#00ff00"}},
+  };
+}
+
+void check_refused(const Outcome& outcome, const Bad& bad) {
+  INFO(bad.name << ": " << outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.rfind("unicursal: ", 0) == 0);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(outcome.err.find("; ") != std::string::npos);
+  for (const std::string& word : bad.words) {
+    INFO(word);
+    CHECK(outcome.err.find(word) != std::string::npos);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Bad jobs are refused with a sentence, and the printer hears nothing") {
+  const TempFolder folder;
+  folder.write("bench.toml", sample_profile);
+  folder.write("open.stl", stl(3));
+  folder.write("nan.stl", replaced(stl(4), "10.000000", "nan"));
+  const QuietPrinter printer;
+  for (const Bad& bad : bad_jobs()) {
+    folder.write("plate.svg", bad.drawing);
+    const std::string job = folder.write("job.toml", bad.job).string();
+    check_refused(run({"print", job, "--port", printer.path()}), bad);
+    check_refused(run({"dry-run", job}), bad);
+    check_refused(run({"plan", job, "-o", (folder / "out.gcode").string()}), bad);
+    CHECK_FALSE(std::filesystem::exists(folder / "out.gcode"));
+  }
+  CHECK(printer.heard_nothing());
+}
+
+TEST_CASE("A missing job, an unknown option and a wrong range are refused with code 2") {
+  const TempFolder folder;
+  folder.write("bench.toml", sample_profile);
+  folder.write("plate.svg", sample_drawing);
+  const std::string job = folder.write("job.toml", sample_job).string();
+  const std::string out = (folder / "c.txt").string();
+  const std::vector<std::vector<std::string>> commands = {
+      {"dry-run", (folder / "none.toml").string()},
+      {"dry-run"},
+      {"dry-run", job, "--colour"},
+      {"dry-run", job, "--speed", "-1"},
+      {"dry-run", job, "--layers", "x"},
+      {"dry-run", job, "--layers", "7:9"},
+      {"dry-run", job, "--profile", (folder / "none.toml").string()},
+      {"dry-run", job, "--picture", job},
+      {"curve", job, "--layer", "2", "-o", out},
+      {"curve", job, "--layer", "0", "--island", "1", "-o", out},
+      {"curve", job, "--layer", "0", "-o", (folder / "c.bmp").string()},
+      {"plan", job},
+      {"fly"},
+      {}};
+  for (const auto& command : commands) {
+    const Outcome outcome = run(command);
+    INFO((command.empty() ? "" : command.front()) << ": " << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.rfind("unicursal: ", 0) == 0);
+  }
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("A port that is no printer is told, and nothing is left behind") {
+  const TempFolder folder;
+  folder.write("bench.toml", sample_profile);
+  folder.write("plate.svg", sample_drawing);
+  const std::string job = folder.write("job.toml", sample_job).string();
+  const Outcome outcome =
+      run({"print", job, "--port", (folder / "ttyNONE").string(), "--report", (folder / "r.json").string()});
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.rfind("unicursal: ", 0) == 0);
+  CHECK_FALSE(std::filesystem::exists(folder / "r.json"));
+  CHECK_FALSE(std::filesystem::exists(folder / "r.json.part"));
+}
+
+}  // namespace unicursal

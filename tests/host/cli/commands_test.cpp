@@ -1,0 +1,188 @@
+// The commands on sound input, as real processes.
+#include <poll.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal {
+namespace {
+
+using nlohmann::json;
+using test::Outcome;
+using test::run;
+using test::TempFolder;
+
+/// A folder with the sample job in it.
+struct Workshop {
+  Workshop() {
+    folder.write("bench.toml", test::sample_profile);
+    folder.write("plate.svg", test::sample_drawing);
+    job = folder.write("job.toml", test::sample_job).string();
+  }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  TempFolder folder;
+  std::string job;
+};
+
+json read_json(const std::filesystem::path& file) {
+  return json::parse(test::read_text(file));
+}
+
+bool is_png(const std::filesystem::path& file) {
+  const std::string bytes = test::read_text(file);
+  return bytes.rfind("\x89PNG\r\n\x1a\n", 0) == 0 && bytes.find("IEND") != std::string::npos;
+}
+
+/// A simulator names its profile, which lies in the test's own folder.
+bool simulator_runs_on(const std::string& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    if (test::read_text(entry.path() / "cmdline").find(folder) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("Help and version are answers, not errors") {
+  CHECK(run({"--version"}).out == "unicursal 0.1.0\n");
+  for (const char* command : {"dry-run", "plan", "print", "curve", "simulate", "ports"}) {
+    const Outcome outcome = run({command, "--help"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("Example:\n  unicursal " + std::string(command)) != std::string::npos);
+  }
+  CHECK(run({"ports"}).code == 0);
+}
+
+TEST_CASE("A dry run prints the whole part on the simulator, and its report says so") {
+  const Workshop shop;
+  const Outcome outcome =
+      run({"dry-run", shop.job, "--report", shop.path("r.json"), "--picture", shop.path("pics")});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json report = read_json(shop.path("r.json"));
+  CHECK(report["ended"] == "completed");
+  REQUIRE(report["layers"].size() == 2);
+  for (const json& layer : report["layers"]) {
+    CHECK(layer["area_mm2"].get<double>() == Approx(320).epsilon(1e-6));
+    CHECK(layer["self_intersections"] == 0);
+    CHECK(layer["outside_segments"] == 0);
+  }
+  // 12 of the 20 mm are sea, the rest sun; 2 layers of 0.2 mm.
+  CHECK(report["mixtures"][0]["part_mm3"].get<double>() == Approx(192 * 0.4).epsilon(0.02));
+  CHECK(report["mixtures"][0]["part_mm3"].get<double>() + report["mixtures"][1]["part_mm3"].get<double>() ==
+        Approx(320 * 0.4).epsilon(1e-6));
+  CHECK(report["totals"]["mean_spacing_mm"].get<double>() == Approx(1).epsilon(0.03));
+  const json& comparison = report["comparison"];
+  CHECK(comparison["lines_lost"] == 0);
+  CHECK(comparison["lines_twice"] == 0);
+  CHECK(comparison["lines_in_order"] == true);
+  for (const json& mixture : comparison["mixtures"]) {
+    CHECK(mixture["relative_error"].get<double>() == Approx(0).margin(0.005));
+  }
+  CHECK(report["simulator"]["layers"].size() == 2);
+  CHECK(report["peak_memory_mib"].get<double>() > 1);
+  for (const char* name : {"curve-0000.png", "curve-0001.png", "deposit-0000.png", "deposit-0001.png"}) {
+    INFO(name);
+    CHECK(is_png(shop.folder / ("pics/" + std::string(name))));
+  }
+  CHECK(outcome.out.find("0 lines lost") != std::string::npos);
+  CHECK_FALSE(simulator_runs_on(shop.folder.path().string()));
+}
+
+TEST_CASE("A range of layers is printed on the bed") {
+  const Workshop shop;
+  REQUIRE(run({"dry-run", shop.job, "--layers", "1:1", "--report", shop.path("r.json")}).code == 0);
+  const json report = read_json(shop.path("r.json"));
+  REQUIRE(report["layers"].size() == 1);
+  CHECK(report["layers"][0]["layer"] == 1);
+  CHECK(report["layers"][0]["top_mm"].get<double>() == Approx(0.2));
+  CHECK(report["simulator"]["layers"][0]["z"].get<double>() == Approx(0.2));
+}
+
+TEST_CASE("A thin line deposits its width times its length") {
+  const Workshop shop;
+  shop.folder.write("job.toml", test::replaced(test::sample_job, "flow = 3.0", "deposit = { width = 0.5 }"));
+  REQUIRE(run({"plan", shop.job, "-o", shop.path("o.gcode"), "--report", shop.path("r.json")}).code == 0);
+  const json report = read_json(shop.path("r.json"));
+  double volume = 0;
+  for (const json& mixture : report["mixtures"]) volume += mixture["part_mm3"].get<double>();
+  CHECK(volume == Approx(0.5 * 0.2 * report["totals"]["length_mm"].get<double>()));
+}
+
+TEST_CASE("A plan is the same text as what a dry run sends, and comes out the same twice") {
+  const Workshop shop;
+  REQUIRE(run({"plan", shop.job, "-o", shop.path("a.gcode"), "--report", shop.path("r.json")}).code == 0);
+  REQUIRE(run({"plan", shop.job, "-o", shop.path("b.gcode")}).code == 0);
+  const std::string text = test::read_text(shop.path("a.gcode"));
+  CHECK(text == test::read_text(shop.path("b.gcode")));
+  REQUIRE(run({"dry-run", shop.job, "--report", shop.path("d.json")}).code == 0);
+  std::size_t commands = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) commands += !line.empty() && line[0] != ';';
+  CHECK(read_json(shop.path("r.json"))["lines"] == commands);
+  CHECK(read_json(shop.path("d.json"))["link"]["lines"] == commands);
+}
+
+TEST_CASE("A curve's three files and its report belong together") {
+  const Workshop shop;
+  const Outcome outcome =
+      run({"curve", shop.job, "--layer", "1", "-o", shop.path("c.txt"), "-o", shop.path("c.svg"), "-o",
+           shop.path("c.png"), "--report", shop.path("r.json")});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json report = read_json(shop.path("r.json"));
+  std::vector<std::array<double, 3>> rows;
+  std::istringstream text(test::read_text(shop.path("c.txt")));
+  for (std::array<double, 3> row{}; text >> row[0] >> row[1] >> row[2];) rows.push_back(row);
+  CHECK(report["vertices"] == rows.size());
+  double area = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto &a = rows[i], &b = rows[(i + 1) % rows.size()];
+    area += a[2] * std::hypot(b[0] - a[0], b[1] - a[1]);
+    CHECK((a[0] >= 0 && a[0] <= 20 && a[1] >= 0 && a[1] <= 16));  // the part's frame
+  }
+  CHECK(area == Approx(report["island_area_mm2"].get<double>()).epsilon(1e-9));
+  CHECK(is_png(shop.folder / "c.png"));
+  CHECK(test::read_text(shop.path("c.svg")).find("</svg>") != std::string::npos);
+}
+
+TEST_CASE("A simulator that stands alone takes a print, more than one process away") {
+  const Workshop shop;
+  test::Child simulator(
+      {"simulate", "--once", "--link", shop.path("printer"), "--report", shop.path("seen.json")});
+  while (!std::filesystem::exists(shop.path("printer"))) {
+    REQUIRE(simulator.running());
+    poll(nullptr, 0, 5);
+  }
+  const Outcome outcome =
+      run({"print", shop.job, "--port", shop.path("printer"), "--report", shop.path("r.json")});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);  // else the simulator would wait for a host for ever
+  CHECK(simulator.wait().code == 0);
+  CHECK(read_json(shop.path("seen.json"))["last_line"] == read_json(shop.path("r.json"))["link"]["lines"]);
+}
+
+TEST_CASE("Ctrl-C parks and cools, and the simulator goes with its host") {
+  const Workshop shop;
+  test::Child host({"dry-run", shop.job, "--speed", "60", "--report", shop.path("r.json")});
+  while (host.err().find("layer 1 of 2") == std::string::npos) {
+    REQUIRE(host.running());
+    poll(nullptr, 0, 20);
+  }
+  kill(host.id(), SIGINT);
+  const Outcome outcome = host.wait();
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  const json report = read_json(shop.path("r.json"));
+  CHECK(report["ended"] == "stopped");
+  CHECK(report["simulator"]["temperatures"]["nozzle"]["target"] == 0);
+  CHECK(report["simulator"]["last_line"] == report["link"]["lines"]);
+  CHECK_FALSE(simulator_runs_on(shop.folder.path().string()));
+}
+
+}  // namespace unicursal

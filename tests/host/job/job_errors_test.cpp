@@ -1,0 +1,180 @@
+#include <catch2/catch.hpp>
+
+#include "host/job/job.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using test::replaced;
+using test::sample_job;
+using test::sample_profile;
+
+std::string complaint(const std::string& job, const std::string& profile) {
+  const test::TempFolder folder;
+  folder.write("bench.toml", profile);
+  const auto file = folder.write("job.toml", job);
+  try {
+    load_job(file);
+  } catch (const core::DataError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// One thing spoilt, and what the sentence about it must contain.
+struct Case {
+  const char* from;
+  const char* to;
+  std::vector<std::string> words;
+};
+
+void check(const std::string& sentence, const Case& spoilt) {
+  INFO(spoilt.from << " → " << spoilt.to);
+  INFO(sentence);
+  for (const std::string& word : spoilt.words) {
+    INFO(word);
+    CHECK(sentence.find(word) != std::string::npos);
+  }
+  CHECK(sentence.find("; ") != std::string::npos);  // a remedy follows
+}
+
+const std::vector<Case> spoilt_jobs = {
+    {"printer = \"bench.toml\"", "", {"job.toml", "line 1", "printer", "missing", "--profile"}},
+    {"bench.toml",
+     "lost.toml",
+     {"job.toml", "line 1", "printer", "lost.toml", "does not exist", "--profile"}},
+    {"height = 0.4\n", "", {"line 3", "part.height", "missing", "height = 1.0"}},
+    {"layer_height = 0.2", "", {"line 3", "part.layer_height", "missing", "layer_height = 0.2"}},
+    {"bead_width = 1.0", "", {"line 3", "part.bead_width", "missing"}},
+    {"file = \"plate.svg\"", "", {"line 3", "part.file", "missing", "SVG or STL"}},
+    {"file = \"plate.svg\"", "file = 3", {"line 4", "part.file", "a number", "text"}},
+    {"file = \"plate.svg\"", "file = []", {"line 4", "part.file", "empty"}},
+    {"height = 0.4", "height = 0", {"line 5", "part.height", "is 0", "mm"}},
+    {"height = 0.4", "height = -1.5", {"line 5", "part.height", "is -1.5"}},
+    {"height = 0.4", "height = nan", {"line 5", "part.height", "nan"}},
+    {"height = 0.4", "height = inf", {"line 5", "part.height", "inf"}},
+    {"height = 0.4", "height = \"tall\"", {"line 5", "part.height", "a text", "number"}},
+    {"layer_height = 0.2", "layer_height = 0.0", {"line 6", "part.layer_height", "is 0"}},
+    {"layer_height = 0.2",
+     "layer_heigth = 0.2",
+     {"line 6", "part.layer_heigth", "did you mean \"layer_height\"?"}},
+    {"[part]", "colour = 3\n[part]", {"line 3", "colour", "no key", "did you mean"}},
+    {"bead_width = 1.0",
+     "bead_width = 1.3",
+     {"line 7", "part.bead_width", "1.3 mm", "0.4 to 1.2", "profile"}},
+    {"bead_width = 1.0", "bead_width = 0.39", {"line 7", "part.bead_width", "0.39 mm"}},
+    {"bead_width = 1.0", "seed_distance = 9", {"line 7", "part.seed_distance", "0.4 to 1.2"}},
+    {"flow = 3.0", "flow = 5.1", {"line 8", "part.flow", "5.1 mm³/s", "at most 5", "max_flow"}},
+    {"flow = 3.0", "flow = 0", {"line 8", "part.flow", "above 0"}},
+    {"flow = 3.0", "flow = \"fast\"", {"line 8", "part.flow", "\"auto\""}},
+    {"flow = 3.0", "perimeters = -1", {"line 8", "part.perimeters", "-1"}},
+    {"flow = 3.0", "perimeters = 1.5", {"line 8", "part.perimeters", "whole number"}},
+    {"flow = 3.0", "place = \"middle\"", {"line 8", "part.place", "\"middle\"", "\"center\"", "\"as-is\""}},
+    {"flow = 3.0", "place = [1, 2, 3]", {"line 8", "part.place", "3 numbers instead of 2"}},
+    {"flow = 3.0", "place = [1, nan]", {"line 8", "part.place", "nan"}},
+    {"flow = 3.0", "deposit = { width = 1.3 }", {"line 8", "part.deposit.width", "1.3", "1.2 mm"}},
+    {"flow = 3.0", "deposit = { widht = 1 }", {"line 8", "part.deposit.widht", "\"width\""}},
+    {"flow = 3.0", "deposit = \"full\"", {"line 8", "part.deposit", "did you mean \"fill\"?"}},
+    {"select = \"#0000ff\"", "", {"line 10", "zone[0].select", "missing"}},
+    {"\"isotropic\"", "\"isotropical\"", {"line 12", "zone[0].pattern", "did you mean \"isotropic\"?"}},
+    {"\"isotropic\"", "{ angle = 400 }", {"line 12", "zone[0].pattern.angle", "400", "360"}},
+    {"\"isotropic\"",
+     "{ field = \"no.csv\" }",
+     {"line 12", "zone[0].pattern.field", "no.csv", "does not exist"}},
+    {"\"isotropic\"", "{}", {"line 12", "zone[0].pattern", "angle or a field"}},
+    {"pattern = \"isotropic\"",
+     "boundary = \"zones\"",
+     {"line 12", "zone[0].boundary", "did you mean \"zone\"?"}},
+    {"mixture = \"sea\"",
+     "mixture = \"see\"",
+     {"line 13", "zone[0].mixture", "not defined", "did you mean \"sea\"?"}},
+    {"mixture = \"sea\"", "", {"line 10", "zone[0].mixture", "missing"}},
+    {"[0.6, 0.0, 0.2]", "[0, 0.0, 0]", {"line 21", "mixture.sea", "zero"}},
+    {"[0.6, 0.0, 0.2]", "[0.6, -0.1, 0.2]", {"line 21", "mixture.sea", "-0.1", "at least 0"}},
+    {"[0.6, 0.0, 0.2]", "[0.6, nan, 0.2]", {"line 21", "mixture.sea", "nan"}},
+    {"[0.6, 0.0, 0.2]", "[0.6, 0.4]", {"line 21", "mixture.sea", "2 shares", "3 feeders"}},
+    {"[0.6, 0.0, 0.2]", "[0.6, 0.2, 0.1, 0.1]", {"line 21", "mixture.sea", "4 shares"}},
+    {"[0.6, 0.0, 0.2]", "\"blue\"", {"line 21", "mixture.sea", "list of numbers"}},
+    {"[mixture]\nsea = [0.6, 0.0, 0.2]\nsun = [0.0, 1.0, 1.0]",
+     "",
+     {"line 1", "mixture", "missing", "[mixture]"}},
+    {"[mixture]", "[[mixture]]", {"mixture", "a list", "table"}},
+    {"[part]", "[part", {"line 3", "not valid TOML"}},
+};
+
+const std::vector<Case> spoilt_profiles = {
+    {"[printer]", "[print]", {"bench.toml", "line 1", "print", "did you mean \"printer\"?"}},
+    {"firmware = \"marlin\"",
+     "firmware = \"marlyn\"",
+     {"line 3", "printer.firmware", "did you mean \"marlin\"?"}},
+    {"firmware = \"marlin\"",
+     "firmware = \"repetier\"",
+     {"line 3", "printer.firmware", "does not speak yet"}},
+    {"baud = 115200", "baud = 0", {"line 4", "printer.baud", "is 0"}},
+    {"[120.0, 100.0, 80.0]", "[120.0, 100.0]", {"line 5", "printer.bed", "2 numbers instead of 3"}},
+    {"[120.0, 100.0, 80.0]", "[120.0, -100.0, 80.0]", {"line 5", "printer.bed", "-100", "above 0"}},
+    {"[0.4, 1.2]", "[1.2, 0.4]", {"line 7", "printer.bead_width_range", "swap"}},
+    {"feeders = 3", "feeders = 4", {"line 10", "extruder.feeders", "from 1 to 3"}},
+    {"feeders = 3", "feeders = 2.5", {"line 10", "extruder.feeders", "whole"}},
+    {"feeders = 3", "floor_share = 0.5", {"line 10", "extruder.floor_share", "0.5"}},
+    {"max_flow = 5.0", "maxflow = 5.0", {"line 11", "extruder.maxflow", "did you mean \"max_flow\"?"}},
+};
+
+}  // namespace
+
+TEST_CASE("The sample job is sound") {
+  CHECK(complaint(sample_job, sample_profile) == "");
+}
+
+TEST_CASE("A mistake in a job is told with file, line, key and remedy") {
+  for (const Case& spoilt : spoilt_jobs) {
+    const std::string sentence = complaint(replaced(sample_job, spoilt.from, spoilt.to), sample_profile);
+    CHECK(sentence.find("job.toml") != std::string::npos);
+    check(sentence, spoilt);
+  }
+}
+
+TEST_CASE("A mistake in a profile is told with file, line, key and remedy") {
+  for (const Case& spoilt : spoilt_profiles) {
+    const std::string sentence = complaint(sample_job, replaced(sample_profile, spoilt.from, spoilt.to));
+    CHECK(sentence.find("bench.toml") != std::string::npos);
+    check(sentence, spoilt);
+  }
+}
+
+TEST_CASE("A job uses at most sixteen mixtures, of which equal ones count once") {
+  const auto job_of = [](int mixtures, bool equal) {
+    std::string zones, palette;
+    for (int i = 0; i < mixtures; ++i) {
+      const std::string name = "m" + std::to_string(i);
+      zones += "[[zone]]\nselect = \"" + name + "\"\nmixture = \"" + name + "\"\n";
+      palette += name + " = [1, 1, " + std::to_string(equal ? 3 : i) + "]\n";
+    }
+    const std::string job = sample_job;
+    return job.substr(0, job.find("[[zone]]")) + zones + "[mixture]\n" + palette;
+  };
+  CHECK(complaint(job_of(16, false), sample_profile) == "");
+  CHECK(complaint(job_of(17, true), sample_profile) == "");
+  const std::string sentence = complaint(job_of(17, false), sample_profile);
+  INFO(sentence);
+  CHECK(sentence.find("zone[16].mixture") != std::string::npos);
+  CHECK(sentence.find("at most 16") != std::string::npos);
+}
+
+TEST_CASE("A job that is not there, is a folder or is huge is refused") {
+  const test::TempFolder folder;
+  CHECK_THROWS_AS(load_job(folder / "none.toml"), core::FileError);
+  CHECK_THROWS_AS(load_job(folder.path()), core::FileError);
+  CHECK_THROWS_AS(load_job(folder.write("huge.toml", std::string(2 << 20, '#'))), core::FileError);
+}
+
+TEST_CASE("Bytes of any kind in a job are an error and nothing worse") {
+  std::string bytes = "x = \"";
+  for (int c = 0; c < 256; ++c) bytes += static_cast<char>(c);
+  CHECK(complaint(bytes, sample_profile).find("not valid TOML") != std::string::npos);
+  CHECK(complaint(std::string(100000, '['), sample_profile).find("not valid TOML") != std::string::npos);
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,344 @@
+#include "host/link/link.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <asio/co_spawn.hpp>
+#include <asio/io_context.hpp>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "fake_printer.hpp"
+
+using namespace unicursal;
+using namespace unicursal::host;
+using namespace std::chrono_literals;
+using test::FakeBehaviour;
+using test::FakePrinter;
+
+namespace {
+
+LinkOptions impatient() {
+  LinkOptions options;
+  options.boot = 50ms;
+  options.silence = 150ms;
+  options.no_ok = 3000ms;
+  options.quiet = 5ms;
+  return options;
+}
+
+std::vector<std::string> moves(std::size_t count) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    lines.push_back(fmt::format("G1 X{:.3f} Y{} E.0123", 0.001 * static_cast<double>(i), i % 200));
+  }
+  return lines;
+}
+
+struct Outcome {
+  std::string error;  ///< of a LinkError, empty when all went well
+  LinkStatistics statistics;
+  std::string firmware;
+  std::vector<std::string> messages;
+};
+
+/// Connects, sends, drains, on a loop of its own.
+Outcome stream(const std::string& path, std::vector<std::string> lines, LinkOptions options = impatient(),
+               const std::function<void(Link&, const std::string&)>& on_message = {}) {
+  asio::io_context loop;
+  Outcome outcome;
+  const auto talk = [&]() -> asio::awaitable<void> {
+    Link link(loop.get_executor(), open_port(path, 250000), options);
+    link.on_message([&](const std::string& message) {
+      outcome.messages.push_back(message);
+      if (on_message) on_message(link, message);
+    });
+    try {
+      co_await link.connect();
+      co_await link.send(lines);
+      co_await link.drain();
+    } catch (const LinkError& error) {
+      outcome.error = error.what();
+    }
+    outcome.statistics = link.statistics();
+    outcome.firmware = link.firmware();
+  };
+  std::exception_ptr other;
+  asio::co_spawn(loop, talk, [&](std::exception_ptr error) { other = error; });
+  loop.run();
+  if (other) std::rethrow_exception(other);
+  return outcome;
+}
+
+/// Flips one bit of one in `rarity` lines.
+std::function<std::string(std::string)> bit_flips(unsigned seed, unsigned rarity) {
+  return [random = std::mt19937(seed), rarity](std::string line) mutable {
+    if (random() % rarity == 0) line[random() % line.size()] ^= static_cast<char>(1 << random() % 8);
+    return line;
+  };
+}
+
+/// Replaces the first line that begins with `start` by something else, possibly nothing.
+std::function<std::string(std::string)> replaced(std::string start, std::string by) {
+  return [start, by, done = false](std::string line) mutable {
+    if (done || !line.starts_with(start)) return line;
+    done = true;
+    return by;
+  };
+}
+
+/// Replaces every seventh plain ok.
+std::function<std::string(std::string)> some_oks_replaced(std::string by) {
+  return [by, n = 0](std::string line) mutable {
+    if (line.starts_with("ok\n") && ++n % 7 == 6) return by;
+    return line;
+  };
+}
+
+}  // namespace
+
+TEST_CASE("every line arrives once and in order, within the window") {
+  for (bool advanced : {false, true}) {
+    FakePrinter printer({.advanced = advanced});
+    const auto lines = moves(5000);
+    const Outcome outcome = stream(printer.path(), lines);
+    printer.stop();
+    CHECK(outcome.error.empty());
+    CHECK((printer.executed() == lines));
+    CHECK(printer.errors() == 0);
+    CHECK(printer.longest_burst() <= 127);
+    CHECK(outcome.statistics.lines == lines.size());
+    CHECK(outcome.statistics.sent == lines.size());
+    CHECK(outcome.statistics.acknowledged == lines.size());
+    CHECK(outcome.statistics.resends == 0);
+    CHECK(outcome.statistics.probes == 0);
+    CHECK(outcome.firmware.starts_with("FIRMWARE_NAME:Marlin"));
+  }
+}
+
+TEST_CASE("a printer that says nothing at boot is asked") {
+  FakePrinter printer({.boots = false});
+  CHECK(stream(printer.path(), {"G28"}).error.empty());
+  printer.stop();
+  CHECK(printer.executed() == std::vector<std::string>{"G28"});
+}
+
+TEST_CASE("damaged, lost and merged lines are sent again") {
+  const auto damage =
+      GENERATE(as<std::string>{}, "N40 G1 X0.039 Y3", "\x8a", "", "F40 G1 X0.039 Y39 E.0123*7\n",
+               "N40 G1 X0.0\n39 Y39 E.0123*84\n", "N40 G1 X0.039 Y39 E.9123*84\n");
+  FakePrinter printer({.inwards = replaced("N40 ", damage)});
+  const auto lines = moves(100);
+  const Outcome outcome = stream(printer.path(), lines);
+  printer.stop();
+  CAPTURE(damage);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(outcome.statistics.resends + outcome.statistics.probes > 0);
+}
+
+TEST_CASE("the last line of a job is not given up for another's ok") {
+  // Its N is hit: the firmware takes it for an unknown command and says ok.
+  FakePrinter printer({.inwards = replaced("N100 ", "F100 G1 X0.099 Y99 E.0123*7\n")});
+  const auto lines = moves(100);
+  CHECK(stream(printer.path(), lines).error.empty());
+  printer.stop();
+  CHECK((printer.executed() == lines));
+}
+
+TEST_CASE("lost and damaged oks do not stop the stream") {
+  const auto instead = GENERATE(as<std::string>{}, "", "nk\n", "ok\x0b", "\xff\xfe\xfd\n");
+  FakePrinter printer({.outwards = some_oks_replaced(instead)});
+  const auto lines = moves(60);
+  const Outcome outcome = stream(printer.path(), lines);
+  printer.stop();
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(outcome.statistics.acknowledged == lines.size());
+}
+
+TEST_CASE("a resend that is said twice, wrongly or not at all is survived") {
+  const auto instead = GENERATE(as<std::string>{}, "Resend: 40\nok\nResend: 40\n", "Resend: 42\n",
+                                "Resend: 38\n", "Resend: 4000\n", "Rese\x01\x02: 40\n", "");
+  FakePrinter printer({.inwards = replaced("N40 ", "N40 G1 X0.039 Y39 E.9123*84\n"),
+                       .outwards = replaced("Resend", instead)});
+  const auto lines = moves(100);
+  const Outcome outcome = stream(printer.path(), lines);
+  printer.stop();
+  CAPTURE(instead);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+}
+
+TEST_CASE("one in 200 lines with a flipped bit, both ways") {
+  const auto seed = GENERATE(1u, 2u, 3u);
+  FakePrinter printer({.inwards = bit_flips(seed, 200), .outwards = bit_flips(seed + 100, 200)});
+  const auto lines = moves(5000);
+  const Outcome outcome = stream(printer.path(), lines);
+  printer.stop();
+  CAPTURE(seed, outcome.error);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(outcome.statistics.resends > 5);
+  CHECK(outcome.statistics.acknowledged == lines.size());
+}
+
+TEST_CASE("long and noisy streams", "[long]") {
+  const auto seed = GENERATE(range(0u, 60u));
+  FakePrinter printer({.inwards = bit_flips(seed, 40 + 10 * seed),
+                       .outwards = bit_flips(seed + 100, 40 + 10 * seed),
+                       .advanced = seed % 2 == 1});
+  const auto lines = moves(20000);
+  const Outcome outcome = stream(printer.path(), lines);
+  printer.stop();
+  CAPTURE(seed, outcome.error);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(outcome.statistics.acknowledged == lines.size());
+}
+
+TEST_CASE("a kill ends the job with the printer's reason") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n != 50) return false;
+    p.reply("Error:Thermal Runaway, system stopped! Heater_ID: 0");
+    p.reply("Error:Printer halted. kill() called!");
+    p.fall_silent();
+    return true;
+  }});
+  const Outcome outcome = stream(printer.path(), moves(1000));
+  printer.stop();
+  CHECK_THAT(outcome.error, Catch::Contains("stopped itself") && Catch::Contains("Thermal Runaway"));
+  CHECK(printer.executed().size() == 50);
+}
+
+TEST_CASE("a reset in mid-print is never replayed into") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n != 200) return false;
+    p.forget_numbers();
+    p.reply("start");
+    return true;
+  }});
+  const Outcome outcome = stream(printer.path(), moves(1000));
+  printer.stop();
+  CHECK_THAT(outcome.error, Catch::Contains("reset itself"));
+  CHECK(printer.executed().size() == 200);
+}
+
+TEST_CASE("a reset whose start is lost is not replayed into either") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n == 200) p.forget_numbers();
+    return n == 200;
+  }});
+  const Outcome outcome = stream(printer.path(), moves(1000));
+  printer.stop();
+  CHECK_THAT(outcome.error, Catch::Contains("reset"));
+  CHECK(printer.executed().size() == 200);
+}
+
+TEST_CASE("a printer that falls silent is probed and then given up") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n == 50) p.fall_silent();
+    return n == 50;
+  }});
+  const Outcome outcome = stream(printer.path(), moves(1000));
+  CHECK_THAT(outcome.error, Catch::Contains("silent"));
+  CHECK(outcome.statistics.probes >= 2);
+}
+
+TEST_CASE("a port with nobody behind it is an error, not a hang") {
+  FakePrinter printer({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
+  CHECK_THAT(stream(printer.path(), {"G28"}).error, Catch::Contains("does not answer"));
+}
+
+TEST_CASE("a busy printer is waited for beyond the deadline of silence") {
+  auto options = impatient();
+  options.silence = 1000ms;
+  bool homing = false;
+  FakePrinter printer(
+      {.instead = [&](FakePrinter&, std::size_t, const std::string&) { return homing = true; },
+       .on_tick =
+           [&, ticks = 0](FakePrinter& p) mutable {
+             if (!homing || ++ticks > 8) return;
+             p.reply(ticks < 8 ? "echo:busy: processing" : "ok");
+           }});
+  const Outcome outcome = stream(printer.path(), {"G28"}, options);
+  CHECK(outcome.error.empty());
+  CHECK(outcome.statistics.probes == 0);
+  CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), "echo:busy: processing") == 7);
+}
+
+TEST_CASE("a printer that asks for lines for ever is given up") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n < 50) return false;
+    p.reply("Resend: " + std::to_string(40 + n % 5));
+    p.reply("ok");
+    p.forget_numbers(40 + static_cast<long>(n % 5) - 1);
+    return true;
+  }});
+  CHECK_THAT(stream(printer.path(), moves(1000)).error, Catch::Contains("too noisy"));
+}
+
+TEST_CASE("pulling the cable is told as such") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n == 20) p.hang_up();
+    return n == 20;
+  }});
+  CHECK_THAT(stream(printer.path(), moves(1000)).error,
+             Catch::Contains("connection to the printer was lost"));
+}
+
+TEST_CASE("an emergency stop overtakes the queue") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n == 30) p.reply("//action:pause");
+    return n >= 30;  // no ok any more: the queue is stuck
+  }});
+  const Outcome outcome =
+      stream(printer.path(), moves(1000), impatient(), [](Link& link, const std::string& message) {
+        if (message == "//action:pause") link.emergency_stop();
+      });
+  printer.stop();
+  CHECK_THAT(outcome.error, Catch::Contains("emergency"));
+  CHECK(printer.killed());
+}
+
+TEST_CASE("lines that would break the numbering are refused before anything is sent") {
+  FakePrinter printer({});
+  for (const std::string bad :
+       {"", "G1 X1;comment", "G1 X1\nG1 X2", "M110 N5", "N5 G1", "G1*3", "G1 X\xc3\xa9"}) {
+    CHECK_THROWS_AS(stream(printer.path(), {"G28", bad}), std::invalid_argument);
+  }
+  CHECK_THROWS_AS(stream(printer.path(), {std::string(81, 'G')}), std::invalid_argument);
+  printer.stop();
+  CHECK(printer.executed().empty());
+}
+
+TEST_CASE("hostile text is made safe before anyone sees it") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t, const std::string&) {
+    p.reply("\x1b[2J" + std::string(100000, 'x') + std::string("\0\xff", 2));
+    return false;
+  }});
+  const Outcome outcome = stream(printer.path(), moves(3));
+  CHECK(outcome.error.empty());
+  for (const std::string& message : outcome.messages) {
+    CHECK(message.size() < 1000);
+    CHECK(std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; }));
+  }
+}
+
+TEST_CASE("ports that cannot be opened say what to do") {
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("unicursal-no-port-{}", ::getpid());
+  std::ofstream(file) << "text";
+  CHECK_THROWS_WITH(open_port("/dev/no-such-port", 250000), Catch::Contains("no such port"));
+  CHECK_THROWS_WITH(open_port(file.string(), 250000), Catch::Contains("not a serial port"));
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("listing ports does not fail where there are none") {
+  for (const PortInfo& port : list_ports()) CHECK(port.path.starts_with("/dev/"));
+}

@@ -1,0 +1,178 @@
+#include "host/lookahead/lookahead.hpp"
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/io_context.hpp>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include "core/error.hpp"
+
+namespace unicursal::host {
+namespace {
+
+core::Polygon square(double x, double side) {
+  return {{{x, 0}, {x + side, 0}, {x + side, side}, {x, side}}, {}};
+}
+
+/// A stack of layers, each with three squares; the layer `broken` cannot be cut.
+class Stack : public core::Part {
+ public:
+  explicit Stack(std::size_t layers, std::size_t broken = SIZE_MAX) : layers_(layers), broken_(broken) {}
+
+  std::size_t layer_count() const override { return layers_; }
+  core::Layer layer(std::size_t index) const override {
+    ++cut;
+    if (index == broken_) throw core::ModelError("", "z 1", "is open", "close it");
+    core::Layer layer;
+    layer.index = index;
+    layer.height = 0.2;
+    for (double x : {0.0, 10.0, 20.0}) {
+      const core::Polygon outline = square(x, 5);
+      layer.islands.push_back({outline, {{0, {outline}}}});
+    }
+    return layer;
+  }
+  core::Box extent() const override { return {{0, 0}, {25, 5}}; }
+  double height() const override { return 0.2 * static_cast<double>(layers_); }
+  const std::vector<core::Zone>& zones() const override { return zones_; }
+  const std::vector<std::string>& warnings() const override { return warnings_; }
+
+  mutable std::atomic<std::size_t> cut = 0;
+
+ private:
+  std::size_t layers_, broken_;
+  std::vector<core::Zone> zones_{{"all", {}, 0}};
+  std::vector<std::string> warnings_;
+};
+
+LookaheadOptions options_for(std::size_t first, std::size_t count, std::size_t threads,
+                             std::size_t ahead = 0) {
+  LookaheadOptions options;
+  options.plan.bead_width = 1;
+  options.plan.min_bead_width = 0.4;
+  options.first = first;
+  options.count = count;
+  options.threads = threads;
+  options.ahead = ahead;
+  return options;
+}
+
+std::vector<PlannedLayer> all_of(const core::Part& part, const LookaheadOptions& options) {
+  Lookahead lookahead(part, options);
+  std::vector<PlannedLayer> layers;
+  while (std::optional<PlannedLayer> layer = lookahead.wait()) layers.push_back(std::move(*layer));
+  return layers;
+}
+
+constexpr double area_rounding = 1e-12;  // mm²
+
+bool same_beads(const core::IslandPlan& a, const core::IslandPlan& b) {
+  if (a.curves.size() != b.curves.size()) return false;
+  for (std::size_t c = 0; c < a.curves.size(); ++c) {
+    const auto &p = a.curves[c].path.beads, &q = b.curves[c].path.beads;
+    const auto equal = [](const core::Bead& x, const core::Bead& y) {
+      return x.position == y.position && x.zone == y.zone && std::abs(x.area - y.area) <= area_rounding;
+    };
+    if (!std::equal(p.begin(), p.end(), q.begin(), q.end(), equal)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("Layers come in order, whole, and equal for any number of threads") {
+  const Stack part(9);
+  const auto one = all_of(part, options_for(2, 6, 1));
+  const auto three = all_of(part, options_for(2, 6, 3));
+  REQUIRE(one.size() == 6);
+  REQUIRE(three.size() == 6);
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(three[i].layer.index == i + 2);
+    REQUIRE(three[i].plans.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK_FALSE(three[i].plans[k].curves.empty());
+      CHECK(same_beads(one[i].plans[k], three[i].plans[k]));
+    }
+  }
+  CHECK_FALSE(same_beads(one[0].plans[0], one[1].plans[0]));  // layers differ
+}
+
+TEST_CASE("Nothing to plan ends at once") {
+  CHECK(all_of(Stack(3), options_for(3, 0, 2)).empty());
+}
+
+TEST_CASE("No more layers are open than allowed, however slowly they are taken") {
+  const Stack part(20);
+  Lookahead lookahead(part, options_for(0, 20, 2, 3));
+  for (std::size_t taken = 1; lookahead.wait(); ++taken) {
+    std::this_thread::yield();
+    CHECK(part.cut <= taken + 3);
+  }
+  CHECK(part.cut == 20);
+  CHECK(lookahead.most_open() <= 3);
+  CHECK(lookahead.effort().seconds > 0);
+}
+
+TEST_CASE("An error comes in its turn, and ends the look-ahead") {
+  const Stack part(8, 2);
+  Lookahead lookahead(part, options_for(0, 8, 2));
+  CHECK(lookahead.wait()->layer.index == 0);
+  CHECK(lookahead.wait()->layer.index == 1);
+  CHECK_THROWS_AS(lookahead.wait(), core::ModelError);
+  CHECK_FALSE(lookahead.wait());
+}
+
+TEST_CASE("Cancelling wakes a thread that waits and a coroutine that sleeps") {
+  const Stack part(100000);
+  Lookahead lookahead(part, options_for(0, 100000, 1, 1));
+  std::thread canceller([&] {
+    while (part.cut < 3) std::this_thread::yield();
+    lookahead.cancel();
+  });
+  std::size_t taken = 0;
+  while (lookahead.wait()) ++taken;
+  canceller.join();
+  CHECK(taken < 100000);
+  asio::io_context loop;
+  bool ended = false;
+  asio::co_spawn(
+      loop, [&]() -> asio::awaitable<void> { ended = !co_await lookahead.next(); }, asio::detached);
+  loop.run();
+  CHECK(ended);
+}
+
+TEST_CASE("A coroutine gets the same layers without blocking its loop") {
+  const Stack part(7);
+  Lookahead lookahead(part, options_for(0, 7, 2));
+  asio::io_context loop;
+  std::vector<std::size_t> order;
+  asio::co_spawn(
+      loop,
+      [&]() -> asio::awaitable<void> {
+        while (auto layer = co_await lookahead.next()) order.push_back(layer->layer.index);
+      },
+      asio::detached);
+  loop.run();
+  CHECK(order == std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6});
+}
+
+TEST_CASE("A look-ahead that nobody listens to ends") {
+  const Stack part(50);
+  const Lookahead lookahead(part, options_for(0, 50, 2));
+}
+
+TEST_CASE("Seeds of islands differ by job, layer and island") {
+  std::set<std::uint64_t> seeds;
+  for (std::uint64_t job = 0; job < 10; ++job) {
+    for (std::size_t layer = 0; layer < 10; ++layer) {
+      for (std::size_t island = 0; island < 10; ++island) seeds.insert(island_seed(job, layer, island));
+    }
+  }
+  CHECK(seeds.size() == 1000);
+}
+
+}  // namespace unicursal::host
