@@ -1,6 +1,8 @@
 #include "core/field/border_extension.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -85,6 +87,7 @@ struct BorderMeans {
       const double edge_length = (b - a).norm();
       const Vec2 v = doubled(Vec2(b - a));
       each_piece(grid, a, b, [&](const EdgePiece& piece) {
+        assert(piece.column >= 0 && piece.row >= 0);
         const auto square = grid.index(std::size_t(piece.column), std::size_t(piece.row));
         sum[square] += piece.share * edge_length * v;
         length[square] += piece.share * edge_length;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,6 +11,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/field/direction_field.hpp"
@@ -73,28 +76,42 @@ class DirectionReader {
     return trimmed(line);
   }
 
-  /// A header names its columns: not one of them is a number.
-  static bool is_header(std::string_view line) {
+  /// What stands between the commas; five words are too many already, so the rest of a line can be long.
+  static std::vector<std::string_view> words(std::string_view line) {
+    std::vector<std::string_view> result;
     for (;;) {
       const auto comma = line.find(',');
-      if (number(trimmed(line.substr(0, comma)))) return false;
-      if (comma == std::string_view::npos) return true;
+      result.push_back(trimmed(line.substr(0, comma)));
+      if (comma == std::string_view::npos || result.size() > 4) return result;
       line.remove_prefix(comma + 1);
     }
   }
 
+  /// A header names its columns: not one of them is a number. Known names must stand in their place.
+  bool is_header(std::string_view line) const {
+    const std::vector<std::string_view> names = words(line);
+    if (std::any_of(names.begin(), names.end(), [](auto word) { return number(word).has_value(); })) {
+      return false;
+    }
+    const std::array<std::string_view, 4> order{"x", "y", names.size() == 4 ? "z" : "angle", "angle"};
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const bool known = std::find(order.begin(), order.end(), names[k]) != order.end();
+      if (known && (k >= order.size() || names[k] != order[k])) {
+        refuse("the column " + in_quotes(names[k]) + " does not belong there");
+      }
+    }
+    return true;
+  }
+
   DirectionSample sample(std::string_view line) {
+    const std::vector<std::string_view> found = words(line);
+    const std::size_t count = found.size();
     std::array<double, 4> values{};
-    std::size_t count = 0;
-    for (bool more = true; more; ++count) {
-      const auto comma = line.find(',');
-      const std::string_view word = trimmed(line.substr(0, comma));
-      if (count == values.size()) refuse("there are more than four numbers");
-      const std::optional<double> value = number(word);
-      if (!value) refuse(word.empty() ? "a number is missing" : in_quotes(word) + " is no number");
-      values[count] = *value;
-      more = comma != std::string_view::npos;
-      if (more) line.remove_prefix(comma + 1);
+    if (count > values.size()) refuse("there are more than four numbers");
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::optional<double> value = number(found[k]);
+      if (!value) refuse(found[k].empty() ? "a number is missing" : in_quotes(found[k]) + " is no number");
+      values[k] = *value;
     }
     if (count < 3) refuse(count == 1 ? "there is only one number" : "there are only two numbers");
     if (columns_ != 0 && count != columns_) {

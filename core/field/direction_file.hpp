@@ -1,6 +1,7 @@
 // Directions from a file, for instance of principal stress from a finite element run: text with one sample
 // per line, `x,y,angle` or `x,y,z,angle`, in mm of the part's own frame and degrees counter-clockwise from
-// +x. Empty lines and lines that begin with # do not count; the first other line may be a header.
+// +x. Empty lines and lines that begin with # do not count; the first other line may be a header, whose x, y,
+// z and angle must stand in this order.
 #pragma once
 
 #include <filesystem>

@@ -6,7 +6,7 @@ namespace unicursal::core {
 
 Grid grid_around(const Box& box, double pitch) {
   assert(pitch > 0);
-  constexpr double most_squares = 1 << 22, most_in_a_row = 1 << 20;
+  constexpr double most_squares = 1 << 21, most_in_a_row = 1 << 20;
   const double width = box.size().x(), height = box.size().y();
   Grid grid;
   grid.pitch = std::max(

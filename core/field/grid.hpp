@@ -25,8 +25,8 @@ struct Grid {
   Vec2 in_squares(const Vec2& point) const { return (point - origin) / pitch; }
 };
 
-/// A grid around a box, centred on it, with at least half a square to spare on every side. Boxes that
-/// would need more than 2^22 squares get a coarser pitch, so that memory stays within some 300 MB.
+/// A grid around a box, centred on it, with about a square to spare on every side. Boxes that
+/// would need more than 2^21 squares get a coarser pitch, so that memory stays within some 250 MB.
 Grid grid_around(const Box& box, double pitch);
 
 /// The stretch of an edge within one square. Beyond the grid stretches are not cut up further, and the

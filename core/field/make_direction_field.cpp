@@ -1,5 +1,6 @@
 #include "core/field/make_direction_field.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <map>
 #include <utility>
@@ -22,7 +23,7 @@ class ZoneVectors {
   ZoneVectors(const Grid& grid, const Island& island, const ZoneDirections& files, double z)
       : grid_(grid), island_(island), files_(files), z_(z) {}
 
-  std::vector<Vec2> of(const ZoneRegion& region, const Pattern& pattern) {
+  std::vector<Vec2> of(const ZoneRegion& region, const Pattern& pattern, const std::vector<double>& share) {
     switch (pattern.kind) {
       case PatternKind::angle:
         return std::vector<Vec2>(grid_.size(), doubled(pattern.angle));
@@ -34,7 +35,7 @@ class ZoneVectors {
         return result;
       }
       case PatternKind::field:
-        return files_[region.zone]->on_grid(grid_, z_);
+        return files_[region.zone]->on_grid(grid_, share, z_);
       default:
         return std::vector<Vec2>(grid_.size(), Vec2(0, 0));
     }
@@ -86,13 +87,17 @@ DirectionField make_direction_field(const Island& island, const std::vector<Zone
     const std::vector<double> covered = cover(grid, region.polygons);
     for (std::size_t k = 0; k < grid.size(); ++k) share[k] += covered[k];
     if (!asks_for_direction(pattern_of(region).kind)) continue;
-    const std::vector<Vec2> v = vectors.of(region, pattern_of(region));
+    const std::vector<Vec2> v = vectors.of(region, pattern_of(region), covered);
     for (std::size_t k = 0; k < grid.size(); ++k) sum[k] += covered[k] * v[k];
   }
   for (std::size_t k = 0; k < grid.size(); ++k) {
     sum[k] = share[k] > least_share ? Vec2(sum[k] / share[k]) : Vec2(0, 0);
   }
   return {grid, std::move(sum), share};
+}
+
+DirectionField make_direction_field(const Island& island, const std::vector<Zone>& zones, double pitch) {
+  return make_direction_field(island, zones, read_zone_directions(zones), 0, pitch);
 }
 
 }  // namespace unicursal::core

@@ -28,4 +28,7 @@ ZoneDirections read_zone_directions(const std::vector<Zone>& zones);
 DirectionField make_direction_field(const Island& island, const std::vector<Zone>& zones,
                                     const ZoneDirections& files, double z, double pitch);
 
+/// For a single island, at z = 0: reads the files, too. Throws what `read_directions` throws.
+DirectionField make_direction_field(const Island& island, const std::vector<Zone>& zones, double pitch);
+
 }  // namespace unicursal::core

@@ -132,18 +132,18 @@ ScatteredDirections::ScatteredDirections(std::vector<DirectionSample> samples)
   spacing_ = sample_spacing(samples_, in_space_);
 }
 
-std::vector<Vec2> ScatteredDirections::on_grid(const Grid& grid, double z) const {
+std::vector<Vec2> ScatteredDirections::on_grid(const Grid& grid, const std::vector<double>& share,
+                                               double z) const {
+  assert(share.size() == grid.size());
   const double spacing = std::max(spacing_, grid.pitch / 2), reach = reach_in_spacings * spacing;
   Bins bins(grid, reach, bin_in_spacings * spacing);
   for (const DirectionSample& sample : samples_) {
     const double height = in_space_ ? sample.z - z : 0;
     if (std::abs(height) < reach) bins.add(sample, height);
   }
-  std::vector<Vec2> result(grid.size());
-  for (std::size_t column = 0; column < grid.columns; ++column) {
-    for (std::size_t row = 0; row < grid.rows; ++row) {
-      result[grid.index(column, row)] = bins.mean_around(grid.center(column, row), reach);
-    }
+  std::vector<Vec2> result(grid.size(), Vec2(0, 0));
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    if (share[k] > 0) result[k] = bins.mean_around(grid.center(k / grid.rows, k % grid.rows), reach);
   }
   return result;
 }

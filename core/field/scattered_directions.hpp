@@ -6,7 +6,7 @@
 // spatial. Samples that all have one z hold at every height.
 //
 //   const ScatteredDirections stress(read_directions("stress.csv"));
-//   std::vector<Vec2> v = stress.on_grid(grid, layer.z);
+//   std::vector<Vec2> v = stress.on_grid(grid, cover(grid, region), layer.z);
 #pragma once
 
 #include <vector>
@@ -25,9 +25,9 @@ class ScatteredDirections {
   /// the samples occupy.
   double spacing() const { return spacing_; }
 
-  /// Per square V of length 1 or 0, at height `z` mm. Time grows with samples and squares, however the
-  /// samples lie: those that share a small square count as one.
-  std::vector<Vec2> on_grid(const Grid& grid, double z) const;
+  /// Per square V of length 1 or 0, at height `z` mm; 0 too where `share` is 0. Time grows with samples and
+  /// squares, however the samples lie: those that share a small square count as one.
+  std::vector<Vec2> on_grid(const Grid& grid, const std::vector<double>& share, double z) const;
 
  private:
   std::vector<DirectionSample> samples_;

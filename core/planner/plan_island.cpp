@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/curve/clearance.hpp"
 #include "core/curve/contour.hpp"
 #include "core/curve/fairing.hpp"
+#include "core/curve/join.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/cycle/first_cycle.hpp"
 #include "core/geometry/lattice.hpp"
@@ -28,8 +30,11 @@ constexpr double seed_distance_in_widths = 1.4;
 constexpr double fewest_cells = 2.5;  ///< an island of less gets a contour
 constexpr int tries = 8;              ///< with other seeds, before a contour is taken instead
 constexpr double least_half_width = 0.15, most_half_width = 0.3;  ///< bead widths, half of what can be passed
-constexpr double far = 1.2;        ///< bead widths; farther than that is a hole in the layer
-constexpr double far_samples = 8;  ///< lattice squares per bead width when looking for such
+constexpr std::size_t most_pieces = 50;  ///< of materials in one island, to be joined one by one
+constexpr double speck = 0.05;           ///< square bead widths; no curve of its own below that
+constexpr double most_thin = 0.002;      ///< of a piece of one material that its own curve may leave out
+constexpr double far = 1.2;              ///< bead widths; farther than that is a hole in the layer
+constexpr double far_samples = 8;        ///< lattice squares per bead width when looking for such
 
 /// A closed curve on its way through the stages.
 struct Draft {
@@ -150,6 +155,61 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, const Island
   return planned;
 }
 
+/// The pieces of the island that hold one material each, specks aside: beads that pass over those take care.
+std::vector<Polygon> material_pieces(const Island& island, const std::vector<Zone>& zones, double w) {
+  std::map<std::size_t, Region> by_material;
+  for (const ZoneRegion& region : island.zones) {
+    Region& sum = by_material[zones[region.zone].material];
+    sum = sum.empty() ? region.polygons : unite(sum, region.polygons);
+  }
+  std::vector<Polygon> pieces;
+  for (const auto& [material, region] : by_material)
+    pieces.insert(pieces.end(), region.begin(), region.end());
+  std::erase_if(pieces, [&](const Polygon& piece) { return area(piece) < speck * w * w; });
+  return pieces;
+}
+
+/// One curve that crosses from material to material as rarely as can be, or nothing where a piece is too thin
+/// for a curve of its own or cannot be joined to the others.
+std::optional<Draft> draft_by_material(const FillableRegion& part, const Island& island,
+                                       const std::vector<Zone>& zones, const PlanOptions& options,
+                                       Random& random, IslandPlan& plan) {
+  const std::vector<Polygon> pieces = material_pieces(island, zones, options.bead_width);
+  if (pieces.size() < 2 || pieces.size() > most_pieces) return std::nullopt;
+  const double w = options.bead_width;
+  Draft sum;
+  std::vector<Curve> curves;
+  for (const Polygon& piece : pieces) {
+    const Fillable parts = fillable(piece, w, half_width(options));
+    if (parts.too_thin > most_thin * area(piece) || parts.regions.size() != 1) return std::nullopt;
+    std::optional<Draft> draft = first_draft(parts.regions.front(), options, random, plan);
+    if (!draft) return std::nullopt;
+    fair_draft(*draft, parts.regions.front(), w, plan);
+    if (!draft->faired) return std::nullopt;
+    sum.split_and_reconnect += draft->split_and_reconnect;
+    sum.doubled_edges += draft->doubled_edges;
+    curves.push_back(std::move(draft->curve));
+  }
+  const Stopwatch watch(plan.fairing);
+  std::optional<Curve> one = joined(std::move(curves), part.region, w);
+  if (!one || !sound(*one, part.region, w)) return std::nullopt;
+  sum.curve = std::move(*one);
+  sum.faired = true;
+  return sum;
+}
+
+std::optional<Draft> draft_for(const FillableRegion& part, bool whole_island, const Island& island,
+                               const std::vector<Zone>& zones, const PlanOptions& options, Random& random,
+                               IslandPlan& plan) {
+  if (whole_island && island.zones.size() > 1) {
+    if (std::optional<Draft> draft = draft_by_material(part, island, zones, options, random, plan))
+      return draft;
+  }
+  std::optional<Draft> draft = first_draft(part, options, random, plan);
+  if (draft) fair_draft(*draft, part, options.bead_width, plan);
+  return draft;
+}
+
 }  // namespace
 
 IslandPlan plan_island(const Island& island, const std::vector<Zone>& zones, const PlanOptions& options) {
@@ -163,12 +223,12 @@ IslandPlan plan_island(const Island& island, const std::vector<Zone>& zones, con
   }
   plan.unfilled_area = parts.too_thin;
   for (const FillableRegion& part : parts.regions) {
-    std::optional<Draft> draft = first_draft(part, options, random, plan);
+    const std::optional<Draft> draft =
+        draft_for(part, parts.regions.size() == 1, island, zones, options, random, plan);
     if (!draft) {
       plan.unfilled_area += area(part.region);
       continue;
     }
-    fair_draft(*draft, part, options.bead_width, plan);
     plan.curves.push_back(finish(*draft, part, island, zones, options.bead_width, plan));
   }
   return plan;

@@ -91,6 +91,8 @@ TEST_CASE("what is no list of directions is refused with the line and what to do
       {"1,2,3\nx,y,angle\n", "line 2", "\"x\""},
       {"1,2,\n", "line 1", "missing"},
       {"1;2;3\n4;5;6\n", "line 2", "\"4;5;6\""},
+      {"angle,x,y\n1,2,3\n", "line 1", "\"angle\" does not belong"},
+      {"x,y,angle,z\n1,2,3,4\n", "line 1", "\"angle\" does not belong"},
       {"1,2,3mm\n", "line 1", "\"3mm\""},
       {"2e5,2,3\n", "line 1", "out of reach"},
       {"1,nan,3\n", "line 1", "out of reach"},

@@ -21,7 +21,7 @@ Zone zone(PatternKind kind, double angle = 0, bool along_zone_border = false) {
 }
 
 DirectionField field_of(const Island& island, const std::vector<Zone>& zones, double pitch = 0.25) {
-  return make_direction_field(island, zones, read_zone_directions(zones), 0, pitch);
+  return make_direction_field(island, zones, pitch);
 }
 
 /// A 20 × 10 mm plate in two zones that meet at x = 8.3.

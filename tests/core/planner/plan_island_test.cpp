@@ -137,9 +137,41 @@ TEST_CASE("beads are cut at the borders of zones and keep their areas") {
   }
   CHECK(in_left == Approx(50).epsilon(0.02));
   CHECK(plan.curves.front().zone_crossings == material_changes(path, zones));
-  CHECK(plan.curves.front().zone_crossings % 2 == 0);
-  zones[1].material = 0;  // one material zone: nothing to cross
+  CHECK(plan.curves.front().zone_crossings == 2);  // no closed curve through both can do with less
+  zones[1].material = 0;                           // one material zone: nothing to cross
   CHECK(material_changes(path, zones) == 0);
+}
+
+TEST_CASE("a curve through k pieces of zones crosses 2 (k - 1) times, nested pieces too") {
+  // Two discs in a plate, a third beside them that lies within another zone's ring.
+  const Polygon plate = rectangle(24, 12);
+  const Region discs = enclosed({circle({6, 6}, 3, 60), circle({17, 6}, 4, 60)}, FillRule::non_zero);
+  const Region core = enclosed({circle({17, 6}, 2, 40)}, FillRule::non_zero);
+  const Island island{plate, {{0, subtract({plate}, discs)}, {1, subtract(discs, core)}, {2, core}}};
+  std::vector<Zone> zones(3);
+  zones[1].material = 1;
+  zones[2].material = 2;
+  const IslandPlan plan = plan_island(island, zones, options_for(0.45));
+  check_plan(plan, plate, 0.45);
+  REQUIRE(plan.curves.size() == 1);
+  CHECK(plan.curves.front().zone_crossings == 6);
+  CHECK(plan.far_area == 0);
+}
+
+TEST_CASE("zones too thin for a curve of their own are crossed by the island's one curve") {
+  // Stripes of a third of a bead.
+  std::vector<Polygon> even, odd;
+  for (int k = 0; k < 60; ++k) {
+    const double x = 0.15 * k;
+    (k % 2 == 0 ? even : odd).push_back({{{x, 0}, {x + 0.15, 0}, {x + 0.15, 8}, {x, 8}}, {}});
+  }
+  const Island island{rectangle(9, 8), {{0, even}, {1, odd}}};
+  std::vector<Zone> zones(2);
+  zones[1].material = 1;
+  const IslandPlan plan = plan_island(island, zones, options_for(0.45));
+  check_plan(plan, island.outline, 0.45);
+  REQUIRE(plan.curves.size() == 1);
+  CHECK(plan.curves.front().zone_crossings > 40);
 }
 
 TEST_CASE("random islands with holes: sound plans, nothing lost") {

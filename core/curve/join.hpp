@@ -1,0 +1,21 @@
+// Curves of neighbouring zones joined into one closed curve (paper §3.1, zoning).
+//
+// Departure from the paper: instead of counting crossings of zone borders among other objectives of a random
+// search (55), every material zone gets its own closed curve, and neighbours are joined in one place each. A
+// closed curve through k pieces of zones then crosses borders 2 (k − 1) times, which no curve can beat.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/curve/curve.hpp"
+#include "core/geometry/polygon.hpp"
+
+namespace unicursal::core {
+
+/// One curve through all of them: where two run side by side, a stretch of about a bead width is taken out of
+/// both and the ends are joined crosswise. Nothing when some pair cannot be joined without touching another
+/// strand or the island's border. Preconditions: the curves are simple, disjoint and inside `island`.
+std::optional<Curve> joined(std::vector<Curve> curves, const Polygon& island, double bead_width);
+
+}  // namespace unicursal::core
