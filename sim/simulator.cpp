@@ -224,7 +224,7 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
     if (!report)
       throw std::system_error(EIO, std::generic_category(), "cannot write " + options.report->string());
   }
-  if (pictures && !deposit.extents().empty()) pictures->draw(deposit.extents());
+  if (pictures) pictures->draw();
   return 0;
 }
 

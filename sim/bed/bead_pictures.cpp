@@ -120,6 +120,11 @@ void BeadPictures::bead(std::size_t layer, const Bead& bead, double width) {
   beads_.resize(std::max(beads_.size(), layer + 1));
   ++beads_[layer];
   widest_ = std::max(widest_, width);
+  for (Extents* extents : {&all_, &above_}) {
+    if (layer == 0 && extents == &above_) continue;
+    extents->include(bead.from);
+    extents->include(bead.to);
+  }
   const auto narrow = [](double mm) { return static_cast<float>(mm); };
   const Record record{narrow(bead.from.x),
                       narrow(bead.from.y),
@@ -130,10 +135,11 @@ void BeadPictures::bead(std::size_t layer, const Bead& bead, double width) {
   if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1) fail(waiting_);
 }
 
-void BeadPictures::draw(const Extents& extents) {
+void BeadPictures::draw() {
   std::rewind(file_.get());
-  const Frame frame = frame_of(extents, pixel_, margin + std::min(widest_ / 2, margin));
+  const double around = margin + std::min(widest_ / 2, margin);
   for (std::size_t layer = 0; layer < beads_.size(); ++layer) {
+    const Frame frame = frame_of(layer == 0 ? all_ : above_, pixel_, around);
     picture::Image image(frame.width, frame.height, background);
     {
       Pen pen(image, frame);

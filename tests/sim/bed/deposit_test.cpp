@@ -1,3 +1,5 @@
+#include <png.h>
+
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
@@ -94,17 +96,56 @@ TEST_CASE("filaments mix in linear light") {
   CHECK(darker(white, 0.5).g < white.g);
 }
 
-TEST_CASE("each layer gives a picture, all of one size, with the bead where it lies") {
+namespace {
+
+/// A picture read back, RGB.
+struct Pixels {
+  std::size_t width = 0, height = 0;
+  std::vector<unsigned char> bytes;
+
+  explicit Pixels(const fs::path& file) {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    REQUIRE(png_image_begin_read_from_file(&png, file.c_str()) != 0);
+    png.format = PNG_FORMAT_RGB;
+    width = png.width;
+    height = png.height;
+    bytes.resize(PNG_IMAGE_SIZE(png));
+    REQUIRE(png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr) != 0);
+  }
+  bool same(std::size_t x0, std::size_t y0, std::size_t x1, std::size_t y1) const {
+    const auto at = [&](std::size_t x, std::size_t y) {
+      return bytes.begin() + static_cast<std::ptrdiff_t>(3 * (y * width + x));
+    };
+    return std::equal(at(x0, y0), at(x0, y0) + 3, at(x1, y1));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("each layer gives a picture with the bead where it lies; a prime line does not shrink later ones") {
   const Folder folder;
   {
     BeadPictures pictures(folder.path(), 0.1);
     Deposit deposit(&pictures);
     deposit.laid(bead({10, 10, 0.2}, {30, 10, 0.2}, 20 * 0.2 * 0.5));
     deposit.laid(bead({20, 10, 0.4}, {20, 20, 0.4}, 10 * 0.2 * 0.5));
-    pictures.draw(deposit.extents());
+    pictures.draw();
   }
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder.path())) files.push_back(entry.path().filename());
   std::sort(files.begin(), files.end());
   CHECK(files == std::vector<fs::path>{"deposit-0000.png", "deposit-0001.png"});
+
+  // The first shows 20 × 10 mm of centre lines, the second only the upright bead of 10 mm, both with a
+  // margin.
+  const Pixels first(folder.path() / "deposit-0000.png"), second(folder.path() / "deposit-0001.png");
+  CHECK(first.width - second.width == 200);
+  CHECK(first.height == second.height);
+  // The level bead runs along the lower border, the upright one through the middle.
+  const std::size_t bottom = first.height - (first.height - 100) / 2;
+  CHECK_FALSE(first.same(first.width / 2, bottom, 0, 0));
+  CHECK(first.same(first.width / 2, first.height / 2, 0, 0));
+  CHECK_FALSE(second.same(second.width / 2, second.height / 2, 0, 0));
+  CHECK(second.same(second.width - 1, second.height / 2, 0, 0));
 }
