@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "core/curve/alignment.hpp"
 #include "core/curve/clearance.hpp"
 #include "core/curve/coverage.hpp"
 #include "core/curve/resample.hpp"
@@ -138,6 +139,8 @@ class Fairer {
         lattice_(sample(island_, pitch(options))),
         coverage_(lattice_, reach_in_widths * options.bead_width),
         leash_(border_, options.bead_width) {
+    alignment_weight_ = options.alignment;
+    if (options.field != nullptr) alignment_ = Alignment(lattice_, *options.field, irrational_turn);
     const double w = options.bead_width;
     multiplier_ = w * w * w / 6;  // −∂E_CVT/∂L of evenly spaced folds, E = A³ ÷ (12 L²)
     if (options.hold_length) stiffness_ = multiplier_ / (2 * length_stiffness * options.target_length);
@@ -151,6 +154,7 @@ class Fairer {
     curve = descend(std::move(curve), options_.coarse_iterations - options_.coarse_iterations / 2);
     if (options_.fine_iterations > 0) {
       curve = subdivided(spread(curve));
+      alignment_weight_ = options_.fine_alignment;
       curve = descend(std::move(curve), options_.fine_iterations);
     }
     curve.vertices = turned(std::move(curve.vertices), -irrational_turn);
@@ -175,6 +179,10 @@ class Fairer {
     const double finer = static_cast<double>(curve.size()) / spacing;
     const double smooth = options_.smoothness * per_vertex * finer * finer * finer;
     value += smooth * smoothness_with_gradient(curve, smooth, gradient);
+    if (!alignment_.empty()) {
+      const double weight = alignment_weight_ * options_.bead_width * options_.bead_width;
+      value += weight * alignment_.evaluate(curve, coverage_.owners(), weight, gradient);
+    }
     const double excess = curve.length() - options_.target_length;
     length_with_gradient(curve, multiplier_ + 2 * stiffness_ * excess, gradient);
     return value + multiplier_ * excess + stiffness_ * excess * excess;
@@ -238,9 +246,11 @@ class Fairer {
   BorderIndex border_;
   Lattice lattice_;
   Coverage coverage_;
+  Alignment alignment_;
   Leash leash_;
   QuasiNewton newton_;
   double multiplier_ = 0, stiffness_ = 0;
+  double alignment_weight_ = 0;
   int iterations_ = 0;
 };
 

@@ -1,5 +1,6 @@
-// Fairing (paper §3.4): moves the vertices of a closed curve until it covers its island evenly, is smooth and
-// has the length that was asked for. L-BFGS on coverage + length + smoothness (2) over a sampling lattice.
+// Fairing (paper §3.4): moves the vertices of a closed curve until it covers its island evenly, is smooth,
+// has the length and follows the directions that were asked for. L-BFGS on coverage + length + smoothness +
+// alignment (2) over a sampling lattice.
 //
 // Departures from the paper:
 // - The curve stays simple and inside by construction: no vertex moves farther than clearance.hpp allows.
@@ -11,6 +12,7 @@
 #include <cstddef>
 
 #include "core/curve/curve.hpp"
+#include "core/field/direction_field.hpp"
 #include "core/geometry/polygon.hpp"
 
 namespace unicursal::core {
@@ -19,10 +21,15 @@ struct FairingOptions {
   double target_length = 0;      ///< mm
   bool hold_length = true;       ///< false: length follows from the price of coverage, as thin islands need
   double bead_width = 0;         ///< mm, area ÷ target length: the unit of every length below
-  int coarse_iterations = 50;    ///< on the curve as it comes
-  int fine_iterations = 30;      ///< on the subdivided curve
+  int coarse_iterations = 60;    ///< on the curve as it comes
+  int fine_iterations = 40;      ///< on the subdivided curve
   double samples_per_width = 6;  ///< lattice squares per bead width
-  double smoothness = 0.12;      ///< γ_Lap in units of area ÷ vertices (31)
+  const DirectionField* field = nullptr;  ///< what to align with; nothing when null
+  double alignment =
+      0.05;  ///< weight of (33) on the curve as it comes, square bead widths; compare γ_Obj (54)
+  double fine_alignment =
+      0.02;                  ///< on the subdivided curve: what is aligned stays so, and coverage evens out
+  double smoothness = 0.12;  ///< γ_Lap in units of area ÷ vertices (31)
 };
 
 struct FairingResult {

@@ -15,6 +15,7 @@
 namespace unicursal::core {
 namespace {
 
+constexpr double cost_steps = 1e5;   ///< whole numbers that the largest cost is told apart into
 constexpr double strand_gap = 0.02;  ///< half the gap between the strands of a doubled edge, in edge lengths
 
 class DisjointSets {
@@ -36,7 +37,20 @@ class DisjointSets {
 /// A set of edges that gives every node two: first several cycles, in the end one.
 class CycleCover {
  public:
-  explicit CycleCover(const CellGraph& cells) : graph_(refine(cells)), used_(graph_.edge_count(), false) {}
+  CycleCover(const CellGraph& cells, const RunCost& cost)
+      : graph_(refine(cells)),
+        used_(graph_.edge_count(), false),
+        cost_(graph_.edge_count(), 0.0),
+        has_cost_(static_cast<bool>(cost)) {
+    if (!has_cost_) return;
+    for (std::size_t e = 0; e < cost_.size(); ++e) {
+      const auto h = static_cast<HalfEdgeIndex>(2 * e);
+      Ring line{graph_.position[static_cast<std::size_t>(graph_.origin(h))]};
+      graph_.append_bends(h, line);
+      line.push_back(graph_.position[static_cast<std::size_t>(graph_.target(h))]);
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) cost_[e] += cost(line[i], line[i + 1]);
+    }
+  }
 
   /// The inverse of a perfect matching covers every node of the cell graph with cycles.
   bool invert_matching() {
@@ -44,7 +58,9 @@ class CycleCover {
     for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph_.cell_edges); ++e) {
       edges.emplace_back(graph_.origin(2 * e), graph_.target(2 * e));
     }
-    const std::vector<bool> matched = perfect_matching(static_cast<int>(graph_.cell_nodes), edges);
+    const auto nodes = static_cast<int>(graph_.cell_nodes);
+    const std::vector<bool> matched =
+        has_cost_ ? heaviest_perfect_matching(nodes, edges, whole_costs()) : perfect_matching(nodes, edges);
     if (matched.empty()) return false;
     for (std::size_t e = 0; e < matched.size(); ++e) used_[e] = !matched[e];
     return true;
@@ -74,12 +90,23 @@ class CycleCover {
     }
   }
 
+  /// Cheapest joins first; each may open the way for others.
   void split_and_reconnect() {
     label();
     for (bool changed = true; changed;) {
       changed = false;
+      std::vector<Reconnection> found;
       for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph_.edge_count()); ++e) {
-        if (reconnect_about(e)) changed = true;
+        if (const auto r = reconnection_about(e)) found.push_back(*r);
+      }
+      std::stable_sort(found.begin(), found.end(),
+                       [](const Reconnection& l, const Reconnection& r) { return l.cost < r.cost; });
+      for (const Reconnection& r : found) {
+        // An earlier one may have changed the neighbourhood.
+        const auto now = reconnection_about(r.diagonal);
+        if (!now) continue;
+        apply(*now);
+        changed = true;
       }
     }
   }
@@ -157,21 +184,22 @@ class CycleCover {
     }
   }
 
-  /// A used side of the cell, best one on the border (nobody else needs it, and bends go away with it), then
-  /// the one whose neighbour has most to choose from.
+  /// The used side of the cell whose way over the centre costs least; among equals one on the border (nobody
+  /// else needs it, and bends go away with it), then one whose neighbour has most to choose from.
   HalfEdgeIndex pick_side(FaceIndex cell, const std::vector<int>& choices) const {
     HalfEdgeIndex best = -1;
-    int best_rank = -1;
+    std::pair<double, int> best_rank;
     const HalfEdgeIndex start = graph_.face_start[static_cast<std::size_t>(cell)];
     HalfEdgeIndex side = start;
     do {
+      const HalfEdgeIndex back = graph_.next(side);
       if (used_[static_cast<std::size_t>(side / 2)]) {
         const FaceIndex neighbour = cell_of_[static_cast<std::size_t>(PlanarGraph::twin(side))];
-        const int rank = neighbour == outside ? 1 << 20 : choices[static_cast<std::size_t>(neighbour)];
-        if (rank > best_rank) best = side, best_rank = rank;
+        const int freedom = neighbour == outside ? 1 << 20 : choices[static_cast<std::size_t>(neighbour)];
+        const std::pair rank(cost(back) + cost(graph_.next(back)) - cost(side), -freedom);
+        if (best < 0 || rank < best_rank) best = side, best_rank = rank;
       }
-      // Around the centre: the next triangle of the same cell.
-      side = graph_.next(PlanarGraph::twin(graph_.next(side)));
+      side = graph_.next(PlanarGraph::twin(back));  // the next triangle around the centre
     } while (side != start);
     return best;
   }
@@ -189,23 +217,45 @@ class CycleCover {
     return graph_.face(h) != outside && graph_.next(graph_.next(graph_.next(h))) == h;
   }
 
-  /// Figure 7: opposite sides of a quad in two cycles, the other two sides free. `e` is the quad's diagonal.
-  bool reconnect_about(EdgeIndex e) {
+  /// Figure 7: opposite sides of a quad in two cycles, the other two sides free.
+  struct Reconnection {
+    EdgeIndex diagonal = -1;
+    std::array<HalfEdgeIndex, 2> leave{}, take{};
+    double cost = 0;
+  };
+
+  std::optional<Reconnection> reconnection_about(EdgeIndex e) {
     const HalfEdgeIndex left = 2 * e, right = 2 * e + 1;
-    if (used_half(left) || !triangle(left) || !triangle(right)) return false;
-    if (sets_.find(graph_.origin(left)) == sets_.find(graph_.origin(right))) return false;
+    if (used_half(left) || !triangle(left) || !triangle(right)) return std::nullopt;
+    if (sets_.find(graph_.origin(left)) == sets_.find(graph_.origin(right))) return std::nullopt;
     const HalfEdgeIndex l1 = graph_.next(left), l2 = graph_.next(l1);
     const HalfEdgeIndex r1 = graph_.next(right), r2 = graph_.next(r1);
-    if (graph_.target(l1) == graph_.target(r1)) return false;
+    if (graph_.target(l1) == graph_.target(r1)) return std::nullopt;
     for (const auto& [a, b, c, d] : {std::array{l1, r1, l2, r2}, std::array{l2, r2, l1, r1}}) {
       if (!used_half(a) || !used_half(b) || used_half(c) || used_half(d)) continue;
-      for (const HalfEdgeIndex h : {a, b}) used_[static_cast<std::size_t>(h / 2)] = false;
-      for (const HalfEdgeIndex h : {c, d}) used_[static_cast<std::size_t>(h / 2)] = true;
-      sets_.join(graph_.origin(left), graph_.origin(right));
-      ++reconnected_;
-      return true;
+      return Reconnection{e, {a, b}, {c, d}, cost(c) + cost(d) - cost(a) - cost(b)};
     }
-    return false;
+    return std::nullopt;
+  }
+
+  void apply(const Reconnection& r) {
+    for (const HalfEdgeIndex h : r.leave) used_[static_cast<std::size_t>(h / 2)] = false;
+    for (const HalfEdgeIndex h : r.take) used_[static_cast<std::size_t>(h / 2)] = true;
+    sets_.join(graph_.origin(2 * r.diagonal), graph_.target(2 * r.diagonal));
+    ++reconnected_;
+  }
+
+  double cost(HalfEdgeIndex h) const { return cost_[static_cast<std::size_t>(h / 2)]; }
+
+  /// The cell edges' costs as whole numbers, for exact duals.
+  std::vector<int> whole_costs() const {
+    const auto last = cost_.begin() + static_cast<std::ptrdiff_t>(graph_.cell_edges);
+    double largest = 1e-300;
+    std::for_each(cost_.begin(), last, [&](double c) { largest = std::max(largest, std::abs(c)); });
+    std::vector<int> result;
+    std::transform(cost_.begin(), last, std::back_inserter(result),
+                   [&](double c) { return static_cast<int>(std::lround(cost_steps * c / largest)); });
+    return result;
   }
 
   void make_stops() {
@@ -293,6 +343,8 @@ class CycleCover {
 
   RefinedGraph graph_;
   std::vector<bool> used_;          ///< per edge: part of a cycle
+  std::vector<double> cost_;        ///< per edge: of running along it
+  bool has_cost_;
   std::vector<FaceIndex> cell_of_;  ///< per half-edge of the cell graph
   mutable std::vector<FaceIndex> cell_of_centre_;
   DisjointSets sets_{0};
@@ -303,8 +355,8 @@ class CycleCover {
 
 }  // namespace
 
-std::optional<Cycle> first_cycle(const CellGraph& cells) {
-  CycleCover cover(cells);
+std::optional<Cycle> first_cycle(const CellGraph& cells, const RunCost& cost) {
+  CycleCover cover(cells, cost);
   if (!cover.invert_matching()) return std::nullopt;
   cover.reach_centres();
   cover.split_and_reconnect();

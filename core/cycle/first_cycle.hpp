@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "core/curve/curve.hpp"
@@ -19,8 +20,16 @@ struct Cycle {
   std::size_t doubled_edges = 0;        ///< paper Table 1
 };
 
-/// Nothing when the graph has no perfect matching or a cycle hangs on bent edges of the border only, which are
-/// not doubled; both are rare, and other seeds help (callers try again, and take a contour in the end).
-std::optional<Cycle> first_cycle(const CellGraph& cells);
+/// What it costs a cycle to run straight from one point to another; may be negative. Where a direction is
+/// asked for, strands along it are cheap. Empty: everything costs the same.
+using RunCost = std::function<double(const Vec2&, const Vec2&)>;
+
+/// Departure from the paper, which starts from any perfect matching and leaves directions to a random search:
+/// with a cost the heaviest perfect matching is left out of the cycle, so that the cycles which remain cover
+/// all nodes at the least cost there is; centres and joins take the cheapest way too.
+///
+/// Nothing when the graph has no perfect matching or a cycle hangs on bent edges of the border only, which
+/// are not doubled; both are rare, and other seeds help (callers try again, and take a contour in the end).
+std::optional<Cycle> first_cycle(const CellGraph& cells, const RunCost& cost = {});
 
 }  // namespace unicursal::core

@@ -10,4 +10,9 @@ namespace unicursal::core {
 /// allowed, loops are not. LEMON's blossom method; in practice linear on cell graphs (tests/bench/matching).
 std::vector<bool> perfect_matching(int node_count, const std::vector<std::pair<int, int>>& edges);
 
+/// The same of greatest total weight, for a cycle that avoids what the weights ask to leave out. Slower:
+/// O(n m log n) at worst, about n log n on cell graphs.
+std::vector<bool> heaviest_perfect_matching(int node_count, const std::vector<std::pair<int, int>>& edges,
+                                            const std::vector<int>& weights);
+
 }  // namespace unicursal::core

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct CurveObjectives {
   double normalised_coverage = 0;  ///< E_CVT ÷ (A·w²), w = A/L; straight parallel lines give 1/12
   double length = 0;               ///< E_Len (27), mm²
   double smoothness = 0;           ///< E_Lap (29), mm²
+  double alignment =
+      0;  ///< mean squared angle to the asked directions, rad²; 0.82 is none, 0 also if none is asked
 };
 
 /// One closed curve and how it came about.
@@ -38,7 +41,7 @@ struct PlannedCurve {
   BeadPath path;
   double area = 0;  ///< mm², of the piece of the island that this curve fills
   CurveObjectives objectives;
-  bool faired = false;             ///< the geometric optimiser's result was sound and is what `path` is
+  bool faired = false;                 ///< the geometric optimiser's result was sound and is what `path` is
   std::size_t zone_crossings = 0;      ///< times the curve passes between material zones
   std::size_t self_intersections = 0;  ///< pairs of non-neighbouring segments that meet; 0 by construction
   std::size_t outside_segments = 0;  ///< segments that touch or cross the island's border; 0 by construction
@@ -57,8 +60,23 @@ struct IslandPlan {
   StageTime graph, cycle, fairing, widths;
 };
 
-/// Never throws for a valid island, however small or odd; what cannot be filled is in `unfilled_area`.
-/// `zones` are the part's, for the materials. Deterministic for equal arguments.
+/// Plans the islands of one part. Keeps what its zones ask for: direction files are read once.
+class IslandPlanner {
+ public:
+  /// Throws FileError or ModelError for a direction file that cannot be used.
+  explicit IslandPlanner(std::vector<Zone> zones);
+
+  /// Never throws for a valid island, however small or odd; what cannot be filled is in `unfilled_area`.
+  /// `z` mm is the height of the cut. Deterministic for equal arguments; may be called from several threads.
+  IslandPlan plan(const Island& island, double z, const PlanOptions& options) const;
+
+ private:
+  struct Directions;
+  std::vector<Zone> zones_;
+  std::shared_ptr<const Directions> directions_;
+};
+
+/// The same for a single island at z = 0.
 IslandPlan plan_island(const Island& island, const std::vector<Zone>& zones, const PlanOptions& options);
 
 }  // namespace unicursal::core

@@ -113,7 +113,7 @@ class CommandLine {
 
   void declare_simulate() {
     CLI::App* app = command("simulate", "be a simulated printer on a pseudo-terminal, and print its path",
-                            "unicursal simulate --link /tmp/printer --speed 10 --report seen.json");
+                            "unicursal simulate --link printer --speed 10 --report seen.json");
     app->add_option("--link", link_, "symbolic link to make to the pseudo-terminal")->type_name("PATH");
     app->add_option("--speed", speed_, "printer seconds per second; 0, the default, is as fast as lines come")
         ->check(CLI::NonNegativeNumber);

@@ -21,7 +21,7 @@ PlannedLayer plan_one(const PreparedJob& prepared, std::size_t island) {
   }
   core::PlanOptions options = lookahead_options(prepared).plan;
   options.seed = island_seed(options.seed, planned.layer.index, island);
-  planned.plans.push_back(core::plan_island(islands[island], prepared.part->zones(), options));
+  planned.plans.push_back(prepared.planner->plan(islands[island], planned.layer.z, options));
   islands = {core::Island(islands[island])};
   return planned;
 }

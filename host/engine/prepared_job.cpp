@@ -79,6 +79,7 @@ PreparedJob prepare(Job job, const std::optional<LayerRange>& layers) {
   PreparedJob prepared;
   prepared.job = std::move(job);
   prepared.part = core::read_part(prepared.job.source);
+  prepared.planner = std::make_shared<const core::IslandPlanner>(prepared.part->zones());
   choose_layers(prepared, layers);
   prepared.offset = offset_on_bed(prepared.job.place, prepared.part->extent(), prepared.job.profile.printer);
   const double height = layers ? static_cast<double>(prepared.count) * prepared.job.source.layer_height
@@ -104,6 +105,7 @@ LookaheadOptions lookahead_options(const PreparedJob& prepared) {
   options.plan.bead_width = prepared.job.bead_width;
   options.plan.seed_distance = prepared.job.seed_distance;
   options.plan.min_bead_width = prepared.job.profile.printer.bead_width_range[0];
+  options.planner = prepared.planner;
   options.first = prepared.first;
   options.count = prepared.count;
   return options;

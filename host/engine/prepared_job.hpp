@@ -23,10 +23,11 @@ struct LayerRange {
 struct PreparedJob {
   Job job;
   std::unique_ptr<const core::Part> part;
-  core::Vec2 offset{0, 0};  ///< from the part's frame to the bed's
-  std::size_t first = 0;    ///< index of the first layer to print
-  std::size_t count = 0;    ///< how many
-  double lowered = 0;       ///< by how much the layers come down, so that the first one lies on the bed
+  std::shared_ptr<const core::IslandPlanner> planner;  ///< of the part's zones
+  core::Vec2 offset{0, 0};                             ///< from the part's frame to the bed's
+  std::size_t first = 0;                               ///< index of the first layer to print
+  std::size_t count = 0;                               ///< how many
+  double lowered = 0;  ///< by how much the layers come down, so that the first one lies on the bed
 };
 
 /// `layers`: print these only; all when absent. Throws core::DataError, among others when the part does not

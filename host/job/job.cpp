@@ -11,8 +11,8 @@
 namespace unicursal::host {
 namespace {
 
-/// Spacing of the curve ÷ distance of the seeds, between the jobs' isotropic and anisotropic figures.
-constexpr double bead_width_per_seed_distance = 0.58;
+/// Spacing of the curve ÷ distance of the seeds; the inverse of what the planner takes (tests/bench/spacing).
+constexpr double bead_width_per_seed_distance = 1 / 1.4;
 
 /// Far above anything printable, so that a slip of the keyboard is told here and not by a full memory.
 constexpr double greatest_length = 10000;  // mm

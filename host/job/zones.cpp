@@ -48,13 +48,7 @@ Palette read_palette(const Section& root, int feeders) {
   return palette;
 }
 
-/// The patterns are read into their final types already; curves follow directions in a later version.
-void warn_pattern(const Section& zone, std::vector<std::string>& warnings) {
-  warnings.push_back(fmt::format("{}: {} is not yet followed; filled without direction", zone.file().string(),
-                                 zone.path("pattern")));
-}
-
-core::Pattern named_pattern(const Section& zone, const toml::node& node, std::vector<std::string>& warnings) {
+core::Pattern named_pattern(const Section& zone, const toml::node& node) {
   const std::string name =
       zone.choice("pattern", node, {"isotropic", "anisotropic", "parallel", "orthogonal", "none"});
   core::Pattern pattern;
@@ -62,11 +56,10 @@ core::Pattern named_pattern(const Section& zone, const toml::node& node, std::ve
   if (name == "anisotropic") pattern.kind = core::PatternKind::anisotropic;
   if (name == "parallel") pattern.kind = core::PatternKind::parallel;
   if (name == "orthogonal") pattern.kind = core::PatternKind::orthogonal;
-  if (name != "isotropic" && name != "none") warn_pattern(zone, warnings);
   return pattern;
 }
 
-core::Pattern directed_pattern(const Section& zone, std::vector<std::string>& warnings) {
+core::Pattern directed_pattern(const Section& zone) {
   const Section table = zone.section("pattern", {"angle", "field"}, pattern_remedy);
   if (table.has("angle") == table.has("field")) {
     zone.fail("pattern", "needs either an angle or a field", pattern_remedy);
@@ -87,14 +80,13 @@ core::Pattern directed_pattern(const Section& zone, std::vector<std::string>& wa
                  "check the path");
     }
   }
-  warn_pattern(zone, warnings);
   return pattern;
 }
 
-core::Pattern read_pattern(const Section& zone, std::vector<std::string>& warnings) {
+core::Pattern read_pattern(const Section& zone) {
   core::Pattern pattern;
   if (const toml::node* node = zone.find("pattern")) {
-    pattern = node->is_table() ? directed_pattern(zone, warnings) : named_pattern(zone, *node, warnings);
+    pattern = node->is_table() ? directed_pattern(zone) : named_pattern(zone, *node);
   }
   if (const toml::node* node = zone.find("boundary")) {
     pattern.along_zone_border = zone.choice("boundary", *node, {"island", "zone"}) == "zone";
@@ -146,7 +138,7 @@ core::Zone read_zone(const Section& section, const Palette& palette, std::vector
                      std::vector<std::string>& warnings) {
   core::Zone zone;
   zone.select = section.text("select", "write a fill colour, an object's name or a file's name in quotes");
-  zone.pattern = read_pattern(section, warnings);
+  zone.pattern = read_pattern(section);
   zone.material = index_in(used, find_material(section, palette, mixture_name(section, warnings)));
   if (section.flag_or("transition", false, "write true or false")) {
     warnings.push_back(

@@ -71,6 +71,7 @@ struct Lookahead::State {
   using Clock = std::chrono::steady_clock;
 
   State(const core::Part& source, const LookaheadOptions& chosen) : part(source), options(chosen) {
+    if (!options.planner) options.planner = std::make_shared<const core::IslandPlanner>(part.zones());
     if (options.threads == 0) options.threads = std::max(1U, std::thread::hardware_concurrency());
     if (options.ahead == 0) options.ahead = options.threads + 2;
     next_layer = options.first;
@@ -128,7 +129,8 @@ struct Lookahead::State {
     run(lock, layer, [&] {
       core::PlanOptions plan = options.plan;
       plan.seed = island_seed(options.plan.seed, layer.result.layer.index, island);
-      layer.result.plans[island] = core::plan_island(layer.result.layer.islands[island], part.zones(), plan);
+      layer.result.plans[island] =
+          options.planner->plan(layer.result.layer.islands[island], layer.result.layer.z, plan);
     });
     ++layer.finished;
   }

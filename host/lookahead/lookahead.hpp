@@ -25,6 +25,7 @@ struct PlannedLayer {
 
 struct LookaheadOptions {
   core::PlanOptions plan;   ///< `seed` is the job's; every island gets its own, made from it
+  std::shared_ptr<const core::IslandPlanner> planner;  ///< of the part's zones; made from them when absent
   std::size_t first = 0;    ///< index of the first layer to plan
   std::size_t count = 0;    ///< how many layers from there
   std::size_t threads = 0;  ///< 0: one for each core

@@ -19,6 +19,7 @@ void add(Figures& sum, const core::PlannedCurve& curve) {
   sum.objectives.coverage += curve.objectives.coverage;
   sum.objectives.length += curve.objectives.length;
   sum.objectives.smoothness += curve.objectives.smoothness;
+  sum.objectives.alignment += curve.objectives.alignment * curve.path.total_length();
   sum.zone_crossings += curve.zone_crossings;
   sum.self_intersections += curve.self_intersections;
   sum.outside_segments += curve.outside_segments;
@@ -64,6 +65,7 @@ Figures& operator+=(Figures& sum, const Figures& more) {
   sum.objectives.coverage += more.objectives.coverage;
   sum.objectives.length += more.objectives.length;
   sum.objectives.smoothness += more.objectives.smoothness;
+  sum.objectives.alignment += more.objectives.alignment;
   sum.zone_crossings += more.zone_crossings;
   sum.self_intersections += more.self_intersections;
   sum.outside_segments += more.outside_segments;
@@ -96,7 +98,8 @@ nlohmann::json to_json(const Figures& f) {
         {"normalised_coverage", f.normalised_coverage()},
         {"E", f.normalised_coverage()},
         {"length", f.objectives.length},
-        {"smoothness", f.objectives.smoothness}}},
+        {"smoothness", f.objectives.smoothness},
+        {"alignment", f.length > 0 ? f.objectives.alignment / f.length : 0.0}}},
       {"zone_crossings", f.zone_crossings},
       {"self_intersections", f.self_intersections},
       {"outside_segments", f.outside_segments},

@@ -59,11 +59,10 @@ TEST_CASE("Placement, deposit and seed distance take their other forms") {
   CHECK(seeds.bead_width == bead_width_from_seed_distance(1.5));
 }
 
-TEST_CASE("Patterns that are not followed yet are read into their types and warned about") {
+TEST_CASE("Patterns are read into their types") {
   const auto zone = [](const std::string& pattern) {
     const Job job = load(replaced(sample_job, "pattern = \"isotropic\"", pattern));
-    CHECK(job.warnings.size() == 1);
-    CHECK(job.warnings.at(0).find("zone[0].pattern is not yet followed") != std::string::npos);
+    CHECK(job.warnings.empty());
     return job.source.zones[0].pattern;
   };
   CHECK(zone("pattern = \"parallel\"").kind == core::PatternKind::parallel);

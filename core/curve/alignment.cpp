@@ -1,0 +1,70 @@
+#include "core/curve/alignment.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace unicursal::core {
+namespace {
+
+constexpr double least_field = 0.1;  ///< ‖V‖ below which a place asks for no direction
+constexpr int pieces = 4;            ///< of a segment, where the field is looked up
+
+/// The angle from direction `v` (a doubled vector) to the line along `u`, in [−π/2, π/2].
+double angle_between(const Vec2& u, const Vec2& v) {
+  return std::remainder(std::atan2(u.y(), u.x()) - direction(v), std::numbers::pi);
+}
+
+}  // namespace
+
+Alignment::Alignment(const Lattice& lattice, const DirectionField& field, double turn) {
+  if (field.empty()) return;
+  values_.resize(lattice.size(), Vec2(0, 0));
+  const double c = std::cos(turn), s = std::sin(turn);
+  const double c2 = std::cos(2 * turn), s2 = std::sin(2 * turn);
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    if (lattice.weight[k] <= 0) continue;
+    const Vec2 p = lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
+    const Vec2 v = field.at({c * p.x() + s * p.y(), c * p.y() - s * p.x()});
+    values_[k] = lattice.weight[k] * Vec2(c2 * v.x() - s2 * v.y(), s2 * v.x() + c2 * v.y());
+  }
+}
+
+double Alignment::evaluate(const Curve& curve, const LatticeOwners& owners, double weight,
+                           std::vector<Vec2>& gradient) const {
+  std::vector<Vec2> sums(curve.size(), Vec2(0, 0));
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    if (owners.owner(k) >= 0) sums[static_cast<std::size_t>(owners.owner(k))] += values_[k];
+  }
+  double value = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const std::size_t j = curve.after(i);
+    const Vec2 u = curve.vertices[j] - curve.vertices[i];
+    const double asked = sums[i].norm(), length2 = u.squaredNorm();
+    if (!(asked > 0) || !(length2 > 0)) continue;
+    const double off = angle_between(u, sums[i]);
+    value += asked * off * off;
+    const Vec2 pull = 2 * weight * asked * off / length2 * perpendicular(u);
+    gradient[i] -= pull;
+    gradient[j] += pull;
+  }
+  return value;
+}
+
+double mean_squared_angle(const Curve& curve, const DirectionField& field) {
+  double sum = 0, length = 0;
+  if (field.empty()) return 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vec2& a = curve.vertices[i];
+    const Vec2 u = curve.vertices[curve.after(i)] - a;
+    for (int k = 0; k < pieces; ++k) {
+      const Vec2 v = field.at(a + (k + 0.5) / pieces * u);
+      if (v.norm() < least_field) continue;
+      const double off = angle_between(u, v);
+      sum += u.norm() / pieces * off * off;
+      length += u.norm() / pieces;
+    }
+  }
+  return length > 0 ? sum / length : 0;
+}
+
+}  // namespace unicursal::core

@@ -1,0 +1,140 @@
+#include "core/curve/alignment.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/cycle/first_cycle.hpp"
+#include "core/field/make_direction_field.hpp"
+#include "core/graph/matching.hpp"
+#include "core/planner/plan_island.hpp"
+#include "tests/core/support/shapes.hpp"
+
+using namespace unicursal::core;
+using namespace unicursal::core::test;
+
+namespace {
+
+DirectionField along(double angle, const Polygon& island) {
+  std::vector<Zone> zones(1);
+  zones[0].pattern.kind = PatternKind::angle;
+  zones[0].pattern.angle = angle;
+  return make_direction_field(whole(island), zones, 0.2);
+}
+
+/// A closed path on a circle.
+Curve ring(double radius, int sides) {
+  return {circle({6, 6}, radius, sides)};
+}
+
+PlannedCurve planned(const Polygon& island, PatternKind kind, double angle) {
+  std::vector<Zone> zones(1);
+  zones[0].pattern.kind = kind;
+  zones[0].pattern.angle = angle;
+  PlanOptions options;
+  options.bead_width = 0.6;
+  options.seed = 3;
+  const IslandPlan plan = plan_island(whole(island), zones, options);
+  REQUIRE(plan.curves.size() == 1);
+  return plan.curves.front();
+}
+
+}  // namespace
+
+TEST_CASE("every direction alike is π²/12 from any, parallel lines are 0 or the square of their angle") {
+  const Polygon island = rectangle(12, 12);
+  const DirectionField field = along(0.3, island);
+  CHECK(mean_squared_angle(ring(4, 2000), field) ==
+        Approx(std::numbers::pi * std::numbers::pi / 12).epsilon(0.01));
+  const auto line = [](double angle) {
+    const Vec2 u(std::cos(angle), std::sin(angle));
+    return Curve{{Vec2(6, 6) - 4 * u, Vec2(6, 6) + 4 * u}};
+  };
+  CHECK(mean_squared_angle(line(0.3), field) == Approx(0).margin(1e-9));
+  CHECK(mean_squared_angle(line(0.3 + std::numbers::pi), field) == Approx(0).margin(1e-9));
+  CHECK(mean_squared_angle(line(0.8), field) == Approx(0.25).epsilon(1e-6));
+  CHECK(mean_squared_angle(line(0.8), DirectionField()) == 0);
+}
+
+TEST_CASE("the gradient of the alignment is exact while cells stay") {
+  const Polygon island = rectangle(12, 12);
+  const double turn = 0.4;
+  const Lattice lattice = sample(island, 0.23);
+  // In the turned frame the field of angle 0.3 − turn is that of angle 0.3.
+  const Alignment alignment(lattice, along(0.3, island), turn);
+  const Curve curve = ring(4, 60);
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    segments.push_back({curve.vertices[i], curve.vertices[curve.after(i)]});
+  LatticeOwners owners(lattice);
+  owners.assign(segments, 6);
+  std::vector<Vec2> gradient(curve.size(), Vec2(0, 0)), ignored = gradient;
+  REQUIRE(alignment.evaluate(curve, owners, 1, gradient) > 0);
+  Random random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    const std::size_t i = random.below(curve.size());
+    const Vec2 way(random.uniform(-1, 1), random.uniform(-1, 1));
+    const double h = 1e-6;
+    Curve ahead = curve, behind = curve;
+    ahead.vertices[i] += h * way;
+    behind.vertices[i] -= h * way;
+    const double slope =
+        (alignment.evaluate(ahead, owners, 0, ignored) - alignment.evaluate(behind, owners, 0, ignored)) /
+        (2 * h);
+    // A segment at right angles to the field may flip to its other side.
+    if (std::abs(slope) > 100) continue;
+    REQUIRE(gradient[i].dot(way) == Approx(slope).margin(1e-5).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("the heaviest perfect matching is that of trying them all") {
+  Random random(8);
+  for (int trial = 0; trial < 30; ++trial) {
+    // A prism over a k-gon: cubic and bridgeless.
+    const int k = 3 + static_cast<int>(random.below(3));
+    std::vector<std::pair<int, int>> edges;
+    for (int i = 0; i < k; ++i) {
+      edges.insert(edges.end(), {{i, (i + 1) % k}, {k + i, k + (i + 1) % k}, {i, k + i}});
+    }
+    std::vector<int> weights;
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      weights.push_back(static_cast<int>(random.below(200)) - 100);
+    int best = -1000000;
+    for (unsigned subset = 0; subset < 1U << edges.size(); ++subset) {
+      std::vector<int> touched(static_cast<std::size_t>(2 * k), 0);
+      int sum = 0;
+      for (std::size_t e = 0; e < edges.size(); ++e) {
+        if ((subset >> e & 1U) == 0) continue;
+        ++touched[static_cast<std::size_t>(edges[e].first)];
+        ++touched[static_cast<std::size_t>(edges[e].second)];
+        sum += weights[e];
+      }
+      if (touched == std::vector<int>(touched.size(), 1)) best = std::max(best, sum);
+    }
+    const std::vector<bool> matched = heaviest_perfect_matching(2 * k, edges, weights);
+    REQUIRE(matched.size() == edges.size());
+    int sum = 0;
+    for (std::size_t e = 0; e < edges.size(); ++e) sum += matched[e] ? weights[e] : 0;
+    REQUIRE(sum == best);
+  }
+}
+
+TEST_CASE("curves follow the direction that a zone asks for") {
+  const Polygon island = GENERATE(rectangle(15, 15), square_with_hole());
+  const double angle = GENERATE(0.0, 0.6, 1.4);
+  const PlannedCurve curve = planned(island, PatternKind::angle, angle);
+  CHECK(curve.objectives.alignment < 0.25);  // 0.82 without
+  CHECK(curve.objectives.normalised_coverage < 0.092);
+  CHECK(curve.farthest < 1.2 * 0.6);
+}
+
+TEST_CASE("an anisotropic zone runs along its longest way, an isotropic one every way") {
+  const Polygon strip{{{0, 0}, {20, 20}, {17, 23}, {-3, 3}}, {}};
+  const DirectionField long_way = along(std::numbers::pi / 4, strip), x = along(0, strip);
+  const auto angles = [&](PatternKind kind, const DirectionField& field) {
+    Curve curve;
+    for (const Bead& bead : planned(strip, kind, 0).path.beads) curve.vertices.push_back(bead.position);
+    return mean_squared_angle(curve, field);
+  };
+  CHECK(angles(PatternKind::anisotropic, long_way) < 0.25);
+  CHECK(angles(PatternKind::isotropic, long_way) > 0.5);
+  CHECK(angles(PatternKind::isotropic, x) > 0.5);
+}
