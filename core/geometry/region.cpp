@@ -59,7 +59,6 @@ Region to_region(const ClipperLib::PolyTree& tree) {
 
 Region combine(const Region& a, const Region& b, ClipperLib::ClipType type) {
   ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
   clipper.AddPaths(to_paths(a), ClipperLib::ptSubject, true);
   clipper.AddPaths(to_paths(b), ClipperLib::ptClip, true);
   ClipperLib::PolyTree tree;
@@ -71,12 +70,22 @@ Region combine(const Region& a, const Region& b, ClipperLib::ClipType type) {
 
 Region enclosed(const std::vector<Ring>& rings, FillRule rule) {
   ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
   for (const Ring& ring : rings) clipper.AddPath(to_path(ring), ClipperLib::ptSubject, true);
   const auto fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
   ClipperLib::PolyTree tree;
   clipper.Execute(ClipperLib::ctUnion, tree, fill, fill);
   return to_region(tree);
+}
+
+Region unite(const std::vector<const Region*>& regions) {
+  std::vector<Ring> rings;
+  for (const Region* region : regions) {
+    for (const Polygon& polygon : *region) {
+      rings.push_back(polygon.outer);
+      rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+    }
+  }
+  return enclosed(rings, FillRule::non_zero);
 }
 
 Region unite(const Region& a, const Region& b) {

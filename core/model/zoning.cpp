@@ -173,13 +173,19 @@ Zoning zoned(const std::vector<Painted>& shapes) {
   Zoning result;
   Claims claims;
   Region whole;
-  for (auto shape = shapes.rbegin(); shape != shapes.rend(); ++shape) {
-    const Region visible = subtract(shape->region, whole);
-    whole = unite(whole, shape->region);
-    if (shape->zone) {
-      claims[*shape->zone] = unite(claims[*shape->zone], visible);
+  for (auto shape = shapes.rbegin(); shape != shapes.rend();) {
+    // Neighbours in the pile that belong to one zone need not be told apart.
+    const auto first = shape;
+    std::vector<const Region*> pile{&(shape++)->region};
+    while (first->zone && shape != shapes.rend() && shape->zone == first->zone)
+      pile.push_back(&(shape++)->region);
+    const Region painted = pile.size() > 1 ? unite(pile) : first->region;
+    const Region visible = subtract(painted, whole);
+    whole = unite(whole, painted);
+    if (first->zone) {
+      claims[*first->zone] = unite(claims[*first->zone], visible);
     } else {
-      report_unclaimed(visible, shape->label, result.unclaimed);
+      report_unclaimed(visible, first->label, result.unclaimed);
     }
   }
   if (shapes.size() > 1) whole = welded(whole);

@@ -122,7 +122,8 @@ TEST_CASE("curves follow the direction that a zone asks for") {
   const double angle = GENERATE(0.0, 0.6, 1.4);
   const PlannedCurve curve = planned(island, PatternKind::angle, angle);
   CHECK(curve.objectives.alignment < 0.25);  // 0.82 without
-  CHECK(curve.objectives.normalised_coverage < 0.092);
+  CHECK(curve.objectives.normalised_coverage < 0.105);  // strands held straight cover less evenly
+  CHECK(curve.faired);
   CHECK(curve.farthest < 1.2 * 0.6);
 }
 
@@ -134,7 +135,7 @@ TEST_CASE("an anisotropic zone runs along its longest way, an isotropic one ever
     for (const Bead& bead : planned(strip, kind, 0).path.beads) curve.vertices.push_back(bead.position);
     return mean_squared_angle(curve, field);
   };
-  CHECK(angles(PatternKind::anisotropic, long_way) < 0.25);
+  CHECK(angles(PatternKind::anisotropic, long_way) < 0.35);
   CHECK(angles(PatternKind::isotropic, long_way) > 0.5);
   CHECK(angles(PatternKind::isotropic, x) > 0.5);
 }

@@ -16,6 +16,29 @@ TEST_CASE("areas of union, intersection and difference obey inclusion and exclus
   }
 }
 
+TEST_CASE("uniting many at once is uniting one after another") {
+  Random random(6);
+  std::vector<Region> regions;
+  std::vector<const Region*> pointers;
+  Region sum;
+  for (int k = 0; k < 30; ++k) {
+    Polygon piece = random_island(random, 4, 3);
+    const Vec2 shift(random.uniform(0, 20), random.uniform(0, 20));
+    for (Vec2& v : piece.outer) v += shift;
+    for (Ring& hole : piece.holes) {
+      for (Vec2& v : hole) v += shift;
+    }
+    regions.push_back({piece});
+  }
+  for (const Region& region : regions) {
+    pointers.push_back(&region);
+    sum = unite(sum, region);
+  }
+  const Region at_once = unite(pointers);
+  CHECK(area(at_once) == Approx(area(sum)).epsilon(1e-5));
+  CHECK(area(subtract(at_once, sum)) < 1e-3);
+}
+
 TEST_CASE("outer rings run counter-clockwise, holes clockwise, islands within holes stand alone") {
   const Region region = enclosed({circle({0, 0}, 5, 50), circle({0, 0}, 3, 50, false), circle({0, 0}, 1, 50)},
                                  FillRule::even_odd);
