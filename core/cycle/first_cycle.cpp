@@ -342,8 +342,8 @@ class CycleCover {
   }
 
   RefinedGraph graph_;
-  std::vector<bool> used_;          ///< per edge: part of a cycle
-  std::vector<double> cost_;        ///< per edge: of running along it
+  std::vector<bool> used_;    ///< per edge: part of a cycle
+  std::vector<double> cost_;  ///< per edge: of running along it
   bool has_cost_;
   std::vector<FaceIndex> cell_of_;  ///< per half-edge of the cell graph
   mutable std::vector<FaceIndex> cell_of_centre_;

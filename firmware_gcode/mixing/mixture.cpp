@@ -22,7 +22,10 @@ Mixture::Mixture(const std::array<double, max_feeders>& shares) : shares_(shares
     }
   }
   const double total = sum(shares);
-  if (!(total > 0) || !std::isfinite(total)) {
+  if (!std::isfinite(total)) {
+    throw core::DataError("", "mixture", "the shares are too large", "give shares such as 1 or 0.5");
+  }
+  if (!(total > 0)) {
     throw core::DataError("", "mixture", "all shares are zero, which would hang the firmware",
                           "give at least one feeder a share above 0");
   }

@@ -7,11 +7,13 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "firmware_gcode/toolpath/bounds.hpp"
 
 namespace unicursal::gcode {
 namespace {
 
 constexpr double outside_tolerance = 5e-4;   ///< mm; half of what a written position can tell
+constexpr double floating_tolerance = 1e-6;  ///< mm; rounding of a sum of layer heights
 constexpr std::size_t longest_command = 80;  ///< characters; leaves room for line number and checksum
 
 void require(bool good, const std::string& place, const std::string& problem, const std::string& remedy) {
@@ -21,6 +23,12 @@ void require(bool good, const std::string& place, const std::string& problem, co
 /// False for NaN, too.
 bool within(double value, double low, double high) {
   return value >= low && value <= high;
+}
+
+void require_within(double value, const Bounds& bounds, const std::string& key, const std::string& unit) {
+  require(bounds.hold(value), key,
+          fmt::format("{:g} is not between {:g} and {:g} {}", value, bounds.least, bounds.greatest, unit),
+          "correct it in the printer's profile");
 }
 
 void require_positive(double value, const std::string& key) {
@@ -34,8 +42,9 @@ std::string where(const PlacedLayer& layer, const core::Vec2& point) {
 void check_bead(const core::Bead& bead, const PlacedLayer& layer, const PrintSettings& settings,
                 const Printer& printer) {
   const core::Vec2& p = bead.position;
-  require(p.allFinite() && std::isfinite(bead.area) && bead.area >= 0, where(layer, p),
-          "a position or an area is not a finite number", "this is a defect of the curve; please report it");
+  require(p.allFinite() && within(bead.area, 0, printer.bed[0] * printer.bed[1]), where(layer, p),
+          "a position is not finite or an area is not between nothing and the whole bed",
+          "this is a defect of the curve; please report it");
   require(within(p.x(), -outside_tolerance, printer.bed[0] + outside_tolerance) &&
               within(p.y(), -outside_tolerance, printer.bed[1] + outside_tolerance),
           where(layer, p),
@@ -67,19 +76,23 @@ bool breaks_numbering(const std::string& line) {
 }  // namespace
 
 void check_printer(const Printer& printer) {
-  for (double side : printer.bed) require_positive(side, "bed");
-  for (double speed : printer.max_speed) require_positive(speed, "max_speed");
-  for (double acceleration : printer.max_acceleration) require_positive(acceleration, "max_acceleration");
-  require_positive(printer.nozzle, "nozzle");
-  require_positive(printer.filament_diameter, "filament_diameter");
-  require_positive(printer.max_flow, "max_flow");
-  require_positive(printer.retraction_speed, "retraction_speed");
-  require(within(printer.retraction_length, 0, 100), "retraction_length", "is not between 0 and 100 mm",
-          "give the millimetres of filament that stop the nozzle from oozing, for example 4");
-  require(within(printer.nozzle_temperature, 0, 500), "nozzle temperature", "is not between 0 and 500 °C",
-          "give the temperature that the filament's maker states");
-  require(within(printer.bed_temperature, 0, 200), "bed temperature", "is not between 0 and 200 °C",
-          "give 0 for an unheated bed");
+  for (double side : printer.bed) require_within(side, bounds::bed, "bed", "mm");
+  for (double speed : printer.max_speed) require_within(speed, bounds::speed, "max_speed", "mm/s");
+  for (double acceleration : printer.max_acceleration) {
+    require_within(acceleration, bounds::acceleration, "max_acceleration", "mm/s²");
+  }
+  for (double width : printer.bead_width_range) {
+    require_within(width, bounds::bead_width, "bead_width_range", "mm");
+  }
+  require_within(printer.nozzle, bounds::nozzle, "nozzle", "mm");
+  require_within(printer.filament_diameter, bounds::filament_diameter, "filament_diameter", "mm");
+  require_within(printer.max_flow, bounds::flow, "max_flow", "mm³/s");
+  require_within(printer.retraction_length, bounds::retraction_length, "retraction_length", "mm");
+  require_within(printer.retraction_speed, bounds::speed, "retraction_speed", "mm/s");
+  require_within(printer.nozzle_temperature, bounds::nozzle_temperature, "nozzle temperature", "°C");
+  require_within(printer.bed_temperature, bounds::bed_temperature, "bed temperature", "°C");
+  require_within(printer.dead_volume, bounds::transition, "dead_volume", "mm³");
+  require_within(printer.mixing_volume, bounds::transition, "mixing_volume", "mm³");
   require(within(printer.floor_share, 0, 1.0 / max_feeders), "floor_share", "is not between 0 and one third",
           "give a small share such as 0.02");
   require(printer.feeders == max_feeders, "feeders",
@@ -106,8 +119,9 @@ void check_settings(const PrintSettings& settings, const Printer& printer, const
 
 void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const Printer& printer) {
   const std::string place = fmt::format("layer {}", layer.index);
-  require(std::isfinite(layer.height) && layer.height > 0, place, "its height is not above zero",
-          "give a positive layer height");
+  require(layer.height > 0 && layer.height <= bounds::nozzle.greatest, place,
+          fmt::format("its height is not above 0, up to {:g} mm", bounds::nozzle.greatest),
+          "give the layer height in millimetres");
   require(layer.top > 0 && layer.top <= printer.bed[2] + outside_tolerance, place,
           fmt::format("its top at {:g} mm is not within the printer's height of {:g} mm", layer.top,
                       printer.bed[2]),
@@ -115,6 +129,14 @@ void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const 
   for (const core::BeadPath& path : layer.paths) {
     for (const core::Bead& bead : path.beads) check_bead(bead, layer, settings, printer);
   }
+}
+
+void check_on_bed(const PlacedLayer& layer) {
+  require(layer.index == 0 || layer.top <= layer.height + floating_tolerance,
+          fmt::format("layer {}", layer.index),
+          fmt::format("nothing is printed below it, so that it would begin in the air at {:g} mm",
+                      layer.top - layer.height),
+          "turn or place the part so that it stands on the bed");
 }
 
 std::vector<std::string> user_commands(const std::string& text, const std::string& key) {

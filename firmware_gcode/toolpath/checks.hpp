@@ -16,6 +16,8 @@ void check_printer(const Printer& printer);
 void check_settings(const PrintSettings& settings, const Printer& printer, const Dialect& dialect);
 /// Every position inside the bed, every number finite, every zone known.
 void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const Printer& printer);
+/// Of the first layer that prints anything: it lies on the bed.
+void check_on_bed(const PlacedLayer& layer);
 
 /// The commands in a piece of a user's own G-code: comments and blank lines dropped. Refuses what would
 /// break the numbering of lines (M110, N…, '*') and lines that a firmware would cut. `key` names the text.

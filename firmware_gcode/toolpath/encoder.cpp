@@ -103,7 +103,7 @@ void Encoder::State::draw_back(Chunk& chunk) {
 
 void Encoder::State::push_forward(Chunk& chunk) {
   if (!std::exchange(drawn_back, false)) return;
-  writer.select_tool(chunk, retraction_tool.value_or(0));
+  if (retraction_tool) writer.select_tool(chunk, *retraction_tool);
   writer.filament(chunk, printer.retraction_length, printer.retraction_speed);
 }
 
@@ -120,7 +120,9 @@ void Encoder::State::prime(Chunk& chunk, const PlacedLayer& layer,
                            const std::vector<const core::BeadPath*>& paths) {
   const auto line = prime_line(printer, settings.extent, layer.height);
   if (!line) {
-    chunk.lines.push_back("; no prime line: the part leaves no edge of the bed free");
+    const std::string reason = "no prime line: the part leaves no edge of the bed free";
+    chunk.lines.push_back("; " + reason);
+    chunk.warnings.push_back(reason + "; the first beads may come out thin or in a former colour");
     return;
   }
   chunk.lines.push_back(";TYPE:Custom");
@@ -167,7 +169,7 @@ Chunk Encoder::start() {
   append(chunk.lines, job_comments(s.printer, s.settings));
   append(chunk.lines, warm_up(s.printer));
   append(chunk.lines, s.start_lines);
-  append(chunk.lines, modes());
+  append(chunk.lines, after_user_start());
   for (std::size_t i = 0; i < s.mixtures.size(); ++i) {
     append(chunk.lines, s.dialect.define_tool(i, s.mixtures[i]));
   }
@@ -188,7 +190,9 @@ Chunk Encoder::layer(const PlacedLayer& layer) {
   for (const core::BeadPath& path : layer.paths) {
     if (path.size() >= 2 && path.total_length() > 0) left.push_back(&path);
   }
-  if (!left.empty() && !std::exchange(s.primed, true)) {
+  if (!left.empty() && !s.primed) {
+    check_on_bed(layer);
+    s.primed = true;
     s.prime(chunk, layer, left);
   }
   if (!left.empty()) chunk.lines.push_back(";TYPE:Solid infill");
@@ -206,6 +210,10 @@ Chunk Encoder::finish() {
   State& s = *state_;
   Chunk chunk = s.new_chunk();
   if (const auto height = s.writer.height()) {
+    // The print may have been cut anywhere in what has been encoded, so that nothing is taken for granted.
+    s.writer.forget();
+    append(chunk.lines, modes());
+    s.writer.select_tool(chunk, s.retraction_tool.value_or(0));
     s.draw_back(chunk);
     s.writer.rise(chunk, std::min(std::max(*height, s.settings.part_height) + park_lift, s.printer.bed[2]));
     s.writer.travel(chunk, {0, s.printer.bed[1]});

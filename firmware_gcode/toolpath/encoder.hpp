@@ -44,8 +44,8 @@ struct PlacedLayer {
 };
 
 /// Throws core::DataError for a printer or settings that make no sense, a position outside the bed, more
-/// than 16 materials, a zone without material, or a flow above the printer's; nothing of a refused chunk is
-/// returned, and the encoder is as it was before.
+/// than 16 materials, a zone without material, a flow above the printer's, or a part that begins in the air;
+/// nothing of a refused chunk is returned, and the encoder is as it was before.
 class Encoder {
  public:
   Encoder(const Printer& printer, const PrintSettings& settings);
@@ -57,7 +57,8 @@ class Encoder {
   /// In order, from the first, which begins with the prime line: only here are its height and first
   /// mixture known.
   Chunk layer(const PlacedLayer& layer);
-  /// Park, heaters and motors off. At any time after start().
+  /// Park, heaters and motors off. At any time after start(), and right wherever the printer has stopped in
+  /// what was encoded: every state that the lines depend on is in them.
   Chunk finish();
 
   /// The mixture that the firmware will really use for a material: floor share applied, then rounded to

@@ -11,6 +11,10 @@ namespace {
 /// firmware can cool them.
 constexpr int inactivity_shutdown = 1800;
 
+std::string shut_down_after(int seconds) {
+  return fmt::format("M85 S{}", seconds);
+}
+
 std::string degrees(double temperature) {
   return short_number(temperature, 1);
 }
@@ -42,7 +46,7 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
 
 std::vector<std::string> warm_up(const Printer& printer) {
   const std::string nozzle = degrees(printer.nozzle_temperature), bed = degrees(printer.bed_temperature);
-  return {fmt::format("M85 S{}", inactivity_shutdown),
+  return {shut_down_after(inactivity_shutdown),
           "M220 S100",
           "M221 S100",
           "M140 S" + bed,
@@ -56,10 +60,19 @@ std::vector<std::string> modes() {
   return {"G21", "G90", "M83", "G92 E0"};
 }
 
+std::vector<std::string> after_user_start() {
+  std::vector<std::string> lines = modes();
+  lines.insert(lines.begin(), shut_down_after(inactivity_shutdown));
+  return lines;
+}
+
 std::vector<std::string> shut_down(const std::vector<std::string>& user_lines) {
-  std::vector<std::string> lines = {"M104 S0", "M140 S0", "M107"};
+  const std::vector<std::string> cold = {"M104 S0", "M140 S0", "M107"};
+  std::vector<std::string> lines = cold;
   lines.insert(lines.end(), user_lines.begin(), user_lines.end());
+  if (!user_lines.empty()) lines.insert(lines.end(), cold.begin(), cold.end());
   lines.push_back("M84");
+  lines.push_back(shut_down_after(0));
   return lines;
 }
 

@@ -19,11 +19,15 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
 /// a minute; the waits come after, so that whatever has oozed meanwhile stays away from the bed.
 std::vector<std::string> warm_up(const Printer& printer);
 
-/// Millimetres, absolute positions, relative extrusion. M83 follows G90, which would override it. After the
-/// user's own lines, so that these cannot change a mode under the toolpath.
+/// Millimetres, absolute positions, relative extrusion. M83 follows G90, which would override it.
 std::vector<std::string> modes();
 
-/// Heaters, fan and motors off, the user's last lines in between.
+/// The inactivity shutdown and the modes once more: the user's own lines cannot turn off the one or change
+/// the others under the toolpath.
+std::vector<std::string> after_user_start();
+
+/// Heaters and fan off, the user's last lines, the same off again in case these turned them on, motors off.
+/// The inactivity shutdown ends last: it would halt an idle printer half an hour after every print.
 std::vector<std::string> shut_down(const std::vector<std::string>& user_lines);
 
 }  // namespace unicursal::gcode

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/toolpath/bounds.hpp"
 #include "firmware_gcode/toolpath/speeds.hpp"
 
 namespace unicursal::gcode {
@@ -15,9 +16,9 @@ namespace {
 constexpr int position_decimals = 3;
 constexpr double position_unit = 1e-3;  ///< mm
 constexpr int extrusion_decimals = 5;
-constexpr double extrusion_unit = 1e-5;  ///< mm of filament
-constexpr double feed_tolerance = 0.01;  ///< relative; below what a bead's width shows
-constexpr double least_feed = 6;         ///< mm/min; F0 would stop some firmwares for good
+constexpr double extrusion_unit = 1e-5;                  ///< mm of filament
+constexpr double feed_tolerance = 0.01;                  ///< relative; below what a bead's width shows
+constexpr double least_feed = 60 * bounds::speed.least;  ///< mm/min
 
 }  // namespace
 
@@ -51,6 +52,14 @@ void MoveWriter::append_feed(std::string& line, double speed) {
   if (std::abs(wanted - feed_) <= feed_tolerance * wanted) return;
   feed_ = std::round(wanted);
   line += " F", append_scaled(line, scaled(feed_, 0), 0);
+}
+
+void MoveWriter::forget() {
+  position_.reset();
+  height_.reset();
+  tool_.reset();
+  feed_ = 0;
+  owed_ = 0;
 }
 
 void MoveWriter::select_tool(Chunk& chunk, std::size_t tool) {
@@ -108,7 +117,7 @@ void MoveWriter::straight_bead(Chunk& chunk, const core::Vec2& to, double volume
   }
   append_feed(line, speed);
   chunk.lines.push_back(std::move(line));
-  chunk.seconds += distance / speed;
+  chunk.seconds += distance / std::max(speed, bounds::speed.least);
 }
 
 void MoveWriter::filament(Chunk& chunk, double length, double speed) {
@@ -118,7 +127,7 @@ void MoveWriter::filament(Chunk& chunk, double length, double speed) {
   append_scaled(line, e, extrusion_decimals);
   append_feed(line, speed);
   chunk.lines.push_back(std::move(line));
-  chunk.seconds += std::abs(length) / speed;
+  chunk.seconds += std::abs(length) / std::max(speed, bounds::speed.least);
 }
 
 }  // namespace unicursal::gcode

@@ -28,6 +28,10 @@ class MoveWriter {
   /// Height of the nozzle; none until the first rise.
   std::optional<double> height() const;
 
+  /// From here on nothing is taken to be known: the next move states everything that it depends on. For a
+  /// printer that may have stopped anywhere in what has been written.
+  void forget();
+
   void select_tool(Chunk& chunk, std::size_t tool);
   void rise(Chunk& chunk, double z);
   void travel(Chunk& chunk, const core::Vec2& to);

@@ -3,10 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
+#include <limits>
 
 #include "core/error.hpp"
+#include "firmware_gcode/reply/reply.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/show.hpp"
 #include "host/cli/version.hpp"
+#include "host/link/link.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -14,6 +19,19 @@ namespace {
 /// CLI11 keeps options in plain values; empty means that the option was not given.
 std::optional<std::filesystem::path> path_if(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
+}
+
+/// CLI11's own ranges let "nan" pass.
+CLI::Validator finite_number(double least, double most) {
+  const auto problem = [least, most](const std::string& text) {
+    double value = 0;
+    const bool sound = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    if (sound) return std::string();
+    if (value < least || most == std::numeric_limits<double>::max())
+      return fmt::format("\"{}\" is no number from {:g} up", text, least);
+    return fmt::format("\"{}\" is no number from {:g} to {:g}", text, least, most);
+  };
+  return {problem, "NUMBER"};
 }
 
 struct JobArguments {
@@ -52,6 +70,7 @@ class CommandLine {
   }
 
   Exit run(int argc, char** argv) {
+    check_command(argc, argv);
     app_.parse(argc, argv);
     const std::string name = app_.get_subcommands().front()->get_name();
     if (name == "dry-run") return dry_run({job_.options(), speed_});
@@ -65,11 +84,21 @@ class CommandLine {
   int exit(const CLI::ParseError& error) {
     // --help and --version come as errors of code 0.
     if (error.get_exit_code() == 0) return app_.exit(error);
-    fmt::print(stderr, "unicursal: {}; unicursal --help lists what there is\n", error.what());
+    show(stderr, "unicursal: {}; unicursal --help lists what there is\n", error.what());
     return static_cast<int>(Exit::bad_input);
   }
 
  private:
+  /// CLI11 would only say that a command is missing.
+  void check_command(int argc, char** argv) const {
+    if (argc < 2 || argv[1][0] == '-') return;
+    for (const CLI::App* known : app_.get_subcommands({})) {
+      if (known->check_name(argv[1])) return;
+    }
+    throw core::DataError("", "", "there is no command \"" + gcode::printable(argv[1]) + "\"",
+                          "unicursal --help lists what there is");
+  }
+
   CLI::App* command(const std::string& name, const std::string& what, const std::string& example) {
     CLI::App* app = app_.add_subcommand(name, what);
     app->footer("Example:\n  " + example);
@@ -81,7 +110,7 @@ class CommandLine {
                             "unicursal dry-run heart.toml --report heart.json --picture pictures");
     job_.declare(*app);
     app->add_option("--speed", speed_, "printer seconds per second; 0, the default, is as fast as possible")
-        ->check(CLI::NonNegativeNumber);
+        ->check(finite_number(0, std::numeric_limits<double>::max()));
   }
 
   void declare_plan() {
@@ -116,14 +145,14 @@ class CommandLine {
                             "unicursal simulate --link printer --speed 10 --report seen.json");
     app->add_option("--link", link_, "symbolic link to make to the pseudo-terminal")->type_name("PATH");
     app->add_option("--speed", speed_, "printer seconds per second; 0, the default, is as fast as lines come")
-        ->check(CLI::NonNegativeNumber);
+        ->check(finite_number(0, std::numeric_limits<double>::max()));
     app->add_option("--profile", job_.profile, "bed, filament and accelerations of this printer")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was seen as JSON at the end")->type_name("FILE");
     app->add_option("--picture", job_.pictures, "write a picture of each layer's deposit into this folder")
         ->type_name("DIR");
     app->add_option("--pixel", pixel_, "mm per picture pixel")
-        ->check(CLI::Range(0.01, 10.0))
+        ->check(finite_number(0.01, 10))
         ->type_name("MM");
     app->add_flag("--once", once_, "end when a host has used the line and closed it");
   }
@@ -158,13 +187,14 @@ class CommandLine {
 };
 
 int report(const std::exception& error, Exit code) {
-  fmt::print(stderr, "unicursal: {}\n", error.what());
+  show(stderr, "unicursal: {}\n", error.what());
   return static_cast<int>(code);
 }
 
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed terminal must not end a print
   try {
     CommandLine line;
     try {
@@ -174,6 +204,13 @@ int run_command_line(int argc, char** argv) {
     }
   } catch (const core::DataError& error) {
     return report(error, Exit::bad_input);
+  } catch (const PortError& error) {
+    return report(error, Exit::bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {
+    // Before a print: within one, everything becomes a PrintError.
+    show(stderr, "unicursal: {}: {}; check the name and the permissions\n", error.path1().string(),
+         error.code().message());
+    return static_cast<int>(Exit::bad_input);
   } catch (const std::exception& error) {
     return report(error, Exit::failed);
   }

@@ -6,7 +6,7 @@ namespace unicursal::host {
 /// Exit codes, for scripts.
 enum class Exit : int {
   success = 0,
-  failed = 1,     ///< the print or the simulation did not end well
+  failed = 1,     ///< the print, the simulation or the report of one did not end well
   bad_input = 2,  ///< a file, a key or an option; nothing was sent to a printer
 };
 

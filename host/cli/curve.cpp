@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/show.hpp"
 #include "host/cli/words.hpp"
 #include "host/report/curve_file.hpp"
 
@@ -44,15 +45,16 @@ nlohmann::json curve_report(const CurveCommand& command, const PreparedJob& prep
 
 Exit curve(const CurveCommand& command) {
   for (const std::filesystem::path& file : command.outputs) check_curve_file(file);
-  const JobOptions options{command.job, command.profile, LayerRange{command.layer, command.layer}, {}};
-  const PreparedJob prepared = prepare_and_warn(options);
+  const JobOptions options{
+      command.job, command.profile, LayerRange{command.layer, command.layer}, {command.report, {}}};
+  const PreparedJob prepared = prepare_and_warn(options, command.outputs);
   const PlannedLayer planned = plan_one(prepared, command.island);
   for (const std::filesystem::path& file : command.outputs) write_curve(file, planned, curve_style(prepared));
   if (command.report) write_json(*command.report, curve_report(command, prepared, planned));
   const Figures figures = measure(planned);
-  fmt::print("{} vertices, {:.1f} mm of curve {:.3f} mm apart over {:.2f} mm²\n", figures.vertices,
-             figures.length, figures.mean_spacing(), figures.area);
-  if (figures.curves == 0) fmt::print("too thin, {:.2f} mm² not filled\n", figures.unfilled_area);
+  show(stdout, "{} vertices, {:.1f} mm of curve {:.3f} mm apart over {:.2f} mm²\n", figures.vertices,
+       figures.length, figures.mean_spacing(), figures.area);
+  if (figures.curves == 0) show(stdout, "too thin, {:.2f} mm² not filled\n", figures.unfilled_area);
   return Exit::success;
 }
 

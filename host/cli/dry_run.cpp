@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/show.hpp"
 #include "host/cli/words.hpp"
 #include "host/engine/simulator_process.hpp"
 #include "host/report/summary.hpp"
@@ -34,21 +35,21 @@ Exit dry_run(const DryRunCommand& command) {
   Run run(prepared, "dry-run", command.job.outputs);
   SimulatorProcess simulator(simulator_arguments(command, prepared));
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
+  check_beginning(prepared, lookahead);
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
   const StreamResult result = stream_with_progress(port, lookahead, run, "dry run");
+  if (result.ending == Ending::failed) conclude(run, result, {{"planning", planning_json(lookahead)}});
   const nlohmann::json seen = simulator.finish();
   const Comparison comparison = compare_with(seen, run, result);
-  run.write_report({{"ended", result.stopped ? "stopped" : "completed"},
-                    {"planning", planning_json(lookahead)},
-                    {"link", link_json(result)},
-                    {"simulator", seen},
-                    {"comparison", to_json(comparison)}});
-  fmt::print("{}", summary(run.totals(), lookahead.effort()));
-  if (result.stopped) {
-    fmt::print("stopped by the user\n");
+  conclude(
+      run, result,
+      {{"planning", planning_json(lookahead)}, {"simulator", seen}, {"comparison", to_json(comparison)}});
+  show(stdout, "{}", summary(run.totals(), lookahead.effort()));
+  if (result.ending == Ending::stopped) {
+    show(stdout, "stopped by the user\n");
     return Exit::failed;
   }
-  fmt::print("{}", summary(comparison));
+  show(stdout, "{}", summary(comparison));
   return comparison.lines_whole() ? Exit::success : Exit::failed;
 }
 

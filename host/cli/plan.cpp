@@ -4,6 +4,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/progress.hpp"
+#include "host/cli/show.hpp"
 #include "host/cli/words.hpp"
 #include "host/report/draft.hpp"
 #include "host/report/summary.hpp"
@@ -16,8 +17,7 @@ class GcodeFile {
  public:
   explicit GcodeFile(std::filesystem::path file) : file_(std::move(file)), stream_(open_draft(file_)) {}
   ~GcodeFile() {
-    std::error_code ignored;
-    if (stream_.is_open()) std::filesystem::remove(draft_of(file_), ignored);
+    if (stream_.is_open()) discard_draft(stream_, file_);
   }
   GcodeFile(const GcodeFile&) = delete;
   GcodeFile& operator=(const GcodeFile&) = delete;
@@ -35,11 +35,12 @@ class GcodeFile {
 }  // namespace
 
 Exit plan(const PlanCommand& command) {
-  const PreparedJob prepared = prepare_and_warn(command.job);
+  const PreparedJob prepared = prepare_and_warn(command.job, {command.output});
   Run run(prepared, "plan", command.job.outputs);
   GcodeFile file(command.output);
   file.write(run.start());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
+  check_beginning(prepared, lookahead);
   {
     Progress progress("planning", prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {
@@ -50,7 +51,7 @@ Exit plan(const PlanCommand& command) {
   file.write(run.finish());
   file.publish();
   run.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
-  fmt::print("{}written:   {}\n", summary(run.totals(), lookahead.effort()), command.output.string());
+  show(stdout, "{}written:   {}\n", summary(run.totals(), lookahead.effort()), command.output.string());
   return Exit::success;
 }
 

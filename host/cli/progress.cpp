@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "host/cli/show.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
@@ -33,7 +34,7 @@ void Progress::update(std::size_t begun, double fraction) {
   const double share = std::min(1.0, (static_cast<double>(begun) + fraction) / static_cast<double>(layers_));
   const int tenth = static_cast<int>(10 * share);
   if (!terminal_) {
-    if (tenth > last_tenth_) fmt::print(stderr, "{}\n", line(begun, share));
+    if (tenth > last_tenth_) show(stderr, "{}\n", line(begun, share));
     last_tenth_ = std::max(tenth, last_tenth_);
     return;
   }
@@ -41,17 +42,17 @@ void Progress::update(std::size_t begun, double fraction) {
   if (now - drawn_ < redraw_interval) return;
   drawn_ = now;
   shown_ = true;
-  fmt::print(stderr, "\r\x1b[K{}", line(begun, share));
+  show(stderr, "\r\x1b[K{}", line(begun, share));
   std::fflush(stderr);
 }
 
 void Progress::say(const std::string& message) {
   clear();
-  fmt::print(stderr, "{}\n", message);
+  show(stderr, "{}\n", message);
 }
 
 void Progress::clear() {
-  if (shown_) fmt::print(stderr, "\r\x1b[K");
+  if (shown_) show(stderr, "\r\x1b[K");
   shown_ = false;
   std::fflush(stderr);
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/show.hpp"
 #include "host/job/profile.hpp"
 
 namespace unicursal::host {
@@ -20,7 +21,7 @@ void follow(const gcode::Printer& printer, sim::SimulatorOptions& options) {
 Exit simulate(SimulateCommand command) {
   if (command.profile) follow(load_profile(*command.profile).printer, command.options);
   const int code = sim::run_simulator(command.options, [](const std::string& port) {
-    fmt::print("{}\n", port);
+    show(stdout, "{}\n", port);
     std::fflush(stdout);
   });
   return code == 0 ? Exit::success : Exit::failed;

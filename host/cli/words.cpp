@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/progress.hpp"
+#include "host/cli/show.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -16,6 +17,63 @@ std::size_t parse_index(std::string_view text, const std::string& whole) {
   if (error == std::errc() && end == text.data() + text.size()) return value;
   throw core::DataError("", "--layers", fmt::format("\"{}\" is no range of layers", whole),
                         "write first:last counted from 0, for example 0:4");
+}
+
+namespace fs = std::filesystem;
+
+/// Whether two names mean the same file, be it there or not. Devices take any number of outputs.
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const fs::file_status status = fs::status(a, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return false;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  const fs::path real_a = fs::weakly_canonical(fs::absolute(a, error), error);
+  const fs::path real_b = fs::weakly_canonical(fs::absolute(b, error), error);
+  return !error && real_a == real_b;
+}
+
+std::vector<fs::path> inputs_of(const Job& job) {
+  std::vector<fs::path> inputs = job.source.files;
+  inputs.push_back(job.file);
+  inputs.push_back(job.profile.file);
+  for (const core::Zone& zone : job.source.zones) {
+    if (!zone.pattern.field.empty()) inputs.push_back(zone.pattern.field);
+  }
+  return inputs;
+}
+
+void check_outputs(const Job& job, const std::vector<fs::path>& outputs) {
+  std::vector<fs::path> taken = inputs_of(job);
+  for (const fs::path& output : outputs) {
+    for (const fs::path& other : taken) {
+      if (!same_file(output, other)) continue;
+      throw core::DataError(output.string(), "",
+                            "is an output, but the same file as " + other.string() + ", which would be lost",
+                            "choose another name for it");
+    }
+    taken.push_back(output);
+  }
+}
+
+bool has_curve(const PlannedLayer& layer) {
+  for (const core::IslandPlan& plan : layer.plans) {
+    for (const core::PlannedCurve& curve : plan.curves) {
+      if (curve.path.size() >= 2 && curve.path.total_length() > 0) return true;
+    }
+  }
+  return false;
+}
+
+const char* word(Ending ending) {
+  switch (ending) {
+    case Ending::completed:
+      return "completed";
+    case Ending::stopped:
+      return "stopped";
+    case Ending::failed:
+      break;
+  }
+  return "failed";
 }
 
 /// Temperatures and the like are no news; errors and what the printer does on its own are.
@@ -52,11 +110,48 @@ LayerRange parse_layers(const std::string& text) {
   return range;
 }
 
-PreparedJob prepare_and_warn(const JobOptions& options) {
+PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more) {
   PreparedJob prepared = prepare(load_job(options.job, options.profile), options.layers);
-  for (const std::string& warning : prepared.job.warnings) fmt::print(stderr, "note: {}\n", warning);
-  for (const std::string& warning : prepared.part->warnings()) fmt::print(stderr, "note: {}\n", warning);
+  std::vector<fs::path> outputs = more;
+  if (options.outputs.report) outputs.push_back(*options.outputs.report);
+  check_outputs(prepared.job, outputs);
+  for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
+  for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
   return prepared;
+}
+
+void check_beginning(const PreparedJob& prepared, Lookahead& lookahead) {
+  const PlannedLayer* first = lookahead.peek();
+  if (!first || has_curve(*first)) return;
+  for (std::size_t empty = 0; const std::optional<PlannedLayer> layer = lookahead.wait(); ++empty) {
+    if (!has_curve(*layer)) continue;
+    throw core::DataError(
+        prepared.job.file.string(), "part",
+        fmt::format("the first {} layers hold nothing that can be printed; printing would "
+                    "begin in the air at z = {:.2f} mm",
+                    empty, layer->layer.top - layer->layer.height - prepared.lowered),
+        fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", layer->layer.index));
+  }
+  throw core::DataError(
+      prepared.job.file.string(), "part", "is nowhere wide enough for a closed curve",
+      fmt::format("choose a bead_width below {:g} mm, or scale the part", prepared.job.bead_width));
+}
+
+void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra) {
+  nlohmann::json rest = {{"ended", word(result.ending)}, {"link", link_json(result)}};
+  if (result.ending == Ending::failed) rest["reason"] = result.reason;
+  rest.update(extra);
+  std::string problem;
+  try {
+    run.write_report(rest);
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  if (result.ending == Ending::failed) throw PrintError(result.reason);
+  if (!problem.empty()) {
+    throw PrintError(
+        fmt::format("the print was {}, but its report is lost: {}", word(result.ending), problem));
+  }
 }
 
 nlohmann::json planning_json(const Lookahead& lookahead) {

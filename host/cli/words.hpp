@@ -8,8 +8,17 @@
 
 namespace unicursal::host {
 
-/// Loads, checks and places a job; its warnings go to standard error.
-PreparedJob prepare_and_warn(const JobOptions& options);
+/// Loads, checks and places a job; its warnings go to standard error. Refuses outputs, those of the options
+/// and `more`, that are one of the job's own files or one another.
+PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<std::filesystem::path>& more = {});
+
+/// Plans until it is known whether the first layer holds a curve. Throws core::DataError if it does not:
+/// the print would begin in the air, or there would be none.
+void check_beginning(const PreparedJob& prepared, Lookahead& lookahead);
+
+/// The report of a print that has come to an end, whichever; a failure to write it is none of the input's.
+/// Throws PrintError, also when the print has failed.
+void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra);
 
 /// The report's "planning": seconds, cpu_seconds, threads.
 nlohmann::json planning_json(const Lookahead& lookahead);

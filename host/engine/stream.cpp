@@ -6,12 +6,35 @@
 #include <asio/signal_set.hpp>
 #include <csignal>
 #include <exception>
+#include <new>
 
 namespace unicursal::host {
 namespace {
 
 /// Lines handed to the link at once: few, so that a stop takes effect soon.
 constexpr std::size_t batch = 16;
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+bool moves_away(const std::string& line) {
+  const bool move = line.starts_with("G0 ") || line.starts_with("G1 ");
+  return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
+}
+
+std::string sentence(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    return "memory ran out; close other programs or choose a coarser job";
+  } catch (const std::exception& known) {
+    return known.what();
+  } catch (...) {
+    return "something unknown went wrong";
+  }
+}
 
 class Stream {
  public:
@@ -20,7 +43,9 @@ class Stream {
         run_(run),
         listeners_(listeners),
         signals_(loop_, SIGINT, SIGTERM),
-        link_(loop_.get_executor(), port, LinkOptions{}) {}
+        link_(loop_.get_executor(), port, LinkOptions{}) {
+    if (!is_ignored(SIGHUP)) signals_.add(SIGHUP);
+  }
 
   StreamResult operator()() {
     std::exception_ptr error;
@@ -30,22 +55,42 @@ class Stream {
       error = thrown;
       loop_.stop();
     });
-    loop_.run();
-    if (error) std::rethrow_exception(error);
-    if (aborted_) throw PrintError("stopped at once; reset the printer before using it again");
-    return {stopped_, link_.statistics(), link_.firmware()};
+    try {
+      loop_.run();
+    } catch (...) {
+      link_.cool_down();
+      error = std::current_exception();
+    }
+    return result(error);
   }
 
  private:
+  StreamResult result(const std::exception_ptr& error) const {
+    StreamResult result{Ending::completed, {}, parked_, link_.statistics(), link_.firmware()};
+    if (stopped_) result.ending = Ending::stopped;
+    if (error) result.reason = sentence(error);
+    if (aborted_) result.reason = "stopped at once; reset the printer before using it again";
+    if (!result.reason.empty()) result.ending = Ending::failed;
+    return result;
+  }
+
   void await_signal() {
-    signals_.async_wait([this](const asio::error_code& error, int) {
+    signals_.async_wait([this](const asio::error_code& error, int signal) {
       if (error) return;
-      if (stopped_) return abort();
-      stopped_ = true;
-      lookahead_.cancel();
-      listeners_.message("stopping: the printer is parked and cooled; once more stops it at once");
+      if (!stopped_)
+        stop();
+      else if (signal != SIGHUP)
+        return abort();
       await_signal();
     });
+  }
+
+  void stop() {
+    stopped_ = true;
+    lookahead_.cancel();
+    if (heating_) link_.cool_down();
+    listeners_.message(heating_ ? "stopping: heating ends; once more stops the printer at once"
+                                : "stopping: the printer is parked and cooled; once more stops it at once");
   }
 
   void abort() {
@@ -58,17 +103,39 @@ class Stream {
     co_await link_.connect();
     std::exception_ptr error;
     try {
-      co_await send(run_.start(), 0);
+      co_await start();
       co_await send_layers();
-    } catch (const core::DataError&) {
+    } catch (const LinkError&) {
+      throw;
+    } catch (...) {
       error = std::current_exception();
     }
-    // Whatever the data may hold, the printer is hot by now and has to be left cold.
+    // Whatever went wrong, the printer is hot by now and has to be left cold.
     if (error) stopped_ = false;
+    co_await finish();
+    if (error) throw PrintError(sentence(error) + "; the print was ended there");
+  }
+
+  asio::awaitable<void> start() {
+    heating_ = true;
+    co_await send(run_.start(), 0);
+    if (!stopped_) co_await link_.drain();  // until hot: a stop has to know whether that is so
+    heating_ = false;
+  }
+
+  asio::awaitable<void> finish() {
     finishing_ = true;
-    co_await send(run_.finish(), run_.totals().layers);
+    try {
+      const gcode::Chunk chunk = run_.finish();
+      parked_ = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
+      co_await send(chunk, run_.totals().layers);
+    } catch (const LinkError&) {
+      throw;
+    } catch (...) {
+      link_.cool_down();
+      throw;
+    }
     co_await link_.drain();
-    if (error) rethrow_as_print_error(error);
   }
 
   asio::awaitable<void> send_layers() {
@@ -90,14 +157,6 @@ class Stream {
     }
   }
 
-  [[noreturn]] static void rethrow_as_print_error(const std::exception_ptr& error) {
-    try {
-      std::rethrow_exception(error);
-    } catch (const core::DataError& data) {
-      throw PrintError(std::string(data.what()) + "; the print was ended there");
-    }
-  }
-
   asio::io_context loop_{1};
   Lookahead& lookahead_;
   Run& run_;
@@ -107,6 +166,8 @@ class Stream {
   bool stopped_ = false;
   bool finishing_ = false;
   bool aborted_ = false;
+  bool heating_ = false;  ///< the start is under way
+  bool parked_ = false;
 };
 
 }  // namespace

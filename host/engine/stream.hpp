@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 #include "host/engine/run.hpp"
 #include "host/link/link.hpp"
@@ -11,14 +12,22 @@
 
 namespace unicursal::host {
 
-/// Something went wrong when the printer was already hot; it has been parked and cooled if it still listens.
+/// Something went wrong when the printer may have been hot; it has been cooled if it still listens.
 class PrintError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+enum class Ending {
+  completed,
+  stopped,  ///< by the user; the rest was not sent, the printer was cooled
+  failed
+};
+
 struct StreamResult {
-  bool stopped = false;  ///< by the user; the rest was not sent, the printer was parked and cooled
+  Ending ending = Ending::completed;
+  std::string reason;   ///< why it failed, a sentence
+  bool parked = false;  ///< the nozzle was moved away at the end
   LinkStatistics statistics;
   std::string firmware;  ///< as it names itself
 };
@@ -30,7 +39,9 @@ struct StreamListeners {
 };
 
 /// Sends a whole print to the port, whose descriptor it takes over; blocks until every line is acknowledged.
-/// SIGINT or SIGTERM once parks and cools, twice stops at once. Throws LinkError or PrintError.
+/// SIGINT or SIGTERM once parks and cools, twice stops at once. SIGHUP, which a closed terminal may send
+/// twice, counts as one of them at most, and not at all where it is ignored (nohup). Whatever goes wrong is
+/// told in the result, since a report is due then as well.
 StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners);
 
 }  // namespace unicursal::host

@@ -17,6 +17,12 @@ constexpr double bead_width_per_seed_distance = 1 / 1.4;
 /// Far above anything printable, so that a slip of the keyboard is told here and not by a full memory.
 constexpr double greatest_length = 10000;  // mm
 
+constexpr double least_layer_height = 0.02;  ///< mm; below what the z axes of such printers can step
+
+/// Seed distances that a given bead width goes with, in bead widths; outside, one of the two is a slip.
+constexpr double least_seed_distance = 0.5;
+constexpr double greatest_seed_distance = 4;
+
 const char* const place_remedy = "write \"center\", \"as-is\" or [x, y] in mm on the bed";
 
 std::vector<std::filesystem::path> read_files(const Section& part) {
@@ -42,11 +48,26 @@ bool is_drawing(const std::filesystem::path& file) {
   return extension == ".svg";
 }
 
-core::PartSource read_source(const Section& part) {
+double read_layer_height(const Section& part, double nozzle) {
+  const char* const remedy = "write for example layer_height = 0.2";
+  const double height = part.number("layer_height", {0, greatest_length, true, "mm"}, remedy);
+  if (height < least_layer_height) {
+    part.fail("layer_height", fmt::format("is {} mm, thinner than any printer can lay", height), remedy);
+  }
+  if (height > nozzle) {
+    part.fail("layer_height",
+              fmt::format("is {} mm, more than the nozzle's opening of {} mm: beads would not stick", height,
+                          nozzle),
+              "lower it, or choose a profile with another nozzle");
+  }
+  return height;
+}
+
+core::PartSource read_source(const Section& part, double nozzle) {
   core::PartSource source;
   source.files = read_files(part);
   const Range length{0, greatest_length, true, "mm"};
-  source.layer_height = part.number("layer_height", length, "write for example layer_height = 0.2");
+  source.layer_height = read_layer_height(part, nozzle);
   const bool drawing = std::any_of(source.files.begin(), source.files.end(), is_drawing);
   if (drawing || part.has("height")) {
     source.height =
@@ -84,6 +105,16 @@ std::optional<double> read_deposit(const Section& part, const gcode::Printer& pr
   return deposit.number("width", range, "write a width that the nozzle can lay");
 }
 
+void check_seed_distance(const Section& part, double distance, double bead_width) {
+  const double least = least_seed_distance * bead_width, greatest = greatest_seed_distance * bead_width;
+  if (distance >= least && distance <= greatest) return;
+  part.fail(
+      "seed_distance",
+      fmt::format("is {:g} mm, which does not go with beads {:g} mm wide: between {:g} and {:g} mm does",
+                  distance, bead_width, least, greatest),
+      "leave out one of the two, or correct it");
+}
+
 void read_bead_width(const Section& part, Job& job) {
   const char* const remedy = "write for example bead_width = 0.45";
   const Range length{0, greatest_length, true, "mm"};
@@ -102,6 +133,7 @@ void read_bead_width(const Section& part, Job& job) {
                           least, greatest),
               "choose a width in that range, or a profile with another nozzle");
   }
+  if (job.seed_distance) check_seed_distance(part, *job.seed_distance, job.bead_width);
 }
 
 void read_flow(const Section& part, Job& job) {
@@ -169,7 +201,7 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
                                     {"file", "height", "layer_height", "bead_width", "seed_distance", "flow",
                                      "perimeters", "deposit", "place", "seam"},
                                     "write [part] and below it file, layer_height and bead_width");
-  job.source = read_source(part);
+  job.source = read_source(part, job.profile.printer.nozzle);
   job.place = read_place(part);
   job.line_width = read_deposit(part, job.profile.printer);
   read_bead_width(part, job);

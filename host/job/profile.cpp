@@ -2,11 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/toolpath/bounds.hpp"
 #include "host/job/settings_file.hpp"
 
 namespace unicursal::host {
 namespace {
+
+Range within(const gcode::Bounds& bounds, const char* unit) {
+  return between(bounds.least, bounds.greatest, unit);
+}
+
+unsigned read_baud(const Section& section, unsigned otherwise) {
+  const char* const remedy = "write for example baud = 250000";
+  const double baud = section.number_or("baud", otherwise, between(300, 4000000, "bits/s"), remedy);
+  if (baud != std::floor(baud)) section.fail("baud", "is no whole number", remedy);
+  return static_cast<unsigned>(baud);
+}
 
 void read_machine(const Section& section, Profile& profile) {
   gcode::Printer& printer = profile.printer;
@@ -20,21 +34,22 @@ void read_machine(const Section& section, Profile& profile) {
     }
   }
   profile.port = section.text_or("port", profile.port, "write \"auto\" or a path such as \"/dev/ttyUSB0\"");
-  profile.baud = static_cast<unsigned>(section.number_or(
-      "baud", profile.baud, between(300, 4000000, "bits/s"), "write for example baud = 250000"));
-  printer.bed = section.numbers_or("bed", printer.bed, above(0, "mm"), "write bed = [x, y, z] in mm");
-  printer.nozzle =
-      section.number_or("nozzle", printer.nozzle, above(0, "mm"), "write for example nozzle = 0.4");
-  printer.bead_width_range = section.numbers_or("bead_width_range", printer.bead_width_range, above(0, "mm"),
+  profile.baud = read_baud(section, profile.baud);
+  printer.bed =
+      section.numbers_or("bed", printer.bed, within(gcode::bounds::bed, "mm"), "write bed = [x, y, z] in mm");
+  printer.nozzle = section.number_or("nozzle", printer.nozzle, within(gcode::bounds::nozzle, "mm"),
+                                     "write for example nozzle = 0.4");
+  printer.bead_width_range = section.numbers_or("bead_width_range", printer.bead_width_range,
+                                                within(gcode::bounds::bead_width, "mm"),
                                                 "write bead_width_range = [least, greatest] in mm");
   if (printer.bead_width_range[0] > printer.bead_width_range[1]) {
     section.fail("bead_width_range", "has its least width above its greatest", "swap the two numbers");
   }
-  printer.max_speed = section.numbers_or("max_speed", printer.max_speed, above(0, "mm/s"),
+  printer.max_speed = section.numbers_or("max_speed", printer.max_speed, within(gcode::bounds::speed, "mm/s"),
                                          "write max_speed = [x, y, z] in mm/s");
-  printer.max_acceleration =
-      section.numbers_or("max_acceleration", printer.max_acceleration, above(0, "mm/s²"),
-                         "write max_acceleration = [x, y, z] in mm/s²");
+  printer.max_acceleration = section.numbers_or("max_acceleration", printer.max_acceleration,
+                                                within(gcode::bounds::acceleration, "mm/s²"),
+                                                "write max_acceleration = [x, y, z] in mm/s²");
 }
 
 void read_extruder(const Section& section, gcode::Printer& printer) {
@@ -43,30 +58,35 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
   if (feeders != static_cast<int>(feeders)) section.fail("feeders", "is no whole number", "write 1, 2 or 3");
   printer.feeders = static_cast<int>(feeders);
   printer.filament_diameter = section.number_or("filament_diameter", printer.filament_diameter,
-                                                above(0, "mm"), "write for example filament_diameter = 1.75");
-  printer.max_flow =
-      section.number_or("max_flow", printer.max_flow, above(0, "mm³/s"), "write for example max_flow = 8.0");
+                                                within(gcode::bounds::filament_diameter, "mm"),
+                                                "write for example filament_diameter = 1.75");
+  printer.max_flow = section.number_or("max_flow", printer.max_flow, within(gcode::bounds::flow, "mm³/s"),
+                                       "write for example max_flow = 8.0");
   printer.floor_share = section.number_or("floor_share", printer.floor_share, between(0, 0.3, ""),
                                           "write for example floor_share = 0.02");
-  printer.retraction_length =
-      section.number_or("retraction_length", printer.retraction_length, at_least(0, "mm"),
-                        "write for example retraction_length = 4.0");
-  printer.retraction_speed = section.number_or("retraction_speed", printer.retraction_speed, above(0, "mm/s"),
-                                               "write for example retraction_speed = 25.0");
+  printer.retraction_length = section.number_or("retraction_length", printer.retraction_length,
+                                                within(gcode::bounds::retraction_length, "mm"),
+                                                "write for example retraction_length = 4.0");
+  printer.retraction_speed =
+      section.number_or("retraction_speed", printer.retraction_speed, within(gcode::bounds::speed, "mm/s"),
+                        "write for example retraction_speed = 25.0");
 }
 
 void read_temperature(const Section& section, gcode::Printer& printer) {
   printer.nozzle_temperature = section.number_or("nozzle", printer.nozzle_temperature,
                                                  between(150, 450, "°C"), "write for example nozzle = 210");
   printer.bed_temperature =
-      section.number_or("bed", printer.bed_temperature, between(0, 200, "°C"), "write for example bed = 60");
+      section.number_or("bed", printer.bed_temperature, within(gcode::bounds::bed_temperature, "°C"),
+                        "write for example bed = 60");
 }
 
 void read_transition(const Section& section, gcode::Printer& printer) {
-  printer.dead_volume = section.number_or("dead_volume", printer.dead_volume, at_least(0, "mm³"),
-                                          "write for example dead_volume = 2.1");
-  printer.mixing_volume = section.number_or("mixing_volume", printer.mixing_volume, at_least(0, "mm³"),
-                                            "write for example mixing_volume = 4.0");
+  printer.dead_volume =
+      section.number_or("dead_volume", printer.dead_volume, within(gcode::bounds::transition, "mm³"),
+                        "write for example dead_volume = 2.1");
+  printer.mixing_volume =
+      section.number_or("mixing_volume", printer.mixing_volume, within(gcode::bounds::transition, "mm³"),
+                        "write for example mixing_volume = 4.0");
 }
 
 }  // namespace

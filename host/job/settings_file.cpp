@@ -19,6 +19,9 @@ constexpr std::uintmax_t largest_file = 1 << 20;
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    throw core::FileError(file.string(), "", "is a folder", "name a file in it");
+  }
   if (!std::filesystem::is_regular_file(file, error)) {
     throw core::FileError(file.string(), "", "there is no such file", "check the path");
   }
@@ -63,7 +66,10 @@ bool Range::holds(double value) const {
 
 std::string Range::words() const {
   const std::string suffix = *unit ? std::string(" ") + unit : "";
-  if (std::isfinite(high)) return fmt::format("from {} to {}{}", low, high, suffix);
+  if (std::isfinite(high)) {
+    return low_excluded ? fmt::format("above {}, up to {}{}", low, high, suffix)
+                        : fmt::format("from {} to {}{}", low, high, suffix);
+  }
   return fmt::format("{} {}{}", low_excluded ? "above" : "at least", low, suffix);
 }
 
@@ -111,8 +117,10 @@ const toml::node& Section::required(std::string_view key, std::string_view remed
 
 double Section::checked(std::string_view key, const toml::node& node, const Range& range,
                         std::string_view remedy) const {
-  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value) fail(key, fmt::format("is {} where a number is expected", kind_of(node)), std::string(remedy));
+  if (!node.is_number())
+    fail(key, fmt::format("is {} where a number is expected", kind_of(node)), std::string(remedy));
+  const std::optional<double> value = node.value<double>();
+  if (!value) fail(key, "has more digits than can be told apart", std::string(remedy));
   if (!range.holds(*value)) {
     fail(key, fmt::format("is {}, but must be {}", *value, range.words()), std::string(remedy));
   }

@@ -24,7 +24,7 @@ struct Range {
   const char* unit;
 
   bool holds(double value) const;
-  /// "above 0 mm", "from 0 to 0.33", "at least 1"
+  /// "above 0 mm", "above 0, up to 10000 mm", "from 0 to 0.33", "at least 1"
   std::string words() const;
 };
 

@@ -1,6 +1,7 @@
 // The link's protocol: greeting a firmware, answering its resend requests, finding it again after silence.
 // See state.hpp for the facts behind it.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -20,6 +21,13 @@ constexpr int patience = 50;            ///< resends in a row that bring the job
 constexpr auto finishes_nothing =
     "the printer is alive but has finished no command for very long; look at it, then start again";
 constexpr std::uint32_t probe_distance = 1000;  ///< ahead of any number that could be right
+
+/// Past every queue of this program, since nothing is sent by it any more. The first newline ends what may
+/// be half written; M108 ends a wait for heat.
+void switch_heaters_off(int descriptor) {
+  constexpr std::string_view lines = "\nM108\nM104 S0\nM140 S0\n";
+  [[maybe_unused]] const auto written = ::write(descriptor, lines.data(), lines.size());
+}
 
 }  // namespace
 
@@ -42,8 +50,14 @@ void Link::State::fail(const std::string& message) {
   signal.notify();
 }
 
-void Link::State::give_up(const std::string& message) {
-  fail(message);
+std::string Link::State::with_heat_warning(const std::string& message) const {
+  if (phase == Phase::greeting) return message;
+  return message + "; its heaters may still be on, switch it off if they are";
+}
+
+void Link::State::give_up(std::string message) {
+  if (phase == Phase::streaming) switch_heaters_off(port.native_handle());
+  fail(with_heat_warning(message));
   throw LinkError(*failure);
 }
 
@@ -121,7 +135,11 @@ asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<St
 
 Clock::time_point Link::State::stall_deadline() const {
   if (!ledger.in_flight()) return Clock::now() + options.silence;
-  return std::min(last_life + options.silence, last_ok + options.no_ok);
+  return std::min(last_life + options.silence, ok_deadline());
+}
+
+Clock::time_point Link::State::ok_deadline() const {
+  return last_ok + (ledger.slow() ? options.slow_ok : options.no_ok);
 }
 
 asio::awaitable<void> Link::State::answer_resend() {
@@ -152,7 +170,7 @@ void Link::State::resume_from(std::uint32_t number, bool with_fence) {
 }
 
 asio::awaitable<void> Link::State::resynchronise() {
-  if (ledger.in_flight() && Clock::now() >= last_ok + options.no_ok) {
+  if (ledger.in_flight() && Clock::now() >= ok_deadline()) {
     give_up(finishes_nothing);
   }
   const auto waiting_since = ledger.in_flight() ? last_ok : Clock::now();
@@ -166,7 +184,7 @@ asio::awaitable<void> Link::State::resynchronise() {
     last_ok = waiting_since;  // a probe's answer is no progress
     co_return;
   }
-  if (Clock::now() >= last_ok + options.no_ok) give_up(finishes_nothing);
+  if (Clock::now() >= ok_deadline()) give_up(finishes_nothing);
   give_up(stranger
               ? fmt::format("the printer asks for line {}, which was sent long ago: it must have been reset; "
                             "clear the bed and start the print again",
@@ -185,8 +203,8 @@ asio::awaitable<bool> Link::State::probe() {
   const std::function<bool()> answered = [this] { return asked || stranger; };
   last_life = Clock::now();
   // A printer whose command queue is full reads nothing, but says that it is busy.
-  while (!answered() && Clock::now() < std::min(last_life + options.silence, last_ok + options.no_ok)) {
-    co_await until(answered, std::min(last_life + options.silence, last_ok + options.no_ok));
+  while (!answered() && Clock::now() < std::min(last_life + options.silence, ok_deadline())) {
+    co_await until(answered, std::min(last_life + options.silence, ok_deadline()));
   }
   co_return asked.has_value();
 }

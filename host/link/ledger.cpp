@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <iterator>
 
@@ -18,6 +19,14 @@ bool is_query(std::string_view command) {
   return command == "M105" || command.starts_with("M105 ");
 }
 
+bool is_slow(std::string_view command) {
+  const std::string_view word = command.substr(0, command.find(' '));
+  for (const char* slow : {"M109", "M190", "G28", "G4", "M0", "M1"}) {
+    if (word == slow) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string framed(std::uint32_t number, std::string_view command) {
@@ -29,7 +38,7 @@ std::string framed(std::uint32_t number, std::string_view command) {
 }
 
 void Ledger::number(std::string_view command, bool fence) {
-  lines_.push_back({framed(end(), command), is_query(command), fence});
+  lines_.push_back({framed(end(), command), is_query(command), is_slow(command), fence});
 }
 
 std::size_t Ledger::fill(std::string& bytes) {
@@ -91,6 +100,11 @@ std::optional<std::uint32_t> Ledger::locate(std::uint32_t number) const {
   const std::uint32_t behind = (end() - number) % repetier_modulus;
   if (number < repetier_modulus && behind <= end() - base_) return end() - behind;
   return std::nullopt;
+}
+
+bool Ledger::slow() const {
+  const auto sent = lines_.begin() + static_cast<std::ptrdiff_t>(next_ - base_);
+  return std::any_of(lines_.begin(), sent, [](const Line& line) { return line.slow; });
 }
 
 void Ledger::rewind(std::uint32_t number) {

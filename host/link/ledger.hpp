@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace unicursal::host {
 
@@ -50,6 +51,11 @@ class Ledger {
   void fence();
 
   bool in_flight() const { return front_ < next_; }
+  /// Whether one of the lines sent lately may keep the firmware busy for long: heating, homing, a pause.
+  /// Lately, since some firmwares say ok when a command is queued.
+  bool slow() const;
+  /// Drops what has no number yet; returns how many.
+  std::size_t forget_waiting() { return std::exchange(waiting_, {}).size(); }
   /// Whether the oldest line in flight is a fence: plain oks are then late ones of lines before it.
   bool at_fence() const { return in_flight() && line(front_).fence; }
   bool all_written() const { return waiting_.empty() && next_ == end(); }
@@ -63,6 +69,7 @@ class Ledger {
   struct Line {
     std::string frame;
     bool query = false;  ///< M105
+    bool slow = false;   ///< M109, G28 and the like
     bool fence = false;  ///< the link's own
   };
 

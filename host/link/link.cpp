@@ -67,6 +67,10 @@ asio::awaitable<void> Link::drain() {
   state->draining = false;
 }
 
+void Link::cool_down() noexcept {
+  state_->cool_down();
+}
+
 void Link::emergency_stop() noexcept {
   state_->emergency_stop();
 }

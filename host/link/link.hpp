@@ -29,6 +29,12 @@ class LinkError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A port that cannot be opened: nothing was sent to any printer.
+class PortError : public LinkError {
+ public:
+  using LinkError::LinkError;
+};
+
 /// A port that can be offered to a user.
 struct PortInfo {
   std::string path;         ///< /dev/ttyUSB0
@@ -42,15 +48,16 @@ std::vector<PortInfo> list_ports();
 
 /// Opens exclusively, raw, 8N1, HUPCL cleared; libserialport for real ports, directly for pseudo-terminals.
 /// "auto" takes the only port on USB, or else the only port, that there is. Returns the file descriptor,
-/// owned by the caller. Throws LinkError.
+/// owned by the caller. Throws PortError.
 int open_port(const std::string& path, unsigned baud);
 
 struct LinkOptions {
-  std::size_t receive_buffer = 127;          ///< bytes that may be in flight (firmware's buffer less one)
-  std::chrono::milliseconds boot{3000};      ///< how long to wait for a boot message before asking
-  std::chrono::milliseconds silence{15000};  ///< neither ok nor busy from the printer: probe, then give up
-  std::chrono::milliseconds no_ok{600000};   ///< signs of life but no ok (heating, homing): give up
-  std::chrono::milliseconds quiet{40};       ///< without a byte: all that the printer had to say is said
+  std::size_t receive_buffer = 127;            ///< bytes that may be in flight (firmware's buffer less one)
+  std::chrono::milliseconds boot{3000};        ///< how long to wait for a boot message before asking
+  std::chrono::milliseconds silence{15000};    ///< neither ok nor busy from the printer: probe, then give up
+  std::chrono::milliseconds no_ok{600000};     ///< signs of life but no ok from a quick command: give up
+  std::chrono::milliseconds slow_ok{3600000};  ///< the same while heating, homing or waiting for a person
+  std::chrono::milliseconds quiet{40};         ///< without a byte: all that the printer had to say is said
 };
 
 struct LinkStatistics {
@@ -77,6 +84,9 @@ class Link {
   asio::awaitable<void> send(std::vector<std::string> lines);
   /// Returns when every line has been acknowledged. Throws LinkError. Precondition: connected.
   asio::awaitable<void> drain();
+  /// Out of band: ends a wait for heat and switches the heaters off; lines that have no number yet are
+  /// forgotten. Best effort, may be repeated. The conversation goes on.
+  void cool_down() noexcept;
   /// Out of band, now: M112 past every queue. Best effort; every later send() and drain() throws.
   void emergency_stop() noexcept;
 

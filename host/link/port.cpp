@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <libserialport.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -70,7 +71,7 @@ class Descriptor {
     default:
       why = std::string(std::strerror(error)) + "; check the cable and the printer's power";
   }
-  throw LinkError(gcode::printable(path) + ": " + why);
+  throw PortError(gcode::printable(path) + ": " + why);
 }
 
 /// Where /dev/serial/by-id points, by device.
@@ -97,9 +98,17 @@ void keep_dtr(int fd) {
   ::tcsetattr(fd, TCSANOW, &settings);
 }
 
+/// TIOCEXCL does not keep root out; this keeps out a second print by anyone.
+void claim(int fd, const std::string& path) {
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse(path, EBUSY);
+}
+
 int open_real(sp_port* port, const std::string& path, unsigned baud) {
   if (sp_open(port, SP_MODE_READ_WRITE) != SP_OK) refuse(path, sp_last_error_code());
   const std::unique_ptr<sp_port, decltype(&sp_close)> closing(port, &sp_close);
+  int handle = -1;
+  if (sp_get_port_handle(port, &handle) != SP_OK) refuse(path, ENODEV);
+  claim(handle, path);
   sp_port_config* made = nullptr;
   if (sp_new_config(&made) != SP_OK) refuse(path, ENOMEM);
   const std::unique_ptr<sp_port_config, FreeConfig> config(made);
@@ -109,12 +118,10 @@ int open_real(sp_port* port, const std::string& path, unsigned baud) {
   sp_set_config_stopbits(config.get(), 1);
   sp_set_config_flowcontrol(config.get(), SP_FLOWCONTROL_NONE);
   if (sp_set_config(port, config.get()) != SP_OK) {
-    throw LinkError(
+    throw PortError(
         fmt::format("{}: the port cannot run at {} baud; correct the rate in the printer's profile",
                     gcode::printable(path), baud));
   }
-  int handle = -1;
-  if (sp_get_port_handle(port, &handle) != SP_OK) refuse(path, ENODEV);
   keep_dtr(handle);
   const int own = ::fcntl(handle, F_DUPFD_CLOEXEC, 0);  // outlives the library's port
   if (own < 0) refuse(path, errno);
@@ -127,6 +134,7 @@ int open_direct(const std::string& path) {
   if (port.get() < 0) refuse(path, errno);
   termios settings{};
   if (::tcgetattr(port.get(), &settings) != 0) refuse(path, errno);
+  claim(port.get(), path);
   if (::ioctl(port.get(), TIOCEXCL) != 0) refuse(path, errno);
   ::cfmakeraw(&settings);
   settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
@@ -137,12 +145,12 @@ int open_direct(const std::string& path) {
 
 std::string only_port() {
   const std::vector<PortInfo> ports = list_ports();
-  if (ports.empty()) throw LinkError("no serial port was found; plug the printer in and switch it on");
+  if (ports.empty()) throw PortError("no serial port was found; plug the printer in and switch it on");
   const auto on_usb = std::count_if(ports.begin(), ports.end(), [](const PortInfo& p) { return p.usb; });
   if (on_usb == 1 || ports.size() == 1) return ports.front().path;
   std::string names;
   for (const PortInfo& port : ports) names += (names.empty() ? "" : ", ") + port.path;
-  throw LinkError("there are several serial ports (" + names + "); say which with --port");
+  throw PortError("there are several serial ports (" + names + "); say which with --port");
 }
 
 }  // namespace

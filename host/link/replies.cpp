@@ -90,7 +90,12 @@ void Link::State::take(const reply::Busy&) {
 }
 
 void Link::State::take(const reply::TemperatureReport& report) {
-  if (report.waiting) last_life = Clock::now();
+  if (!report.waiting) return;
+  last_life = Clock::now();
+  if (interruptions <= 0 || failure) return;
+  --interruptions;
+  doubt = true;
+  write("M108\n");
 }
 
 void Link::State::take(const reply::Firmware& told) {

@@ -47,6 +47,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   void write(std::string_view text);
   void pump();  ///< writes what may be written now
   void wait_for_port();
+  void cool_down() noexcept;
   void emergency_stop() noexcept;
   void close();
 
@@ -77,6 +78,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   /// Until no byte has come for `pause`, or for about a second at most.
   asio::awaitable<void> quiet(Clock::duration pause);
   Clock::time_point stall_deadline() const;
+  Clock::time_point ok_deadline() const;  ///< by when an ok must have come, however busy the printer is
   bool settled() const { return ledger.settled() && !doubt && !holding; }
 
   /// Waits without a deadline of its own; throws LinkError when the link fails meanwhile.
@@ -85,7 +87,9 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   asio::awaitable<bool> until(const std::function<bool()>& ready, Clock::time_point deadline);
   /// The end: everyone who waits gets a LinkError with this message. The first failure counts.
   void fail(const std::string& message);
-  [[noreturn]] void give_up(const std::string& message);  ///< fails and throws the LinkError
+  /// Fails and throws the LinkError. In mid-print the heaters are switched off first, if it still listens.
+  [[noreturn]] void give_up(std::string message);
+  std::string with_heat_warning(const std::string& message) const;
 
   asio::any_io_executor executor;
   asio::posix::stream_descriptor port;
@@ -102,6 +106,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   bool waiting_for_port = false;  ///< until it takes them
 
   Phase phase = Phase::greeting;
+  int interruptions = 0;                  ///< waits for heat that are still to be ended
   bool draining = false;                  ///< someone waits in drain()
   bool holding = false;                   ///< nothing may be sent and no ok counts: resend or probe under way
   bool probing = false;                   ///< the next error is our own doing

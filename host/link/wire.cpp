@@ -14,6 +14,10 @@ namespace {
 
 constexpr std::uint32_t last_number = 99999999;  ///< longer numbers would make lines too long
 
+/// Waits for heat that a cool-down ends, one for each report of it: bed and nozzle may both wait, and the
+/// user's own lines once more. No more, since a firmware that does not know M108 only collects them.
+constexpr int most_interruptions = 4;
+
 std::string lost(const asio::error_code& error) {
   return "the connection to the printer was lost (" + error.message() +
          "); check the cable and the printer's power";
@@ -37,7 +41,7 @@ asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State
     const std::size_t count =
         co_await port.async_read_some(asio::buffer(buffer), asio::redirect_error(asio::use_awaitable, ended));
     if (ended) {
-      fail(lost(ended));
+      fail(with_heat_warning(lost(ended)));
       co_return;
     }
     bytes_heard += count;
@@ -67,7 +71,7 @@ void Link::State::pump() {
     if (error == asio::error::would_block || error == asio::error::try_again)
       wait_for_port();
     else if (error)
-      fail(lost(error));
+      fail(with_heat_warning(lost(error)));
   }
 }
 
@@ -79,6 +83,20 @@ void Link::State::wait_for_port() {
                     if (!error) self->pump();
                     self->signal.notify();
                   });
+}
+
+/// The oks of these lines look like those of numbered ones; the doubt makes drain() prove the end.
+void Link::State::cool_down() noexcept {
+  try {
+    if (failure || phase == Phase::greeting) return;
+    statistics.lines -= ledger.forget_waiting();
+    doubt = true;
+    interruptions = most_interruptions;
+    write("M108\nM104 S0\nM140 S0\n");
+    signal.notify();
+  } catch (...) {
+    // The numbered lines that end the print switch the heaters off as well.
+  }
 }
 
 void Link::State::emergency_stop() noexcept {

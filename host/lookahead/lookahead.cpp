@@ -212,6 +212,14 @@ std::optional<PlannedLayer> Lookahead::wait() {
   return state_->take();
 }
 
+const PlannedLayer* Lookahead::peek() {
+  std::unique_lock lock(state_->mutex);
+  state_->consumer.wait(lock, [&] { return state_->front_ready() || state_->exhausted(); });
+  if (!state_->front_ready()) return nullptr;
+  if (state_->open.front()->error) state_->take();
+  return &state_->open.front()->result;
+}
+
 asio::awaitable<std::optional<PlannedLayer>> Lookahead::next() {
   using Timer = asio::steady_timer;
   const auto executor = co_await asio::this_coro::executor;

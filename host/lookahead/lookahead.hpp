@@ -24,12 +24,12 @@ struct PlannedLayer {
 };
 
 struct LookaheadOptions {
-  core::PlanOptions plan;   ///< `seed` is the job's; every island gets its own, made from it
+  core::PlanOptions plan;  ///< `seed` is the job's; every island gets its own, made from it
   std::shared_ptr<const core::IslandPlanner> planner;  ///< of the part's zones; made from them when absent
-  std::size_t first = 0;    ///< index of the first layer to plan
-  std::size_t count = 0;    ///< how many layers from there
-  std::size_t threads = 0;  ///< 0: one for each core
-  std::size_t ahead = 0;    ///< layers that may be open or waiting; 0: two more than threads
+  std::size_t first = 0;                               ///< index of the first layer to plan
+  std::size_t count = 0;                               ///< how many layers from there
+  std::size_t threads = 0;                             ///< 0: one for each core
+  std::size_t ahead = 0;  ///< layers that may be open or waiting; 0: two more than threads
 };
 
 /// What planning has cost so far.
@@ -51,7 +51,10 @@ class Lookahead {
   /// The next layer, or nothing after the last and after cancel(). Rethrows what slicing or planning threw,
   /// when its turn has come. Blocks; one caller at a time.
   std::optional<PlannedLayer> wait();
-  /// The same for a coroutine. Precondition: its executor runs on one thread.
+  /// The layer that is next, left where it is; null after the last. Otherwise like wait(). Valid until it is
+  /// taken.
+  const PlannedLayer* peek();
+  /// The same as wait() for a coroutine. Precondition: its executor runs on one thread.
   asio::awaitable<std::optional<PlannedLayer>> next();
 
   /// No further island is begun; who waits is woken. From any thread.

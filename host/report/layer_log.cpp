@@ -20,10 +20,7 @@ LayerLog::LayerLog(std::filesystem::path file) : file_(std::move(file)), stream_
 }
 
 LayerLog::~LayerLog() {
-  if (finished_) return;
-  stream_.close();
-  std::error_code ignored;
-  std::filesystem::remove(draft_of(file_), ignored);
+  if (!finished_) discard_draft(stream_, file_);
 }
 
 void LayerLog::add(const nlohmann::json& layer) {

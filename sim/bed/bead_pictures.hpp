@@ -1,7 +1,8 @@
 // One picture for each layer, top view. The first shows everything, the others are cropped alike to what lies
-// above it, so that a prime line does not shrink the part. Since that is known only at the end, the beads wait in a file in the pictures' folder, which is removed after drawing; memory holds a few
-// bytes for each layer. Each bead is a capsule as wide as its volume makes it, with a darker border, drawn in
-// the order of printing: overlaps show as borders across older beads, gaps as background.
+// above it, so that a prime line does not shrink the part. Since that is known only at the end, the beads
+// wait in a file in the pictures' folder, which is removed after drawing; memory holds a few bytes for each
+// layer. Each bead is a capsule as wide as its volume makes it, with a darker border, drawn in the order of
+// printing: overlaps show as borders across older beads, gaps as background.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +38,8 @@ class BeadPictures : public BeadSink {
   double pixel_;
   std::unique_ptr<std::FILE, Close> file_;
   std::vector<std::uint64_t> beads_;  ///< in each layer
-  Extents all_, above_;               ///< of the centre lines: of the first layer and all others, of the others
-  double widest_ = 0;                 ///< mm
+  Extents all_, above_;  ///< of the centre lines: of the first layer and all others, of the others
+  double widest_ = 0;    ///< mm
 };
 
 }  // namespace unicursal::sim

@@ -20,8 +20,10 @@ using namespace unicursal;
 constexpr double small_island = 200;
 
 struct Worst {
-  std::size_t layers = 0, islands = 0, curves = 0, empty = 0, broken = 0, reconnected = 0, doubled = 0, vertices = 0;
-  double farthest = 0, far_area = 0, unfilled = 0, spacing = 0, small_spacing = 0, coverage = 0, area_error = 0;
+  std::size_t layers = 0, islands = 0, curves = 0, empty = 0, broken = 0, reconnected = 0, doubled = 0,
+              vertices = 0;
+  double farthest = 0, far_area = 0, unfilled = 0, spacing = 0, small_spacing = 0, coverage = 0,
+         area_error = 0;
   double area = 0, length = 0;
   core::StageTime graph, cycle, fairing, widths;
 };
@@ -66,20 +68,23 @@ void add(Worst& w, const core::Island& island, const core::IslandPlan& plan, dou
 
 void print(const std::string& name, const Worst& w, double bead_width, const host::Lookahead& lookahead) {
   fmt::print("\n{}\n", name);
-  fmt::print("  layers {}, islands {}, curves {}, islands without a curve {}, vertices {}\n", w.layers, w.islands, w.curves,
-             w.empty, w.vertices);
+  fmt::print("  layers {}, islands {}, curves {}, islands without a curve {}, vertices {}\n", w.layers,
+             w.islands, w.curves, w.empty, w.vertices);
   fmt::print("  crossings of a curve with itself or the border    {}\n", w.broken);
   fmt::print("  farthest point from the curve, bead widths        {:.3f}\n", w.farthest);
   fmt::print("  farther than 1.2 bead widths / too thin, mm²      {:.4f} / {:.4f}\n", w.far_area, w.unfilled);
-  fmt::print("  mean spacing against bead width, all together     {:+.3f} %\n", 100 * (w.area / w.length / bead_width - 1));
+  fmt::print("  mean spacing against bead width, all together     {:+.3f} %\n",
+             100 * (w.area / w.length / bead_width - 1));
   fmt::print("    worst island / worst small island               {:.2f} % / {:.0f} %\n", 100 * w.spacing,
              100 * w.small_spacing);
   fmt::print("  worst E = E_CVT ÷ (A·w²)                          {:.4f}\n", w.coverage);
   fmt::print("  segment areas and unfilled area against the island {:.1e}\n", w.area_error);
   fmt::print("  split-and-reconnect / doubled edges               {} / {}\n", w.reconnected, w.doubled);
-  fmt::print("  CPU s: graph {:.2f}, cycle {:.2f}, fairing {:.2f}, widths {:.2f}; planning {:.2f} s on {} threads, peak {:.0f} MiB\n",
-             w.graph.cpu_seconds, w.cycle.cpu_seconds, w.fairing.cpu_seconds, w.widths.cpu_seconds, lookahead.effort().seconds, lookahead.threads(),
-             host::peak_memory());
+  fmt::print(
+      "  CPU s: graph {:.2f}, cycle {:.2f}, fairing {:.2f}, widths {:.2f}; planning {:.2f} s on {} threads, "
+      "peak {:.0f} MiB\n",
+      w.graph.cpu_seconds, w.cycle.cpu_seconds, w.fairing.cpu_seconds, w.widths.cpu_seconds,
+      lookahead.effort().seconds, lookahead.threads(), host::peak_memory());
 }
 
 void measure(const char* file, std::size_t most_layers) {

@@ -49,7 +49,8 @@ int main() {
       start = std::chrono::steady_clock::now();
       const std::size_t matched = boost_matching(nodes, edges);
       const double boost = seconds_since(start);
-      fmt::print("  Boost {:.4f} s ({:.2f} µs a node, {} of {})", boost, 1e6 * boost / nodes, 2 * matched, nodes);
+      fmt::print("  Boost {:.4f} s ({:.2f} µs a node, {} of {})", boost, 1e6 * boost / nodes, 2 * matched,
+                 nodes);
     }
     fmt::print("\n");
   }

@@ -1,5 +1,5 @@
-// How the seed distance d decides the spacing: for each d ÷ w the length of the smoothed first cycle (what the
-// paper takes as target) and the coverage after fairing to spacing w. The default ratio is read off here.
+// How the seed distance d decides the spacing: for each d ÷ w the length of the smoothed first cycle (what
+// the paper takes as target) and the coverage after fairing to spacing w. The default ratio is read off here.
 #include <fmt/core.h>
 
 #include "core/curve/fairing.hpp"
@@ -35,7 +35,8 @@ void measure(double ratio, double side, double w) {
     coverage += moment / (area(square) * spacing * spacing) / runs;
     natural += area(square) / smooth.length() / w / runs;
   }
-  fmt::print("  d = {:.2f} w   natural spacing {:.3f} w   E after fairing {:.5f}\n", ratio, natural, coverage);
+  fmt::print("  d = {:.2f} w   natural spacing {:.3f} w   E after fairing {:.5f}\n", ratio, natural,
+             coverage);
 }
 
 }  // namespace

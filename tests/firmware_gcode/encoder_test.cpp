@@ -298,6 +298,9 @@ TEST_CASE("the prime line keeps clear of the part or is left out") {
   const Chunk none = primed({{0, 0}, {200, 200}});
   CHECK(none.prime_volume == 0);
   index_of(none.lines, "; no prime line");
+  REQUIRE(none.warnings.size() == 1);
+  CHECK(none.warnings[0].find("no prime line") == 0);
+  CHECK(front.warnings.empty());
 }
 
 TEST_CASE("the nozzle is primed with what it needs first") {
@@ -353,7 +356,82 @@ TEST_CASE("the end leaves the printer cold and away from the part") {
   index_of(lines, "M140 S0");
   index_of(lines, "M107");
   CHECK(index_of(lines, "M104 S0") < index_of(lines, "M300"));
-  CHECK(lines.back() == "M84");
+  CHECK(index_of(lines, "M84") + 2 == lines.size());
+  CHECK(lines.back() == "M85 S0");  // else the firmware halts half an hour after the print
+}
+
+TEST_CASE("the user's own lines can neither heat after the end nor outlive the inactivity shutdown") {
+  Printer printer;
+  printer.start_gcode = "M85 S0\nG91";
+  printer.end_gcode = "M104 S220\nM140 S90\nM106 S255";
+  Encoder encoder(printer, two_colours());
+  const auto start = commands(encoder.start());
+  const auto last_of = [](const std::vector<std::string>& lines, const std::string& command) {
+    const auto found =
+        std::find_if(lines.rbegin(), lines.rend(), [&](const auto& l) { return l.starts_with(command); });
+    REQUIRE(found != lines.rend());
+    return *found;
+  };
+  CHECK(last_of(start, "M85") == "M85 S1800");
+  CHECK(last_of(start, "G9") == "G92 E0");
+  CHECK(index_of(start, "G91") < index_of(start, "G90"));
+  const auto end = commands(encoder.finish());
+  CHECK(last_of(end, "M104") == "M104 S0");
+  CHECK(last_of(end, "M140") == "M140 S0");
+  CHECK(last_of(end, "M10") == "M107");
+  CHECK(index_of(end, "M104 S0") < index_of(end, "M104 S220"));  // cold while they run, too
+  CHECK(end.back() == "M85 S0");
+}
+
+TEST_CASE("the end is right wherever the printer has stopped") {
+  PrintSettings all_tools = two_colours();
+  while (all_tools.materials.size() < 16) all_tools.materials.push_back({"more", Mixture({1, 1, 0})});
+  for (const PrintSettings& settings : {two_colours(), all_tools}) {
+    Encoder encoder({}, settings);
+    encoder.start();
+    // Ends at x = 0, where the end parks: x is to be written all the same.
+    core::BeadPath triangle;
+    triangle.beads = {{{0, 150}, 20.0, 0}, {{0, 200}, 0.5, 0}, {{1, 200}, 20.0, 0}};
+    Played played;
+    play(encoder.layer(layer_of({triangle})), played);
+    REQUIRE(played.position == core::Vec2(0, 150));
+    const auto lines = commands(encoder.finish());
+    const auto back = index_of(lines, "G1 E-4");
+    CHECK(index_of(lines, "G90") < index_of(lines, "M83"));
+    CHECK(index_of(lines, "M83") < back);
+    CHECK(index_of(lines, settings.materials.size() == 16 ? "T0" : "T2") < back);
+    CHECK(lines[back] == "G1 E-4 F1500");
+    CHECK(lines[back + 1] == "G1 Z20 F600");
+    CHECK(lines[back + 2] == "G0 X0 Y200 F9000");
+  }
+}
+
+TEST_CASE("with every virtual tool taken, one tool draws back and pushes forward") {
+  PrintSettings settings = two_colours();
+  while (settings.materials.size() < 16) settings.materials.push_back({"more", Mixture({1, 1, 0})});
+  auto far = wavy_path(50, 4);
+  for (auto& bead : far.beads) bead.position += core::Vec2(60, 0), bead.zone = 1;
+  Encoder encoder({}, settings);
+  encoder.start();
+  encoder.layer(layer_of({wavy_path(300)}, 0));
+  const auto lines = commands(encoder.layer(layer_of({far}, 1)));
+  const auto back = index_of(lines, "G1 E-4");
+  const auto forward = index_of(lines, "G1 E4");
+  CHECK(std::none_of(lines.begin() + static_cast<std::ptrdiff_t>(back),
+                     lines.begin() + static_cast<std::ptrdiff_t>(forward),
+                     [](const auto& line) { return line.starts_with('T'); }));
+}
+
+TEST_CASE("a part that would begin in the air is refused") {
+  Encoder encoder({}, two_colours());
+  encoder.start();
+  encoder.layer(layer_of({}, 0));
+  CHECK_THROWS_WITH(encoder.layer(layer_of({wavy_path(100)}, 1)),
+                    Catch::Contains("layer 1") && Catch::Contains("in the air at 0.2 mm") &&
+                        Catch::Contains("turn or place the part"));
+  const Chunk first = encoder.layer(layer_of({wavy_path(100)}, 0));  // a refusal changes nothing
+  CHECK(first.prime_volume > 0);
+  CHECK(encoder.layer(layer_of({wavy_path(100)}, 2)).prime_volume == 0);
 }
 
 TEST_CASE("an end without a beginning moves nothing") {
@@ -382,6 +460,8 @@ TEST_CASE("what the printer cannot do is refused, naming layer and place, and ch
   CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
   broken = wavy_path(100);
   broken.beads[3].area = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
+  broken.beads[3].area = 1e30;  // finite, but would be split into moves without end
   CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
   broken.beads[3].area = -1;
   CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
@@ -415,6 +495,16 @@ TEST_CASE("printers and settings that make no sense are refused") {
   refused(printer, two_colours(), "floor_share");
   printer = {}, printer.max_speed[1] = 0;
   refused(printer, two_colours(), "max_speed");
+  printer = {}, printer.max_speed[2] = 1e300;
+  refused(printer, two_colours(), "max_speed");
+  printer = {}, printer.retraction_speed = 1e15;
+  refused(printer, two_colours(), "retraction_speed");
+  printer = {}, printer.bed[0] = std::numeric_limits<double>::infinity();
+  refused(printer, two_colours(), "bed");
+  printer = {}, printer.filament_diameter = 1e-9;
+  refused(printer, two_colours(), "filament_diameter");
+  printer = {}, printer.mixing_volume = std::nan("");
+  refused(printer, two_colours(), "mixing_volume");
   printer = {}, printer.start_gcode = "G28\nN5 G28*12";
   refused(printer, two_colours(), "start_gcode, line 2");
   printer = {}, printer.end_gcode = std::string(81, 'M');

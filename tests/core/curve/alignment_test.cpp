@@ -121,7 +121,7 @@ TEST_CASE("curves follow the direction that a zone asks for") {
   const Polygon island = GENERATE(rectangle(15, 15), square_with_hole());
   const double angle = GENERATE(0.0, 0.6, 1.4);
   const PlannedCurve curve = planned(island, PatternKind::angle, angle);
-  CHECK(curve.objectives.alignment < 0.25);  // 0.82 without
+  CHECK(curve.objectives.alignment < 0.25);             // 0.82 without
   CHECK(curve.objectives.normalised_coverage < 0.105);  // strands held straight cover less evenly
   CHECK(curve.faired);
   CHECK(curve.farthest < 1.2 * 0.6);

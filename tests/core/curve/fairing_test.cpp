@@ -33,7 +33,8 @@ void check_sound(const Curve& curve, const Polygon& island) {
 TEST_CASE("meeting segments are counted, neighbours are not") {
   CHECK(self_intersections({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}) == 0);
   CHECK(self_intersections({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}) == 1);
-  CHECK(self_intersections({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}}) == 2);  // a touch, seen from both its segments
+  CHECK(self_intersections({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}}) ==
+        2);  // a touch, seen from both its segments
 }
 
 TEST_CASE("segments outside are counted") {

@@ -165,6 +165,9 @@ TEST_CASE("A missing job, an unknown option and a wrong range are refused with c
       {"curve", job, "--layer", "2", "-o", out},
       {"curve", job, "--layer", "0", "--island", "1", "-o", out},
       {"curve", job, "--layer", "0", "-o", (folder / "c.bmp").string()},
+      {"dry-run", job, "--speed", "nan"},
+      {"simulate", "--speed", "inf"},
+      {"simulate", "--pixel", "nan"},
       {"plan", job},
       {"fly"},
       {}};
@@ -185,10 +188,54 @@ TEST_CASE("A port that is no printer is told, and nothing is left behind") {
   const Outcome outcome =
       run({"print", job, "--port", (folder / "ttyNONE").string(), "--report", (folder / "r.json").string()});
   INFO(outcome.err);
-  CHECK(outcome.code == 1);
+  CHECK(outcome.code == 2);
   CHECK(outcome.err.rfind("unicursal: ", 0) == 0);
   CHECK_FALSE(std::filesystem::exists(folder / "r.json"));
   CHECK_FALSE(std::filesystem::exists(folder / "r.json.part"));
+}
+
+TEST_CASE("An unknown command is named") {
+  const Outcome outcome = run({"fly"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("\"fly\"") != std::string::npos);
+}
+
+TEST_CASE("Outputs never overwrite what the job is made of, nor one another") {
+  const TempFolder folder;
+  const auto profile = folder.write("bench.toml", sample_profile);
+  const auto drawing = folder.write("plate.svg", sample_drawing);
+  const auto job = folder.write("job.toml", sample_job);
+  std::filesystem::create_symlink(drawing, folder / "link.svg");
+  const std::string out = (folder / "out.gcode").string();
+  for (const auto& taken : {profile, drawing, job, folder / "link.svg"}) {
+    INFO(taken);
+    CHECK(run({"plan", job.string(), "-o", taken.string()}).code == 2);
+    CHECK(run({"plan", job.string(), "-o", out, "--report", taken.string()}).code == 2);
+  }
+  CHECK(run({"plan", job.string(), "-o", out, "--report", (folder / "./out.gcode").string()}).code == 2);
+  CHECK(run({"curve", job.string(), "--layer", "0", "-o", drawing.string()}).code == 2);
+  CHECK(test::read_text(profile) == sample_profile);
+  CHECK(test::read_text(drawing) == sample_drawing);
+  CHECK(test::read_text(job) == sample_job);
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("A part too thin for a bead is refused before anything is heated") {
+  const TempFolder folder;
+  folder.write("bench.toml", sample_profile);
+  folder.write(
+      "plate.svg",
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20mm\" height=\"16mm\" viewBox=\"0 0 20 16\">"
+      "<rect x=\"0\" y=\"0\" width=\"20\" height=\"0.3\" fill=\"#0000ff\"/>"
+      "<rect x=\"0\" y=\"4\" width=\"20\" height=\"0.3\" fill=\"#ff0000\"/></svg>");
+  const std::string job = folder.write("job.toml", sample_job).string();
+  const QuietPrinter printer;
+  const Bad bad{"thin", {}, {}, {"nowhere wide enough", "bead_width"}};
+  check_refused(run({"print", job, "--port", printer.path()}), bad);
+  check_refused(run({"dry-run", job}), bad);
+  check_refused(run({"plan", job, "-o", (folder / "out.gcode").string()}), bad);
+  CHECK(printer.heard_nothing());
+  CHECK_FALSE(std::filesystem::exists(folder / "out.gcode"));
 }
 
 }  // namespace unicursal

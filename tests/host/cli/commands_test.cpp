@@ -185,4 +185,47 @@ TEST_CASE("Ctrl-C parks and cools, and the simulator goes with its host") {
   CHECK_FALSE(simulator_runs_on(shop.folder.path().string()));
 }
 
+TEST_CASE("A terminal that takes nothing more does not end a print") {
+  const Workshop shop;
+  test::Child host({"dry-run", shop.job, "--report", shop.path("r.json")}, "/dev/full");
+  CHECK(host.wait().code == 0);
+  CHECK(read_json(shop.path("r.json"))["ended"] == "completed");
+}
+
+TEST_CASE("A closed terminal ends a print as Ctrl-C does") {
+  const Workshop shop;
+  test::Child host({"dry-run", shop.job, "--speed", "60", "--report", shop.path("r.json")});
+  while (host.err().find("layer 1 of 2") == std::string::npos) {
+    REQUIRE(host.running());
+    poll(nullptr, 0, 20);
+  }
+  kill(host.id(), SIGHUP);
+  kill(host.id(), SIGHUP);  // the shell says so as well
+  CHECK(host.wait().code == 1);
+  const json report = read_json(shop.path("r.json"));
+  CHECK(report["ended"] == "stopped");
+  CHECK(report["simulator"]["temperatures"]["nozzle"]["target"] == 0);
+}
+
+TEST_CASE("Devices and links are written through, not replaced") {
+  const Workshop shop;
+  const auto link = shop.folder / "link.json", real = shop.folder / "real.json";
+  std::filesystem::create_symlink("real.json", link);  // dangling at first
+  for (int round = 0; round < 2; ++round) {
+    REQUIRE(run({"plan", shop.job, "-o", "/dev/null", "--report", link.string()}).code == 0);
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(read_json(real)["ended"] == "completed");
+  }
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+  CHECK_FALSE(std::filesystem::exists("/dev/null.part"));
+}
+
+TEST_CASE("A print whose report is lost has failed, but not for its input") {
+  const Workshop shop;
+  const Outcome outcome = run({"dry-run", shop.job, "--report", "/dev/full"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("the print was completed, but its report is lost") != std::string::npos);
+}
+
 }  // namespace unicursal

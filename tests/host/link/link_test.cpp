@@ -342,3 +342,90 @@ TEST_CASE("ports that cannot be opened say what to do") {
 TEST_CASE("listing ports does not fail where there are none") {
   for (const PortInfo& port : list_ports()) CHECK(port.path.starts_with("/dev/"));
 }
+
+TEST_CASE("a printer that is given up in mid-print is told to cool, and the user to look") {
+  // It finishes nothing any more, but listens and says that it is busy.
+  std::string heard;
+  bool stuck = false;
+  auto options = impatient();
+  options.silence = 5000ms;
+  options.no_ok = 1000ms;
+  FakePrinter printer(
+      {.inwards =
+           [&](std::string line) {
+             heard += line;
+             return line;
+           },
+       .instead = [&](FakePrinter&, std::size_t n, const std::string&) { return stuck = n >= 20; },
+       .on_tick =
+           [&](FakePrinter& p) {
+             if (stuck) p.reply("echo:busy: processing");
+           }});
+  const Outcome outcome = stream(printer.path(), moves(1000), options);
+  printer.stop();
+  CHECK_THAT(outcome.error, Catch::Contains("heaters may still be on"));
+  CHECK_THAT(heard, Catch::EndsWith("\nM108\nM104 S0\nM140 S0\n"));
+}
+
+TEST_CASE("heating may take longer than any other command") {
+  auto options = impatient();
+  options.silence = options.no_ok = 1000ms;
+  options.slow_ok = 60000ms;
+  bool heating = false;
+  FakePrinter printer(
+      {.instead = [&](FakePrinter&, std::size_t, const std::string&) { return heating = true; },
+       .on_tick =
+           [&, ticks = 0](FakePrinter& p) mutable {
+             if (!heating || ++ticks > 12) return;
+             p.reply(ticks < 12 ? " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?" : "ok");
+           }});
+  CHECK(stream(printer.path(), {"M109 S210"}, options).error.empty());
+}
+
+TEST_CASE("a cool-down ends every wait for heat, and nothing that had no number yet is sent") {
+  // M190 and M109 wait until M108 comes, as if the target were never reached.
+  std::string heard;
+  std::size_t waits = 0;
+  FakePrinter printer({.inwards =
+                           [&](std::string line) {
+                             heard += line;
+                             return line;
+                           },
+                       .instead =
+                           [&](FakePrinter& p, std::size_t, const std::string& command) {
+                             if (command[0] != 'M' || command == "M84") return false;
+                             ++waits;
+                             p.reply(" T:24.1 /210.0 B:23.9 /60.0 @:127 W:?");
+                             return true;
+                           },
+                       .on_tick =
+                           [&](FakePrinter& p) {
+                             if (waits > 0 && heard.find("M108\n") != std::string::npos) {
+                               heard.clear();
+                               --waits;
+                               p.reply("ok");
+                               if (waits > 0) p.reply(" T:24.1 /210.0 B:23.9 /60.0 @:127 W:?");
+                             }
+                           }});
+  std::vector<std::string> lines = {"M190 S60", "M109 S210"};
+  for (const std::string& line : moves(100)) lines.push_back(line);
+  bool cooled = false;
+  auto options = impatient();
+  options.silence = 2000ms;
+  const Outcome outcome = stream(printer.path(), lines, options, [&](Link& link, const std::string& message) {
+    if (!std::exchange(cooled, message.find("W:") != std::string::npos || cooled)) {
+      if (cooled) link.cool_down();
+    }
+  });
+  printer.stop();
+  CHECK(outcome.error.empty());
+  CHECK(printer.executed().size() < 20);
+  CHECK(outcome.statistics.lines < 20);
+}
+
+TEST_CASE("a port belongs to one print") {
+  FakePrinter printer({});
+  const int first = open_port(printer.path(), 250000);
+  CHECK_THROWS_WITH(open_port(printer.path(), 250000), Catch::Contains("another program is using it"));
+  ::close(first);
+}

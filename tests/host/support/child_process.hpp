@@ -21,13 +21,14 @@ struct Outcome {
 
 class Child {
  public:
-  explicit Child(const std::vector<std::string>& arguments) {
+  /// `error_file`: where standard error goes instead of err().
+  explicit Child(const std::vector<std::string>& arguments, const std::string& error_file = {}) {
     std::vector<char*> pointers;
     std::vector<std::string> all = {UNICURSAL_PROGRAM};
     all.insert(all.end(), arguments.begin(), arguments.end());
     for (std::string& argument : all) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
-    const std::string out = out_file(), err = err_file();
+    const std::string out = out_file(), err = error_file.empty() ? err_file() : error_file;
     id_ = fork();
     if (id_ < 0) throw std::runtime_error("no child process");
     if (id_ == 0) {

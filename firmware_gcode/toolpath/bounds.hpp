@@ -1,0 +1,30 @@
+// What numbers a machine may have. Beyond them lies a slip of the keyboard, and every number in the G-code
+// stays within what is written (number.hpp). mm, mm/s, mm/s², mm³, mm³/s, °C.
+#pragma once
+
+namespace unicursal::gcode {
+
+/// Both included.
+struct Bounds {
+  double least, greatest;
+
+  /// False for NaN, too.
+  constexpr bool hold(double value) const { return value >= least && value <= greatest; }
+};
+
+namespace bounds {
+
+constexpr Bounds bed{1, 10000};
+constexpr Bounds nozzle{0.05, 10};
+constexpr Bounds bead_width{0.01, 100};
+constexpr Bounds speed{0.1, 10000};  ///< slower, a feed rate would round to F0, which stops some firmwares
+constexpr Bounds acceleration{1, 1e6};
+constexpr Bounds filament_diameter{0.5, 10};
+constexpr Bounds flow{0.001, 10000};
+constexpr Bounds retraction_length{0, 100};
+constexpr Bounds nozzle_temperature{0, 500};
+constexpr Bounds bed_temperature{0, 200};
+constexpr Bounds transition{0, 10000};  ///< dead and mixing volume
+
+}  // namespace bounds
+}  // namespace unicursal::gcode

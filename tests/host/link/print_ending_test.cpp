@@ -1,0 +1,95 @@
+// How `unicursal print` ends when the printer or the user does not go along: the program itself, and a
+// printer that misbehaves on cue.
+#include <poll.h>
+
+#include <algorithm>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "fake_printer.hpp"
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+using namespace unicursal;
+using nlohmann::json;
+using test::FakePrinter;
+using test::Outcome;
+
+namespace {
+
+struct Job {
+  Job() {
+    folder.write("bench.toml", test::sample_profile);
+    folder.write("plate.svg", test::sample_drawing);
+    file = folder.write("job.toml", test::sample_job).string();
+  }
+  std::vector<std::string> print_on(const FakePrinter& printer) const {
+    return {"print", file, "--port", printer.path(), "--report", (folder / "r.json").string()};
+  }
+  json report() const { return json::parse(test::read_text(folder / "r.json")); }
+
+  test::TempFolder folder;
+  std::string file;
+};
+
+bool holds(const std::vector<std::string>& lines, const std::string& line) {
+  return std::find(lines.begin(), lines.end(), line) != lines.end();
+}
+
+}  // namespace
+
+TEST_CASE("a print that fails leaves a report that says why") {
+  const Job job;
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n == 60) p.forget_numbers(), p.reply("start");
+    return n == 60;
+  }});
+  const Outcome outcome = test::run(job.print_on(printer));
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  const json report = job.report();
+  CHECK(report["ended"] == "failed");
+  CHECK(report["reason"].get<std::string>().find("reset itself") != std::string::npos);
+  CHECK(report["link"]["acknowledged"].get<int>() < 60);
+}
+
+TEST_CASE("a stop while heating ends the heating and claims no park") {
+  const Job job;
+  std::atomic<bool> heating = false;
+  bool waits = false;
+  std::string heard;
+  FakePrinter printer({.inwards =
+                           [&](std::string line) {
+                             heard += line;
+                             return line;
+                           },
+                       .instead =
+                           [&](FakePrinter&, std::size_t, const std::string& command) {
+                             if (command.rfind("M109", 0) != 0) return false;
+                             return waits = true;
+                           },
+                       .on_tick =
+                           [&](FakePrinter& p) {
+                             if (!waits) return;
+                             waits = heard.find("\nM108\n") == std::string::npos;
+                             p.reply(waits ? " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?" : "ok");
+                             heating = true;
+                           }});
+  test::Child host(job.print_on(printer));
+  while (!heating) {
+    REQUIRE(host.running());
+    poll(nullptr, 0, 20);
+  }
+  kill(host.id(), SIGINT);
+  const Outcome outcome = host.wait();
+  printer.stop();
+  INFO(outcome.err << outcome.out);
+  CHECK(outcome.code == 1);
+  CHECK(job.report()["ended"] == "stopped");
+  CHECK(outcome.out.find("parked") == std::string::npos);
+  CHECK(holds(printer.executed(), "M104 S0"));
+  CHECK(holds(printer.executed(), "M140 S0"));
+  for (const std::string& line : printer.executed()) CHECK(line.rfind("G1", 0) != 0);
+}
