@@ -23,6 +23,7 @@ constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
 constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
 constexpr double freedom_in_widths = 1.0;  ///< clearances are not looked for beyond it
+constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
 constexpr double border_margin = 0.02;     ///< bead widths; a curve this close counts as touching
 constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
@@ -157,6 +158,7 @@ class Fairer {
       alignment_weight_ = options_.fine_alignment;
       curve = descend(std::move(curve), options_.fine_iterations);
     }
+    curve = thinned(curve, border_, final_spacing * options_.bead_width);
     curve.vertices = turned(std::move(curve.vertices), -irrational_turn);
     return curve;
   }

@@ -9,9 +9,10 @@ namespace {
 
 constexpr double too_close = 0.5, too_far = 1.5;  ///< of the spacing
 constexpr std::size_t fewest_vertices = 8;
+constexpr int most_sweeps = 6;
 
 /// One sweep; a dropped vertex's neighbours stay, so that every move is measured against its own clearance.
-Curve thinned(const Curve& curve, const BorderIndex& border, double spacing) {
+Curve thinned_once(const Curve& curve, const BorderIndex& border, double spacing) {
   const std::vector<double> free = freedom(curve, border, spacing);
   Curve result;
   bool dropped = true;  // the first vertex stays
@@ -34,13 +35,18 @@ Curve thinned(const Curve& curve, const BorderIndex& border, double spacing) {
 
 }  // namespace
 
-Curve respaced(const Curve& curve, const BorderIndex& border, double spacing) {
+Curve thinned(const Curve& curve, const BorderIndex& border, double spacing) {
   Curve thin = curve;
-  for (int sweep = 0; sweep < 6; ++sweep) {
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     const std::size_t size = thin.size();
-    thin = thinned(thin, border, spacing);
+    thin = thinned_once(thin, border, spacing);
     if (thin.size() == size) break;
   }
+  return thin;
+}
+
+Curve respaced(const Curve& curve, const BorderIndex& border, double spacing) {
+  const Curve thin = thinned(curve, border, spacing);
   Curve result;
   for (std::size_t i = 0; i < thin.size(); ++i) {
     const Vec2 &a = thin.vertices[i], &b = thin.vertices[thin.after(i)];

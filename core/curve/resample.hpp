@@ -7,7 +7,10 @@
 namespace unicursal::core {
 
 /// Drops vertices that stand closer than half of `spacing` to their neighbours, where the curve moves by less
-/// than its clearance (so it stays simple and inside), and halves segments longer than 1.5 `spacing`.
+/// than its clearance (so it stays simple and inside).
+Curve thinned(const Curve& curve, const BorderIndex& border, double spacing);
+
+/// The same, and cuts segments longer than 1.5 `spacing` in equal pieces.
 Curve respaced(const Curve& curve, const BorderIndex& border, double spacing);
 
 /// Every segment halved.

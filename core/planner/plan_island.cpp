@@ -176,11 +176,38 @@ void fair_draft(Draft& draft, const FillableRegion& part, Work& work) {
   if (draft.faired) draft.curve = std::move(result);
 }
 
-/// Segment areas: each segment's own cell and half of the cells of its ends (§3.4).
-std::vector<double> segment_areas(const SegmentDiagram& diagram, const Curve& curve) {
+/// The segments within `reach` mm of a vertex along the curve, with the length of each that lies there.
+std::vector<std::pair<std::size_t, double>> around(const Curve& curve, std::size_t vertex, double reach) {
+  const auto length = [&](std::size_t i) {
+    return (curve.vertices[curve.after(i)] - curve.vertices[i]).norm();
+  };
+  std::vector<std::pair<std::size_t, double>> found;
+  double left = reach;
+  for (std::size_t i = vertex, n = 0; left > 0 && n < curve.size() / 2; i = curve.after(i), ++n) {
+    found.emplace_back(i, std::min(length(i), left));
+    left -= length(i);
+  }
+  left = reach;
+  for (std::size_t i = curve.before(vertex), n = 0; left > 0 && n < curve.size() / 2;
+       i = curve.before(i), ++n) {
+    found.emplace_back(i, std::min(length(i), left));
+    left -= length(i);
+  }
+  return found;
+}
+
+/// Segment areas: each segment's own cell and its share of the cells of vertices. The paper (§3.4) gives half
+/// of a vertex's cell to either neighbour, which makes a blob of a short segment at the tip of a hairpin;
+/// here all segments within half a bead width share by length.
+std::vector<double> segment_areas(const SegmentDiagram& diagram, const Curve& curve, double w) {
   std::vector<double> areas(curve.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    areas[i] = diagram.segments[i].area + (diagram.points[i].area + diagram.points[curve.after(i)].area) / 2;
+    areas[i] += diagram.segments[i].area;
+    const auto neighbours = around(curve, i, w / 2);
+    double total = 0;
+    for (const auto& [segment, length] : neighbours) total += length;
+    for (const auto& [segment, length] : neighbours)
+      areas[segment] += length / total * diagram.points[i].area;
   }
   return areas;
 }
@@ -205,7 +232,7 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, Work& work) 
   const SegmentDiagram diagram = segment_diagram(draft.curve.vertices, part.region);
   PlannedCurve planned;
   planned.area = area(part.region);
-  planned.path = along_zones(draft.curve, segment_areas(diagram, draft.curve), work.island);
+  planned.path = along_zones(draft.curve, segment_areas(diagram, draft.curve, w), work.island);
   planned.objectives = objectives(diagram, draft.curve, planned.area, work);
   planned.zone_crossings = material_changes(planned.path, work.zones);
   planned.self_intersections = self_intersections(draft.curve);
