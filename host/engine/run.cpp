@@ -58,12 +58,14 @@ void Run::count(const gcode::Chunk& chunk) {
   totals_.print_seconds += chunk.seconds;
   totals_.volume += chunk.volume;
   for (const std::string& line : chunk.lines) totals_.lines += is_command(line) ? 1 : 0;
+  encoding_warnings_.insert(encoding_warnings_.end(), chunk.warnings.begin(), chunk.warnings.end());
 }
 
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> warnings = prepared_.job.warnings;
   const std::vector<std::string>& reading = prepared_.part->warnings();
   warnings.insert(warnings.end(), reading.begin(), reading.end());
+  warnings.insert(warnings.end(), encoding_warnings_.begin(), encoding_warnings_.end());
   if (pictures_ && pictures_->problem()) warnings.push_back(*pictures_->problem());
   return warnings;
 }

@@ -54,6 +54,7 @@ class Run {
   gcode::Encoder encoder_;
   gcode::Chunk start_;
   RunTotals totals_;
+  std::vector<std::string> encoding_warnings_;
   std::unique_ptr<LayerLog> log_;
   std::unique_ptr<PictureWriter> pictures_;
 };
