@@ -60,6 +60,8 @@ TEST_CASE("islands of a few cells or less get the smallest sensible closed path"
   const IslandPlan plan = plan_island(whole(square), one_zone(), options_for(w));
   check_plan(plan, square, w);
   REQUIRE(plan.curves.size() == 1);
+  // Not shrunk to a point: no bead wider than twice what was asked.
+  CHECK(plan.curves.front().path.total_length() > area(square) / w / 2);
 }
 
 TEST_CASE("strips are filled down to the least width, and told below it") {
