@@ -11,21 +11,38 @@
 #include <optional>
 #include <vector>
 
+#include "core/field/direction_field.hpp"
 #include "core/geometry/polygon.hpp"
 #include "core/geometry/random.hpp"
 #include "core/graph/planar_graph.hpp"
+#include "core/graph/voronoi.hpp"
 
 namespace unicursal::core {
 
 /// A cubic, bridgeless, connected planar multigraph whose faces are the cells, each a topological disc.
 struct CellGraph : PlanarGraph {};
 
+struct GraphOptions {
+  double d = 1;                ///< mm between neighbouring seeds
+  std::optional<double> rows;  ///< see SeedOptions
+  /// Where it asks for directions, seeds become needles (needles.hpp); points everywhere when null or empty.
+  const DirectionField* field = nullptr;
+  double stretch = 1;  ///< length of the needles, in lengths of the paper's
+};
+
 /// Nothing when the domain fits into one cell, or when the numbers are too close to degenerate to decide
-/// (after several tries with other seeds): callers then fall back to a contour. `domain` must be simple.
-std::optional<CellGraph> make_cell_graph(const Polygon& domain, double d, Random& random);
+/// (after several tries with other seeds, the last of them with points only): callers then fall back to a
+/// contour. `domain` must be simple.
+std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptions& options, Random& random);
+inline std::optional<CellGraph> make_cell_graph(const Polygon& domain, double d, Random& random) {
+  return make_cell_graph(domain, GraphOptions{d, {}, nullptr, 1}, random);
+}
 
 /// One try with given seeds. `untouched_holes` receives the holes that no Voronoi edge reaches.
 std::optional<CellGraph> clip_to_domain(const std::vector<Vec2>& seeds, const Polygon& domain,
+                                        std::vector<std::size_t>& untouched_holes);
+/// The same with the diagram of the seeds, or of needles.
+std::optional<CellGraph> clip_to_domain(const Voronoi& diagram, const Polygon& domain,
                                         std::vector<std::size_t>& untouched_holes);
 
 }  // namespace unicursal::core

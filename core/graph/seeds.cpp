@@ -15,9 +15,10 @@ constexpr double samples_per_distance = 5;      ///< lattice squares per d
 constexpr double farthest_without_seed = 0.75;  ///< of d
 constexpr int relaxation_steps = 12;
 
-std::vector<Vec2> triangular_tiling(const Polygon& domain, double d, Random& random) {
+std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& options, Random& random) {
+  const double d = options.d;
   const Box box = bounds(domain);
-  const double angle = random.uniform(0, std::numbers::pi / 3);
+  const double any = random.uniform(0, std::numbers::pi / 3), angle = options.rows.value_or(any);
   const Vec2 u = d * Vec2(std::cos(angle), std::sin(angle));
   const Vec2 v = d * Vec2(std::cos(angle + std::numbers::pi / 3), std::sin(angle + std::numbers::pi / 3));
   const Vec2 origin = box.center() + random.uniform() * u + random.uniform() * v;
@@ -91,13 +92,14 @@ void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owne
 
 }  // namespace
 
-std::vector<Vec2> place_seeds(const Polygon& domain, double d, Random& random) {
+std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options, Random& random) {
+  const double d = options.d;
   const Box box = bounds(domain);
   const double finest = std::max(box.size().maxCoeff(), d) / 30000;
   const Lattice lattice = sample(domain, std::max(d / samples_per_distance, finest));
   LatticeOwners owners(lattice);
   const BorderIndex border(domain, d);
-  std::vector<Vec2> seeds = triangular_tiling(domain, d, random);
+  std::vector<Vec2> seeds = triangular_tiling(domain, options, random);
   fill_gaps(seeds, lattice, owners, d);
   for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border, d);
   return seeds;

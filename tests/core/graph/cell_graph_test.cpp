@@ -8,36 +8,13 @@
 #include "core/graph/matching.hpp"
 #include "core/graph/refined_graph.hpp"
 #include "core/graph/seeds.hpp"
+#include "tests/core/support/cell_graph_check.hpp"
 #include "tests/core/support/shapes.hpp"
 
 using namespace unicursal::core;
 using namespace unicursal::core::test;
 
 namespace {
-
-/// Every node has three edges, every face is a disc to the left of its half-edges, and Euler's formula holds.
-void check_cell_graph(const CellGraph& graph, const Polygon& domain) {
-  std::vector<int> degree(graph.node_count(), 0);
-  for (const HalfEdge& half : graph.half_edges) ++degree[static_cast<std::size_t>(half.origin)];
-  for (const int d : degree) REQUIRE(d == 3);
-  const auto nodes = static_cast<long>(graph.node_count()), edges = static_cast<long>(graph.edge_count());
-  const auto faces = static_cast<long>(graph.face_count());
-  // Connected, and the outside of each border ring counts as one face.
-  REQUIRE(nodes - edges + faces + 1 + static_cast<long>(domain.holes.size()) == 2);
-  double covered = 0;
-  for (FaceIndex f = 0; f < static_cast<FaceIndex>(graph.face_count()); ++f) {
-    const double piece = signed_area(graph.outline(f));
-    REQUIRE(piece > 0);
-    covered += piece;
-  }
-  REQUIRE(covered == Approx(area(domain)).epsilon(1e-9));
-  for (std::size_t h = 0; h < graph.half_edges.size(); ++h) {
-    const auto half = static_cast<HalfEdgeIndex>(h);
-    REQUIRE(graph.face(graph.next(half)) == graph.face(half));
-    // No bridge: the two sides of an edge are different cells.
-    REQUIRE(graph.face(half) != graph.face(PlanarGraph::twin(half)));
-  }
-}
 
 std::vector<std::pair<int, int>> edges_of(const PlanarGraph& graph) {
   std::vector<std::pair<int, int>> edges;
@@ -66,6 +43,22 @@ TEST_CASE("seeds lie inside, about d apart, and leave no place without one") {
     for (const Vec2& seed : seeds) nearest = std::min(nearest, (seed - p).norm());
     REQUIRE(nearest < 1.1 * d);
   }
+}
+
+TEST_CASE("rows of seeds run where they are asked to") {
+  const double rows = GENERATE(0.0, 0.4, 0.9);
+  Random random(5);
+  const std::vector<Vec2> seeds = place_seeds(rectangle(20, 20), SeedOptions{1.0, rows}, random);
+  double order = 0, pairs = 0;
+  for (const Vec2& p : seeds) {
+    for (const Vec2& q : seeds) {
+      const Vec2 apart = q - p;
+      if (apart.norm() == 0 || apart.norm() > 1.3) continue;
+      order += std::cos(6 * (std::atan2(apart.y(), apart.x()) - rows));
+      ++pairs;
+    }
+  }
+  CHECK(order / pairs > 0.7);  // 1 for a perfect tiling, 0 at random, −1 turned by 30°
 }
 
 TEST_CASE("cell graphs are cubic, bridgeless, connected and made of discs") {
