@@ -24,10 +24,12 @@ struct CellGraph : PlanarGraph {};
 
 struct GraphOptions {
   double d = 1;                ///< mm between neighbouring seeds
-  std::optional<double> rows;  ///< see SeedOptions
+  std::optional<double> rows;  ///< see SeedOptions; the mean direction is direction(field.integral(domain))
   /// Where it asks for directions, seeds become needles (needles.hpp); points everywhere when null or empty.
   const DirectionField* field = nullptr;
-  double stretch = 1;  ///< length of the needles, in lengths of the paper's
+  /// Length of the needles, in lengths of the paper's. Twice as long, most end at their cell's border; that
+  /// aligned the final curves best (brain: 0.08 rad², with 1 0.19, with points 0.31), and covers no worse.
+  double stretch = 2;
 };
 
 /// Nothing when the domain fits into one cell, or when the numbers are too close to degenerate to decide
@@ -35,7 +37,7 @@ struct GraphOptions {
 /// contour. `domain` must be simple.
 std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptions& options, Random& random);
 inline std::optional<CellGraph> make_cell_graph(const Polygon& domain, double d, Random& random) {
-  return make_cell_graph(domain, GraphOptions{d, {}, nullptr, 1}, random);
+  return make_cell_graph(domain, GraphOptions{d, {}, nullptr, 0}, random);
 }
 
 /// One try with given seeds. `untouched_holes` receives the holes that no Voronoi edge reaches.

@@ -9,12 +9,14 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double samples_per_distance = 5;    ///< lattice squares per d
+constexpr double samples_per_distance = 8;    ///< lattice squares per d; with 5 seeds stick to the lattice
 constexpr double most_of_the_way = 0.9;       ///< to the cell's border, a needle's half length at most
 constexpr double least_needle = 0.02;         ///< of d; what is shorter is a point
 constexpr double longest_step = 0.3;          ///< of d, that a seed moves in one iteration
 constexpr double sufficient_decrease = 1e-4;  ///< Armijo
 constexpr int most_halvings = 5;
+constexpr int renewal = 5;     ///< iterations between new needles
+constexpr double reach = 0.8;  ///< of d; beyond it owners are approximate (lattice_owners.hpp)
 
 std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
   std::vector<Segment> points;
@@ -66,7 +68,7 @@ NeedleTessellation::NeedleTessellation(const Polygon& domain, const DirectionFie
 
 std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds) {
   std::vector<Segment> result = as_points(seeds);
-  owners_.assign(result, d_);
+  owners_.assign(result, reach * d_);
   std::vector<Vec2> asked(seeds.size(), Vec2(0, 0));
   std::vector<double> cell_area(seeds.size(), 0);
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
@@ -90,7 +92,7 @@ std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds)
 }
 
 double NeedleTessellation::coverage(const std::vector<Segment>& needles, std::vector<Vec2>& gradient) {
-  owners_.assign(needles, d_);
+  owners_.assign(needles, reach * d_);
   gradient.assign(needles.size(), Vec2(0, 0));
   double value = 0;
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
@@ -107,42 +109,53 @@ double NeedleTessellation::coverage(const std::vector<Segment>& needles, std::ve
   return value;
 }
 
-/// One accepted step along a descent direction; false when none was found.
-bool NeedleTessellation::step(std::vector<Vec2>& seeds, QuasiNewton& newton) {
-  const std::vector<Segment> before = needles(seeds);
-  std::vector<Vec2> gradient, new_gradient;
-  const double value = coverage(before, gradient);
-  const std::vector<Vec2> direction = newton.direction(gradient);
+/// One accepted step along a descent direction, all needles moving without turning; false when none was
+/// found.
+bool NeedleTessellation::step(Descent& state) {
+  const std::vector<Vec2> direction = state.newton.direction(state.gradient);
   double longest = 0;
   for (const Vec2& v : direction) longest = std::max(longest, v.norm());
   if (!(longest > 0)) return false;
   // The first step is Lloyd's, as if every cell had the mean area.
-  const double first = static_cast<double>(seeds.size()) / (2 * area_);
-  double scale = std::min(newton.empty() ? first : 1.0, longest_step * d_ / longest);
+  const double first = static_cast<double>(direction.size()) / (2 * area_);
+  double scale = std::min(state.newton.empty() ? first : 1.0, longest_step * d_ / longest);
+  std::vector<Vec2> gradient;
   for (int halving = 0; halving < most_halvings; ++halving, scale /= 2) {
-    std::vector<Vec2> move(seeds.size(), Vec2(0, 0));
-    std::vector<Segment> after = before;
-    for (std::size_t i = 0; i < seeds.size(); ++i) {
-      if (border_.contains(seeds[i] + scale * direction[i])) move[i] = scale * direction[i];
-      after[i] = {before[i].a + move[i], before[i].b + move[i]};
+    std::vector<Segment> moved = state.needles;
+    std::vector<Vec2> move(moved.size(), Vec2(0, 0));
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const Vec2 wanted = scale * direction[i];
+      if (border_.contains((moved[i].a + moved[i].b) / 2 + wanted)) move[i] = wanted;
+      moved[i] = {moved[i].a + move[i], moved[i].b + move[i]};
     }
-    const double slope = dot(gradient, move);
+    const double slope = dot(state.gradient, move);
     if (!(slope < 0)) return false;
-    if (coverage(after, new_gradient) > value + sufficient_decrease * slope) continue;
-    add_scaled(seeds, 1, move);
-    add_scaled(new_gradient, -1, gradient);
-    newton.remember(std::move(move), std::move(new_gradient));
+    const double value = coverage(moved, gradient);
+    if (value > state.value + sufficient_decrease * slope) continue;
+    std::vector<Vec2> change = gradient;
+    add_scaled(change, -1, state.gradient);
+    state.newton.remember(std::move(move), std::move(change));
+    state.needles = std::move(moved);
+    state.gradient = std::move(gradient);
+    state.value = value;
     return true;
   }
   return false;
 }
 
 void NeedleTessellation::relax(std::vector<Vec2>& seeds, int iterations) {
-  QuasiNewton newton;
+  Descent state;
   for (int i = 0; i < iterations; ++i) {
-    if (step(seeds, newton)) continue;
-    if (newton.empty()) return;
-    newton.forget();
+    if (i % renewal == 0) {
+      state.needles = needles(seeds);
+      state.value = coverage(state.needles, state.gradient);
+    }
+    if (step(state)) {
+      for (std::size_t k = 0; k < seeds.size(); ++k) seeds[k] = (state.needles[k].a + state.needles[k].b) / 2;
+    } else {
+      if (state.newton.empty()) return;
+      state.newton.forget();
+    }
   }
 }
 

@@ -7,9 +7,10 @@
 // (11 to 26); a needle's turning and growing while its seed moves is left out of the gradient, as in the
 // paper.
 //
-// Departures from the paper: integrals over cells are sums over a sampling lattice (the diagram of
-// needles is built but once, at the end); the needle keeps a tenth of its way to the border of C_p free, so
-// that no two needles touch; a factor `stretch` on the length, 1 in the paper. mm, mm², mm⁴.
+// Departures from the paper: integrals over cells are sums over a sampling lattice (the diagram of needles is
+// built but once, at the end, see needle_diagram.hpp); needles are found anew in every fifth iteration,
+// between which the objective is one and the same; a needle keeps a tenth of its way to the border of C_p
+// free, so that no two needles touch; a factor `stretch` on the length, 1 in the paper. mm, mm², mm⁴.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,7 @@ namespace unicursal::core {
 class NeedleTessellation {
  public:
   /// `d` mm is the distance between seeds.
-  NeedleTessellation(const Polygon& domain, const DirectionField& field, double d, double stretch = 1);
+  NeedleTessellation(const Polygon& domain, const DirectionField& field, double d, double stretch);
 
   /// The needle of every seed. Precondition: seeds lie inside the domain.
   std::vector<Segment> needles(const std::vector<Vec2>& seeds);
@@ -34,11 +35,18 @@ class NeedleTessellation {
   /// for the lattice as long as samples keep their nearest needle.
   double coverage(const std::vector<Segment>& needles, std::vector<Vec2>& gradient);
 
-  /// Moves the seeds downhill by L-BFGS, with new needles in every iteration. Seeds stay in the domain.
+  /// Moves the seeds downhill by L-BFGS, with new needles every few iterations. Seeds stay in the domain.
   void relax(std::vector<Vec2>& seeds, int iterations);
 
  private:
-  bool step(std::vector<Vec2>& seeds, QuasiNewton& newton);
+  /// Where the descent stands.
+  struct Descent {
+    std::vector<Segment> needles;
+    double value = 0;
+    std::vector<Vec2> gradient;
+    QuasiNewton newton;
+  };
+  bool step(Descent& state);
 
   double d_, stretch_;
   Lattice lattice_;

@@ -45,6 +45,16 @@ TEST_CASE("seeds lie inside, about d apart, and leave no place without one") {
   }
 }
 
+TEST_CASE("no seed falls into a hole, however small") {
+  Random random(15);
+  for (int k = 0; k < 200; ++k) {
+    Polygon strip = rectangle(12, 0.5);
+    for (double x = 0.3; x < 11.7; x += random.uniform(0.2, 0.5))
+      strip.holes.push_back(circle({x, random.uniform(0.15, 0.35)}, 0.07, 12, false));
+    for (const Vec2& seed : place_seeds(strip, 0.9, random)) REQUIRE(contains(strip, seed));
+  }
+}
+
 TEST_CASE("rows of seeds run where they are asked to") {
   const double rows = GENERATE(0.0, 0.4, 0.9);
   Random random(5);
