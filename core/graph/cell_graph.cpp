@@ -8,7 +8,6 @@
 #include "core/geometry/border_index.hpp"
 #include "core/graph/needle_diagram.hpp"
 #include "core/graph/needles.hpp"
-#include "core/graph/seeds.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -292,11 +291,11 @@ std::optional<CellGraph> clip_to_domain(const std::vector<Vec2>& seeds, const Po
 }
 
 std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptions& options, Random& random) {
-  const SeedOptions seeding{options.d, options.rows};
-  std::vector<Vec2> seeds = place_seeds(domain, seeding, random);
+  const double d = options.seeds.d;
+  std::vector<Vec2> seeds = place_seeds(domain, options.seeds, random);
   std::optional<NeedleTessellation> tessellation;
   if (options.field != nullptr && !options.field->empty()) {
-    tessellation.emplace(domain, *options.field, options.d, options.stretch);
+    tessellation.emplace(domain, *options.field, d, options.needle_length);
     tessellation->relax(seeds, needle_iterations);
   }
   for (int attempt = 0; attempt < tries; ++attempt) {
@@ -306,9 +305,9 @@ std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptio
       diagram = needle_diagram(tessellation->needles(seeds), bounds(domain));
     if (!diagram) diagram = voronoi(seeds, bounds(domain));
     if (std::optional<CellGraph> graph = clip_to_domain(*diagram, domain, untouched)) return graph;
-    if (untouched.empty() && attempt + 2 == tries) seeds = place_seeds(domain, seeding, random);
+    if (untouched.empty() && attempt + 2 == tries) seeds = place_seeds(domain, options.seeds, random);
     for (const std::size_t hole : untouched) add_seed_beyond(domain.holes[hole], domain, seeds);
-    shake(seeds, domain, options.d, random);
+    shake(seeds, domain, d, random);
   }
   return std::nullopt;
 }

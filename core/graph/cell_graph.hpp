@@ -15,6 +15,7 @@
 #include "core/geometry/polygon.hpp"
 #include "core/geometry/random.hpp"
 #include "core/graph/planar_graph.hpp"
+#include "core/graph/seeds.hpp"
 #include "core/graph/voronoi.hpp"
 
 namespace unicursal::core {
@@ -23,13 +24,14 @@ namespace unicursal::core {
 struct CellGraph : PlanarGraph {};
 
 struct GraphOptions {
-  double d = 1;                ///< mm between neighbouring seeds
-  std::optional<double> rows;  ///< see SeedOptions; the mean direction is direction(field.integral(domain))
+  /// For needles d ≈ 1.7 bead widths spaces the first cycle right; rows along the mean direction of the
+  /// field, direction(field.integral(domain)), and a stretch of 2 help where the field hardly turns.
+  SeedOptions seeds;
   /// Where it asks for directions, seeds become needles (needles.hpp); points everywhere when null or empty.
   const DirectionField* field = nullptr;
-  /// Length of the needles, in lengths of the paper's. Twice as long, most end at their cell's border; that
-  /// aligned the final curves best (brain: 0.08 rad², with 1 0.19, with points 0.31), and covers no worse.
-  double stretch = 2;
+  /// In lengths of the paper's needles. Twice as long, most end at their cell's border; that aligned the
+  /// final curves best (brain: 0.08 rad², with 1 0.19, with points 0.31), and covers no worse.
+  double needle_length = 2;
 };
 
 /// Nothing when the domain fits into one cell, or when the numbers are too close to degenerate to decide
@@ -37,7 +39,7 @@ struct GraphOptions {
 /// contour. `domain` must be simple.
 std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptions& options, Random& random);
 inline std::optional<CellGraph> make_cell_graph(const Polygon& domain, double d, Random& random) {
-  return make_cell_graph(domain, GraphOptions{d, {}, nullptr, 0}, random);
+  return make_cell_graph(domain, GraphOptions{SeedOptions{d, {}, 1}, nullptr, 0}, random);
 }
 
 /// One try with given seeds. `untouched_holes` receives the holes that no Voronoi edge reaches.

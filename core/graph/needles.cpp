@@ -53,9 +53,9 @@ double way_in_cell(const Vec2& seed, const Vec2& u, double most, const std::vect
 }  // namespace
 
 NeedleTessellation::NeedleTessellation(const Polygon& domain, const DirectionField& field, double d,
-                                       double stretch)
+                                       double length)
     : d_(d),
-      stretch_(stretch),
+      length_(length),
       lattice_(sample(domain, std::max(d / samples_per_distance, bounds(domain).size().maxCoeff() / 30000))),
       owners_(lattice_),
       border_(domain, d),
@@ -78,7 +78,7 @@ std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds)
     cell_area[owner] += lattice_.weight[k];
   }
   const SegmentGrid grid(result, d_);
-  const double unit = stretch_ * std::sqrt(area_ / (std::numbers::pi * static_cast<double>(seeds.size())));
+  const double unit = length_ * std::sqrt(area_ / (std::numbers::pi * static_cast<double>(seeds.size())));
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (!(cell_area[i] > 0)) continue;
     const double length = asked[i].norm() / cell_area[i] * unit;

@@ -10,7 +10,7 @@
 // Departures from the paper: integrals over cells are sums over a sampling lattice (the diagram of needles is
 // built but once, at the end, see needle_diagram.hpp); needles are found anew in every fifth iteration,
 // between which the objective is one and the same; a needle keeps a tenth of its way to the border of C_p
-// free, so that no two needles touch; a factor `stretch` on the length, 1 in the paper. mm, mm², mm⁴.
+// free, so that no two needles touch; a factor on the length, 1 in the paper. mm, mm², mm⁴.
 #pragma once
 
 #include <vector>
@@ -25,8 +25,8 @@ namespace unicursal::core {
 
 class NeedleTessellation {
  public:
-  /// `d` mm is the distance between seeds.
-  NeedleTessellation(const Polygon& domain, const DirectionField& field, double d, double stretch);
+  /// `d` mm is the distance between seeds; `length` that of the needles, in lengths of the paper's.
+  NeedleTessellation(const Polygon& domain, const DirectionField& field, double d, double length);
 
   /// The needle of every seed. Precondition: seeds lie inside the domain.
   std::vector<Segment> needles(const std::vector<Vec2>& seeds);
@@ -48,7 +48,7 @@ class NeedleTessellation {
   };
   bool step(Descent& state);
 
-  double d_, stretch_;
+  double d_, length_;
   Lattice lattice_;
   LatticeOwners owners_;
   BorderIndex border_;

@@ -19,10 +19,12 @@ std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& op
   const double d = options.d;
   const Box box = bounds(domain);
   const double any = random.uniform(0, std::numbers::pi / 3), angle = options.rows.value_or(any);
-  const Vec2 u = d * Vec2(std::cos(angle), std::sin(angle));
-  const Vec2 v = d * Vec2(std::cos(angle + std::numbers::pi / 3), std::sin(angle + std::numbers::pi / 3));
+  const double along = d * std::sqrt(options.stretch), across = d / std::sqrt(options.stretch);
+  const Vec2 row(std::cos(angle), std::sin(angle));
+  const Vec2 u = along * row, v = along / 2 * row + across * std::sqrt(3) / 2 * perpendicular(row);
   const Vec2 origin = box.center() + random.uniform() * u + random.uniform() * v;
-  const auto reach = static_cast<int>(std::ceil(box.size().norm() / d / std::sqrt(3.0) * 1.2)) + 1;
+  const double closest = std::min(along, across);
+  const auto reach = static_cast<int>(std::ceil(box.size().norm() / closest / std::sqrt(3.0) * 1.2)) + 1;
   const BorderIndex border(domain, d);
   std::vector<Vec2> seeds;
   for (int i = -reach; i <= reach; ++i) {

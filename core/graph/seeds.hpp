@@ -14,6 +14,7 @@ struct SeedOptions {
   double d = 1;  ///< mm between neighbouring seeds
   /// Radians: rows of the tiling run this way. Random when empty, so that layers do not repeat each other.
   std::optional<double> rows;
+  double stretch = 1;  ///< of the tiling along its rows; across them it shrinks, so that as many seeds remain
 };
 
 /// Seeds at a distance of about `d` from one another inside `domain`. Departures from the paper: the tiling
@@ -22,7 +23,7 @@ struct SeedOptions {
 /// a start. At least one seed.
 std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options, Random& random);
 inline std::vector<Vec2> place_seeds(const Polygon& domain, double d, Random& random) {
-  return place_seeds(domain, SeedOptions{d, {}}, random);
+  return place_seeds(domain, SeedOptions{d, {}, 1}, random);
 }
 
 }  // namespace unicursal::core

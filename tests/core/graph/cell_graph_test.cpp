@@ -58,7 +58,7 @@ TEST_CASE("no seed falls into a hole, however small") {
 TEST_CASE("rows of seeds run where they are asked to") {
   const double rows = GENERATE(0.0, 0.4, 0.9);
   Random random(5);
-  const std::vector<Vec2> seeds = place_seeds(rectangle(20, 20), SeedOptions{1.0, rows}, random);
+  const std::vector<Vec2> seeds = place_seeds(rectangle(20, 20), {1.0, rows, 1}, random);
   double order = 0, pairs = 0;
   for (const Vec2& p : seeds) {
     for (const Vec2& q : seeds) {
@@ -69,6 +69,28 @@ TEST_CASE("rows of seeds run where they are asked to") {
     }
   }
   CHECK(order / pairs > 0.7);  // 1 for a perfect tiling, 0 at random, −1 turned by 30°
+}
+
+TEST_CASE("a stretched tiling has as many seeds, farther apart along its rows") {
+  Random random(6);
+  const Polygon domain = rectangle(30, 20);
+  const std::vector<Vec2> plain = place_seeds(domain, {1.0, 0.0, 1}, random);
+  const std::vector<Vec2> stretched = place_seeds(domain, {1.0, 0.0, 1.5}, random);
+  CHECK(static_cast<double>(stretched.size()) == Approx(static_cast<double>(plain.size())).epsilon(0.05));
+  // The relaxation rounds the stretched cells somewhat, so no more than the order is asked for.
+  const auto neighbours_along = [](const std::vector<Vec2>& seeds) {
+    double spacing = 0, pairs = 0;
+    for (const Vec2& p : seeds) {
+      for (const Vec2& q : seeds) {
+        const Vec2 apart = q - p;
+        if (apart.x() <= 0 || apart.x() > 1.6 || std::abs(apart.y()) > 0.3) continue;
+        spacing += apart.x();
+        ++pairs;
+      }
+    }
+    return spacing / pairs;
+  };
+  CHECK(neighbours_along(stretched) > 1.1 * neighbours_along(plain));
 }
 
 TEST_CASE("cell graphs are cubic, bridgeless, connected and made of discs") {

@@ -179,7 +179,7 @@ TEST_CASE("edges of a graph of needles follow the field") {
   Random random(1);
   const auto points = make_cell_graph(domain, 1.0, random);
   GraphOptions options;
-  options.d = 1.0;
+  options.seeds.d = 1.0;
   options.field = &field;
   const auto needles = make_cell_graph(domain, options, random);
   REQUIRE(points);
@@ -201,22 +201,35 @@ TEST_CASE("a field that asks for nothing leaves the graph as it is") {
   CHECK(with->position == without->position);
 }
 
-TEST_CASE("random domains with needles: the graph's invariants hold") {
-  Random random(22);
-  for (int k = 0; k < 60; ++k) {
+namespace {
+
+void check_random_domains(Random& random, int count) {
+  for (int k = 0; k < count; ++k) {
     const Polygon island = random_island(random, 8, 5);
     const Region inner = offset(offset({island}, -0.2, 0.01), 0.15, 0.01);
     if (inner.empty()) continue;
-    const DirectionField field =
-        make_direction_field(whole(inner.front()),
-                             {asking(k % 2 == 0 ? PatternKind::parallel : PatternKind::angle, 0.1 * k)}, 0.2);
+    const PatternKind kind = k % 2 == 0 ? PatternKind::parallel : PatternKind::angle;
     GraphOptions options;
-    options.d = 0.9;
+    options.seeds = {0.9, {}, 1 + k % 4 * 0.4};
+    const DirectionField field = make_direction_field(whole(inner.front()), {asking(kind, 0.1 * k)}, 0.2);
     options.field = &field;
-    options.stretch = 1 + k % 3;
+    options.needle_length = 1 + k % 3;
+    CAPTURE(k, area(inner.front()));
     if (const auto graph = make_cell_graph(inner.front(), options, random))
       check_cell_graph(*graph, inner.front());
     else
       REQUIRE(area(inner.front()) < 3);
   }
+}
+
+}  // namespace
+
+TEST_CASE("random domains with needles: the graph's invariants hold") {
+  Random random(22);
+  check_random_domains(random, 60);
+}
+
+TEST_CASE("thousands of random domains with needles", "[long]") {
+  Random random(23);
+  check_random_domains(random, 3000);
 }
