@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <vector>
 
 #include "core/curve/alignment.hpp"
@@ -12,6 +11,7 @@
 #include "core/curve/resample.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/quasi_newton.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 using Field = std::vector<Vec2>;  ///< one vector per vertex
 
 constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle against the island's axes
-constexpr std::size_t memory = 7;                 ///< L-BFGS pairs, as in the paper
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
 constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
@@ -29,57 +28,6 @@ constexpr double border_margin = 0.02;     ///< bead widths; a curve this close 
 constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
-
-double dot(const Field& a, const Field& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
-void add_scaled(Field& a, double factor, const Field& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
-}
-
-/// The L-BFGS direction from remembered steps and gradient changes (Liu and Nocedal 1989).
-class QuasiNewton {
- public:
-  void forget() { pairs_.clear(); }
-  bool empty() const { return pairs_.empty(); }
-
-  void remember(Field step, Field change) {
-    const double curvature = dot(step, change);
-    if (!(curvature > 1e-12 * dot(change, change))) return;
-    if (pairs_.size() == memory) pairs_.pop_front();
-    pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
-  }
-
-  Field direction(const Field& gradient) const {
-    Field q = gradient;
-    std::vector<double> alpha(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {
-      alpha[k] = pairs_[k].inverse * dot(pairs_[k].step, q);
-      add_scaled(q, -alpha[k], pairs_[k].change);
-    }
-    if (!pairs_.empty()) {
-      const Pair& last = pairs_.back();
-      const double scale = 1 / (last.inverse * dot(last.change, last.change));
-      for (Vec2& v : q) v *= scale;
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double beta = pairs_[k].inverse * dot(pairs_[k].change, q);
-      add_scaled(q, alpha[k] - beta, pairs_[k].step);
-    }
-    for (Vec2& v : q) v = -v;
-    return q;
-  }
-
- private:
-  struct Pair {
-    Field step, change;
-    double inverse;
-  };
-  std::deque<Pair> pairs_;
-};
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
