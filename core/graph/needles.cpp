@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/geometry/segment_grid.hpp"
+#include "core/graph/seeds.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -17,17 +18,6 @@ constexpr double sufficient_decrease = 1e-4;  ///< Armijo
 constexpr int most_halvings = 5;
 constexpr int renewal = 5;     ///< iterations between new needles
 constexpr double reach = 0.8;  ///< of d; beyond it owners are approximate (lattice_owners.hpp)
-
-std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
-  std::vector<Segment> points;
-  points.reserve(seeds.size());
-  for (const Vec2& seed : seeds) points.push_back({seed, seed});
-  return points;
-}
-
-Vec2 position(const Lattice& lattice, std::size_t k) {
-  return lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
-}
 
 /// How far the line through `seed` along `u` (unit) can be followed both ways within the seed's cell: up to
 /// the bisectors with other seeds and up to the domain's border; `most` when that is farther.
@@ -60,9 +50,9 @@ NeedleTessellation::NeedleTessellation(const Polygon& domain, const DirectionFie
       owners_(lattice_),
       border_(domain, d),
       area_(area(domain)),
-      asked_(lattice_.size(), Vec2(0, 0)) {
+      asked_(lattice_.size(), Eigen::Vector2f(0, 0)) {
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
-    if (lattice_.weight[k] > 0) asked_[k] = lattice_.weight[k] * field.at(position(lattice_, k));
+    if (lattice_.weight[k] > 0) asked_[k] = lattice_.weight[k] * field.at(lattice_.position(k)).cast<float>();
   }
 }
 
@@ -74,7 +64,7 @@ std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds)
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     if (owners_.owner(k) < 0) continue;
     const auto owner = static_cast<std::size_t>(owners_.owner(k));
-    asked[owner] += asked_[k];
+    asked[owner] += asked_[k].cast<double>();
     cell_area[owner] += lattice_.weight[k];
   }
   const SegmentGrid grid(result, d_);
@@ -98,7 +88,7 @@ double NeedleTessellation::coverage(const std::vector<Segment>& needles, std::ve
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     if (owners_.owner(k) < 0) continue;
     const auto owner = static_cast<std::size_t>(owners_.owner(k));
-    const Vec2 u = needles[owner].b - needles[owner].a, p = position(lattice_, k) - needles[owner].a;
+    const Vec2 u = needles[owner].b - needles[owner].a, p = lattice_.position(k) - needles[owner].a;
     const double length2 = u.squaredNorm();
     const double t = length2 > 0 ? std::clamp(p.dot(u) / length2, 0.0, 1.0) : 0.0;
     // The pulls (15), (21), (22) on the two ends add up to the pull on the seed between them.

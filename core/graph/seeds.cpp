@@ -38,29 +38,18 @@ std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& op
   return seeds;
 }
 
-std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
-  std::vector<Segment> points;
-  points.reserve(seeds.size());
-  for (const Vec2& seed : seeds) points.push_back({seed, seed});
-  return points;
-}
-
-Vec2 position(const Lattice& lattice, std::size_t k) {
-  return lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
-}
-
 /// Of those inside; of all when none is.
 Vec2 heaviest_sample(const Lattice& lattice, const BorderIndex& border) {
   std::size_t best = 0;
   bool best_inside = false;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    const bool inside = lattice.weight[k] > 0 && border.contains(position(lattice, k));
+    const bool inside = lattice.weight[k] > 0 && border.contains(lattice.position(k));
     if (inside == best_inside ? lattice.weight[k] > lattice.weight[best] : inside) {
       best = k;
       best_inside = inside;
     }
   }
-  return position(lattice, best);
+  return lattice.position(best);
 }
 
 /// Seeds for what is too far from all others, by visiting the far samples in order of distance. A sample that
@@ -72,7 +61,7 @@ void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& 
   const double limit2 = std::pow(farthest_without_seed * d, 2);
   std::vector<std::size_t> far;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] > 0 && owners.distance2(k) > limit2 && border.contains(position(lattice, k)))
+    if (lattice.weight[k] > 0 && owners.distance2(k) > limit2 && border.contains(lattice.position(k)))
       far.push_back(k);
   }
   std::sort(far.begin(), far.end(), [&](std::size_t a, std::size_t b) {
@@ -80,7 +69,7 @@ void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& 
   });
   const std::size_t old = seeds.size();
   for (const std::size_t k : far) {
-    const Vec2 p = position(lattice, k);
+    const Vec2 p = lattice.position(k);
     const bool served = std::any_of(seeds.begin() + static_cast<std::ptrdiff_t>(old), seeds.end(),
                                     [&](const Vec2& s) { return (s - p).squaredNorm() < limit2; });
     if (!served) seeds.push_back(p);
@@ -97,7 +86,7 @@ void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owne
     if (owners.owner(k) < 0) continue;
     const auto s = static_cast<std::size_t>(owners.owner(k));
     mass[s] += lattice.weight[k];
-    moment[s] += lattice.weight[k] * position(lattice, k);
+    moment[s] += lattice.weight[k] * lattice.position(k);
   }
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (mass[s] <= 0) continue;
@@ -107,6 +96,13 @@ void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owne
 }
 
 }  // namespace
+
+std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
+  std::vector<Segment> points;
+  points.reserve(seeds.size());
+  for (const Vec2& seed : seeds) points.push_back({seed, seed});
+  return points;
+}
 
 std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options, Random& random) {
   const double d = options.d;
