@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -33,9 +34,14 @@ constexpr double vertex_tolerance =
     1e-8;  ///< mm, by which the distances of a vertex's three sites may differ
 constexpr double least_turn =
     1e-12;  ///< sine between two borders below which their meeting point is left as it is
+constexpr double least_mean =
+    0.99;  ///< squared, of two directions' sum, for neighbours that do not turn back
+constexpr double edge_slack =
+    1e-12;                       ///< of an edge's length, by which a meeting point may lie beyond its end
 constexpr double far_away = 20;  ///< island diagonals to the sites that close the diagram
 
-/// A vertex of the curve, or the open segment that leaves it.
+/// A vertex of the curve, or the open segment that leaves it. Points far away that close the diagram count on
+/// from the last vertex.
 struct Site {
   std::size_t index = 0;
   bool segment = false;
@@ -56,56 +62,50 @@ Boundary ordered(const Boundary& b) {
   return b.left < b.right ? b : Boundary{b.right, b.left, b.to, b.from};
 }
 
-/// A stretch of a cell's border: a straight line, or a parabola over a directrix.
+/// A stretch of a cell's border as a quadratic Bézier curve, which a straight line and a parabola both are.
+/// It starts and ends exactly where its neighbours do, however badly rounded these points are: cells close,
+/// and what one loses the next one gains.
 struct Arc {
-  Vec2 from{0, 0}, to{0, 0};
-  bool parabola = false;
-  Vec2 base{0, 0}, along{0, 0}, focus{0, 0};  ///< parabola: a point and the unit direction of the directrix
+  Vec2 from{0, 0}, control{0, 0}, to{0, 0};
 
-  Vec2 at(double s) const { return parabola ? on_parabola(x_at(s)) : Vec2(from + s * (to - from)); }
-  Vec2 derivative(double s) const {
-    if (!parabola) return to - from;
-    const Vec2 f = local(focus);
-    const double slope = (x_at(s) - f.x()) / f.y();
-    return (x_at(1) - x_at(0)) * (along + slope * perpendicular(along));
+  Vec2 at(double s) const {
+    return (1 - s) * ((1 - s) * from + s * control) + s * ((1 - s) * control + s * to);
   }
-  Vec2 local(const Vec2& p) const { return {(p - base).dot(along), (p - base).dot(perpendicular(along))}; }
-  double x_at(double s) const {
-    const double x0 = local(from).x(), x1 = local(to).x();
-    return x0 + s * (x1 - x0);
-  }
-  Vec2 on_parabola(double x) const {
-    const Vec2 f = local(focus);
-    const double y = ((x - f.x()) * (x - f.x()) + f.y() * f.y()) / (2 * f.y());
-    return base + x * along + y * perpendicular(along);
-  }
+  Vec2 derivative(double s) const { return 2 * ((1 - s) * (control - from) + s * (to - control)); }
 };
 
-/// Parameters in (0, 1) where an arc passes through a straight edge.
+Arc line(const Vec2& from, const Vec2& to) {
+  return {from, (from + to) / 2, to};
+}
+
+/// The parabola of the points as far from `focus` as from the line through `base` along the unit vector
+/// `along`; its tangents meet where `focus` and the feet of both ends are equally far.
+Arc parabola(const Vec2& from, const Vec2& to, const Vec2& focus, const Vec2& base, const Vec2& along) {
+  const Vec2 up = perpendicular(along);
+  const double height = (focus - base).dot(up);
+  const double x0 = (from - focus).dot(along), x1 = (to - focus).dot(along);
+  const double y = (height + x0 * x1 / height) / 2;
+  return {from, focus + (x0 + x1) / 2 * along + (y - height) * up, to};
+}
+
+/// Parameters in (0, 1) where an arc passes through a straight edge. An end of the edge counts for both of
+/// its neighbours: a cut too many does no harm.
 std::vector<double> crossings(const Arc& arc, const Vec2& a, const Vec2& b) {
   std::vector<double> found;
   const auto keep = [&](double s) {
     if (!(s > 0 && s < 1)) return;
-    const Vec2 p = arc.at(s);
-    const double tau = (p - a).dot(b - a) / (b - a).squaredNorm();
-    if (tau >= 0 && tau < 1) found.push_back(s);
+    const double tau = (arc.at(s) - a).dot(b - a) / (b - a).squaredNorm();
+    if (tau > -edge_slack && tau < 1 + edge_slack) found.push_back(s);
   };
-  if (!arc.parabola) {
-    const double slope = cross(arc.to - arc.from, b - a);
-    if (slope != 0) keep(cross(a - arc.from, b - a) / slope);
-    return found;
-  }
-  // n·(point − a) = 0 along the parabola is a quadratic in x.
-  const Vec2 f = arc.local(arc.focus), la = arc.local(a), lb = arc.local(b);
-  const Vec2 n = perpendicular(lb - la);
-  const double q2 = n.y() / (2 * f.y()), q1 = n.x() - n.y() * f.x() / f.y();
-  const double q0 = n.y() * (f.squaredNorm() / (2 * f.y())) - n.dot(la);
-  const double x0 = arc.x_at(0), x1 = arc.x_at(1);
-  const double discriminant = q1 * q1 - 4 * q2 * q0;
-  if (discriminant < 0 || x0 == x1) return found;
+  // n·(point − a) = 0 along the arc is a quadratic in s.
+  const Vec2 n = perpendicular(b - a);
+  const double h0 = n.dot(arc.from - a), h1 = n.dot(arc.control - a), h2 = n.dot(arc.to - a);
+  const double q2 = h0 - 2 * h1 + h2, q1 = 2 * (h1 - h0);
+  const double discriminant = q1 * q1 - 4 * q2 * h0;
+  if (discriminant < 0) return found;
   const double q = -0.5 * (q1 + std::copysign(std::sqrt(discriminant), q1));
-  if (q2 != 0) keep((q / q2 - x0) / (x1 - x0));
-  if (q != 0) keep((q0 / q - x0) / (x1 - x0));
+  if (q2 != 0) keep(q / q2);
+  if (q != 0) keep(h0 / q);
   return found;
 }
 
@@ -149,11 +149,11 @@ class Judge {
       const auto face = edge->first;
       const auto other = face->neighbor(edge->second);
       if (graph.is_infinite(face) || graph.is_infinite(other)) continue;
-      const auto left = site_of(face->vertex(Graph::ccw(edge->second))->site());
-      const auto right = site_of(face->vertex(Graph::cw(edge->second))->site());
+      const Site left = site_of(face->vertex(Graph::ccw(edge->second))->site());
+      const Site right = site_of(face->vertex(Graph::cw(edge->second))->site());
       // A far site's borders lie outside the island.
-      if (left && right)
-        boundaries.push_back(ordered({*left, *right, centre.at(&*other), centre.at(&*face)}));
+      if (left.index < curve_.size() && right.index < curve_.size())
+        boundaries.push_back(ordered({left, right, centre.at(&*other), centre.at(&*face)}));
     }
     // CGAL's order depends on addresses; sums must not.
     std::sort(boundaries.begin(), boundaries.end());
@@ -184,29 +184,30 @@ class Judge {
     graph.insert_segments(points.begin(), points.end(), ends.begin(), ends.end());
     const Box box = bounds(curve_);
     const double far = far_away * (box.size().norm() + 1);
-    const Vec2 c = box.center();
     for (const Vec2& way : {Vec2(1, 0.1), Vec2(-0.1, 1), Vec2(-1, -0.1), Vec2(0.1, -1)}) {
-      graph.insert(Graph::Site_2::construct_site_2({c.x() + far * way.x(), c.y() + far * way.y()}));
+      const Vec2 p = box.center() + far * way;
+      vertex_at_.emplace(key_of(p.x(), p.y()), curve_.size() + far_.size());
+      far_.push_back(p);
+      graph.insert(Graph::Site_2::construct_site_2({p.x(), p.y()}));
     }
   }
 
-  std::optional<std::size_t> vertex_of(const Kernel::Point_2& p) const {
+  const Vec2& point(std::size_t index) const {
+    return index < curve_.size() ? curve_[index] : far_[index - curve_.size()];
+  }
+
+  std::size_t vertex_of(const Kernel::Point_2& p) const {
     const auto [first, last] = vertex_at_.equal_range(key_of(p.x(), p.y()));
-    for (auto i = first; i != last; ++i) {
-      if (curve_[i->second] == Vec2(p.x(), p.y())) return i->second;
-    }
-    return std::nullopt;
+    const auto found =
+        std::find_if(first, last, [&](const auto& v) { return point(v.second) == Vec2(p.x(), p.y()); });
+    assert(found != last);
+    return found->second;
   }
 
-  std::optional<Site> site_of(const Graph::Site_2& site) const {
-    if (site.is_point()) {
-      const auto v = vertex_of(site.point());
-      if (!v) return std::nullopt;
-      return Site{*v, false};
-    }
-    const auto a = vertex_of(site.source()), b = vertex_of(site.target());
-    if (!a || !b) return std::nullopt;
-    return Site{(*a + 1) % curve_.size() == *b ? *a : *b, true};
+  Site site_of(const Graph::Site_2& site) const {
+    if (site.is_point()) return {vertex_of(site.point()), false};
+    const std::size_t a = vertex_of(site.source()), b = vertex_of(site.target());
+    return {(a + 1) % curve_.size() == b ? a : b, true};
   }
 
   CellIntegrals& cell(const Site& site) {
@@ -246,7 +247,7 @@ class Judge {
   };
 
   Residual distance_of(const Site& site, const Vec2& p) const {
-    const Vec2 off = p - curve_[site.index];
+    const Vec2 off = p - point(site.index);
     if (!site.segment) {
       const double d = off.norm();
       return {d, d > 0 ? Vec2(off / d) : Vec2(0, 0)};
@@ -261,23 +262,11 @@ class Judge {
   }
 
   Residual difference(const Site& l, const Site& r, const Vec2& p) const {
-    if (l.segment != r.segment) {
-      const Site &point = l.segment ? r : l, &segment = l.segment ? l : r;
-      if (ends_in(segment.index, point.index)) {
-        // The border to one's own segment is the line at right angles through the common vertex.
-        const Vec2 u = direction(segment.index);
-        return {(p - curve_[point.index]).dot(u), u};
-      }
-    }
-    if (l.segment && r.segment) {
-      const bool forth = (l.index + 1) % curve_.size() == r.index,
-                 back = (r.index + 1) % curve_.size() == l.index;
-      const Vec2 t = direction(l.index) + direction(r.index);
-      if ((forth || back) && t.squaredNorm() > 1) {
-        // Neighbours: their bisector is at right angles to the mean direction, however little they turn.
-        const Vec2 unit = t.normalized();
-        return {(p - curve_[forth ? r.index : l.index]).dot(unit), unit};
-      }
+    // Their border is the line at right angles to the curve there, however little neighbours turn.
+    const std::optional<Joint> end = joint(l, r);
+    if (end && end->direction.squaredNorm() > least_mean) {
+      const Vec2 unit = end->direction.normalized();
+      return {(p - end->end).dot(unit), unit};
     }
     const Residual a = distance_of(l, p), b = distance_of(r, p);
     return {a.value - b.value, a.gradient - b.gradient};
@@ -288,18 +277,24 @@ class Judge {
     double error = 0;  ///< mm, by how much the three distances differ
   };
 
-  /// CGAL's vertices are rounded, badly so where three sites nearly line up; what lies between two versions
-  /// of a border would be counted twice or not at all. Newton's method restores what double precision can
-  /// give.
+  /// CGAL's vertices are rounded, badly so where three sites nearly line up. Newton's method restores what
+  /// double precision can give, with the two of the three conditions that differ most: neighbours that hardly
+  /// turn are as good as one site for any third.
   Vertex polished(Vec2 p, const Site& a, const Site& b, const Site& c) const {
     Vertex best{p, std::numeric_limits<double>::infinity()};
-    for (int step = 0; step < most_polishing_steps; ++step) {
-      const Residual r = difference(a, b, p), s = difference(a, c, p);
-      const double error = std::max(std::abs(r.value), std::abs(s.value));
+    for (int step = 0; step < most_polishing_steps && p.allFinite(); ++step) {
+      const std::array all{difference(a, b, p), difference(b, c, p), difference(c, a, p)};
+      double error = 0, determinant = 0;
+      std::size_t first = 0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        error = std::max(error, std::abs(all[k].value));
+        const double turn = cross(all[k].gradient, all[(k + 1) % 3].gradient);
+        if (std::abs(turn) > std::abs(determinant)) determinant = turn, first = k;
+      }
       if (!(error < best.error)) break;
       best = {p, error};
-      const double determinant = cross(r.gradient, s.gradient);
       if (std::abs(determinant) < least_turn) break;
+      const Residual &r = all[first], &s = all[(first + 1) % 3];
       p -= Vec2(r.value * s.gradient.y() - s.value * r.gradient.y(),
                 s.value * r.gradient.x() - r.value * s.gradient.x()) /
            determinant;
@@ -308,7 +303,7 @@ class Judge {
   }
 
   Vec2 nearest_point(const Site& site, const Vec2& p) const {
-    if (!site.segment) return curve_[site.index];
+    if (!site.segment) return point(site.index);
     const Segment& s = segments_[site.index];
     return s.a + std::clamp((p - s.a).dot(s.b - s.a) / (s.b - s.a).squaredNorm(), 0.0, 1.0) * (s.b - s.a);
   }
@@ -323,15 +318,13 @@ class Judge {
 
   /// The Voronoi vertex of a face, computed from its sites in one order whatever CGAL's is.
   Vec2 vertex_of(const Graph& graph, Graph::Finite_faces_iterator face) const {
-    std::array<std::optional<Site>, 3> sites;
+    std::array<Site, 3> sites;
     for (int i = 0; i < 3; ++i) sites[static_cast<std::size_t>(i)] = site_of(face->vertex(i)->site());
     const auto first = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
     const auto at = [&](int i) { return face->vertex((first + i) % 3)->site(); };
     const auto p = graph.geom_traits().construct_svd_vertex_2_object()(at(0), at(1), at(2));
-    const Vec2 rounded(p.x(), p.y());
-    if (!sites[0] || !sites[1] || !sites[2]) return rounded;
-    const auto site = [&](int i) { return *sites[static_cast<std::size_t>((first + i) % 3)]; };
-    return improved(rounded, site(0), site(1), site(2));
+    const auto site = [&](int i) { return sites[static_cast<std::size_t>((first + i) % 3)]; };
+    return improved({p.x(), p.y()}, site(0), site(1), site(2));
   }
 
   /// Two points and a parallel segment make CGAL's formula divide by almost nothing, and neighbours that
@@ -342,28 +335,43 @@ class Judge {
     const double moved = (usual.position - rounded).norm();
     const double near = most_polishing_move * (nearest_point(a, rounded) - rounded).norm();
     if (usual.error < vertex_tolerance && (moved <= near || is_vertex(usual, a))) return usual.position;
-    Vec2 p = (middle(a) + middle(b) + middle(c)) / 3;
+    const Vec2 centre = (middle(a) + middle(b) + middle(c)) / 3;
+    Vec2 p = centre;
     for (int round = 0; round < most_restarts; ++round) {
       p = start_near(p, a, b, c);
       if (!p.allFinite()) break;
       const Vertex again = polished(p, a, b, c);
       if (is_vertex(again, a)) return again.position;
     }
-    return rounded;
+    return rounded.allFinite() ? rounded : centre;
+  }
+
+  /// A common end of two sites, and the direction of the curve there.
+  struct Joint {
+    Vec2 end, direction;
+  };
+
+  std::optional<Joint> joint(const Site& l, const Site& r) const {
+    if (l.segment && r.segment) {
+      const bool forth = (l.index + 1) % curve_.size() == r.index,
+                 back = (r.index + 1) % curve_.size() == l.index;
+      if (!forth && !back) return std::nullopt;
+      return Joint{curve_[forth ? r.index : l.index], direction(l.index) + direction(r.index)};
+    }
+    const Site &segment = l.segment ? l : r, &end = l.segment ? r : l;
+    if (!segment.segment || !ends_in(segment.index, end.index)) return std::nullopt;
+    return Joint{curve_[end.index], direction(segment.index)};
   }
 
   /// A guess at the vertex: the centre of a circle that touches the sites where they are nearest to `p`.
   Vec2 start_near(const Vec2& p, const Site& a, const Site& b, const Site& c) const {
     for (const auto& [l, r, third] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
-      if (!l.segment || !r.segment) continue;
-      const bool forth = (l.index + 1) % curve_.size() == r.index,
-                 back = (r.index + 1) % curve_.size() == l.index;
-      if (!forth && !back) continue;
-      // Neighbours touch the circle in their common vertex.
-      const Vec2 v = curve_[forth ? r.index : l.index];
-      const Vec2 m = perpendicular(direction(l.index) + direction(r.index)).normalized();
-      const Vec2 off = v - nearest_point(third, p);
-      return v - off.squaredNorm() / (2 * m.dot(off)) * m;
+      const std::optional<Joint> end = joint(l, r);
+      if (!end) continue;
+      // The circle touches both there.
+      const Vec2 m = perpendicular(end->direction).normalized();
+      const Vec2 off = end->end - nearest_point(third, p);
+      return end->end - off.squaredNorm() / (2 * m.dot(off)) * m;
     }
     const Vec2 q = nearest_point(a, p), u = nearest_point(b, p) - q, v = nearest_point(c, p) - q;
     const double u2 = u.squaredNorm(), v2 = v.squaredNorm();
@@ -371,21 +379,17 @@ class Judge {
   }
 
   Vec2 middle(const Site& site) const {
-    return site.segment ? Vec2((segments_[site.index].a + segments_[site.index].b) / 2) : curve_[site.index];
+    return site.segment ? Vec2((segments_[site.index].a + segments_[site.index].b) / 2) : point(site.index);
   }
 
   Arc arc_between(const Site& l, const Site& r, const Vec2& from, const Vec2& to) const {
-    Arc arc{from, to, false, {0, 0}, {0, 0}, {0, 0}};
-    if (l.segment == r.segment) return arc;
+    if (l.segment == r.segment) return line(from, to);
     const Site& point = l.segment ? r : l;
     const Site& segment = l.segment ? l : r;
-    if (ends_in(segment.index, point.index)) return arc;
+    if (ends_in(segment.index, point.index)) return line(from, to);
     const Segment& s = segments_[segment.index];
-    arc.base = s.a;
-    arc.along = (s.b - s.a).normalized();
-    arc.focus = curve_[point.index];
-    arc.parabola = std::abs(arc.local(arc.focus).y()) > 1e-12 * (s.b - s.a).norm();
-    return arc;
+    const Arc arc = parabola(from, to, curve_[point.index], s.a, direction(segment.index));
+    return arc.control.allFinite() ? arc : line(from, to);
   }
 
   /// Both cells' share of the border between them, clipped by the island.
@@ -402,26 +406,21 @@ class Judge {
       const BorderEdge& edge = border_.edges()[e];
       for (const double s : crossings(arc, edge.a, edge.b)) {
         cuts.push_back(s);
-        pieces_[e].push_back((arc.at(s) - edge.a).dot(edge.b - edge.a) / (edge.b - edge.a).squaredNorm());
+        pieces_[e].push_back(std::clamp(
+            (arc.at(s) - edge.a).dot(edge.b - edge.a) / (edge.b - edge.a).squaredNorm(), 0.0, 1.0));
       }
     }
     std::sort(cuts.begin(), cuts.end());
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-      if (!border_.contains(arc.at((cuts[k] + cuts[k + 1]) / 2))) continue;
-      integrate(left, arc, cuts[k], cuts[k + 1], 1);
-      integrate(right, arc, cuts[k], cuts[k + 1], -1);
+      const int winding = border_.winding(arc.at((cuts[k] + cuts[k + 1]) / 2));
+      if (winding == 0) continue;
+      integrate(left, arc, cuts[k], cuts[k + 1], winding);
+      integrate(right, arc, cuts[k], cuts[k + 1], -winding);
     }
   }
 
-  Box box_of(const Arc& arc) const {
-    Box box{arc.from.cwiseMin(arc.to), arc.from.cwiseMax(arc.to)};
-    if (arc.parabola) {
-      // A parabola stays within the triangle of its ends and the meeting point of their tangents.
-      const Vec2 apex = arc.from + arc.derivative(0) / 2;
-      box.min = box.min.cwiseMin(apex);
-      box.max = box.max.cwiseMax(apex);
-    }
-    return box;
+  static Box box_of(const Arc& arc) {
+    return {arc.from.cwiseMin(arc.to).cwiseMin(arc.control), arc.from.cwiseMax(arc.to).cwiseMax(arc.control)};
   }
 
   Site nearest(const Vec2& p) const {
@@ -449,7 +448,7 @@ class Judge {
       cuts.push_back(0);
       cuts.push_back(1);
       std::sort(cuts.begin(), cuts.end());
-      const Arc arc{edge.a, edge.b, false, {0, 0}, {0, 0}, {0, 0}};
+      const Arc arc = line(edge.a, edge.b);
       for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
         if (cuts[k + 1] <= cuts[k]) continue;
         integrate(nearest(arc.at((cuts[k] + cuts[k + 1]) / 2)), arc, cuts[k], cuts[k + 1], 1);
@@ -463,6 +462,7 @@ class Judge {
   SegmentGrid grid_;
   std::vector<std::vector<double>> pieces_;  ///< per border edge, where cells' borders meet it
   std::unordered_multimap<std::uint64_t, std::size_t> vertex_at_;
+  std::vector<Vec2> far_;  ///< the points that close the diagram
   SegmentDiagram result_;
 };
 

@@ -4,6 +4,10 @@
 // Departure from the paper: parabolic borders between a vertex and a segment are integrated as what they are,
 // not as k = 10 straight pieces. All integrals run along the cells' borders (Green) with Gauss points enough
 // to be exact for the polynomials that occur, in a form that vanishes along lines towards the site.
+//
+// Areas add up to that of the island to 1e-12 whatever the rounding: neighbouring cells share the very arcs
+// between them, and arcs count as often as the island's border winds around them, which clipping on a grid
+// makes −1 in places where it turns the sides of a spike around.
 #pragma once
 
 #include <vector>
