@@ -35,10 +35,10 @@ constexpr double vertex_tolerance =
 constexpr double least_turn =
     1e-12;  ///< sine between two borders below which their meeting point is left as it is
 constexpr double least_mean =
-    0.99;  ///< squared, of two directions' sum, for neighbours that do not turn back
-constexpr double edge_slack =
-    1e-12;                       ///< of an edge's length, by which a meeting point may lie beyond its end
-constexpr double far_away = 20;  ///< island diagonals to the sites that close the diagram
+    0.99;                           ///< squared, of two directions' sum, for neighbours that do not turn back
+constexpr double slack = 2e-7;      ///< mm, between things that rounding may make touch or not
+constexpr double off_lines = 1e-7;  ///< mm, by which the diagram is taken to lie beside the border
+constexpr double far_away = 20;     ///< island diagonals to the sites that close the diagram
 
 /// A vertex of the curve, or the open segment that leaves it. Points far away that close the diagram count on
 /// from the last vertex.
@@ -88,14 +88,15 @@ Arc parabola(const Vec2& from, const Vec2& to, const Vec2& focus, const Vec2& ba
   return {from, focus + (x0 + x1) / 2 * along + (y - height) * up, to};
 }
 
-/// Parameters in (0, 1) where an arc passes through a straight edge. An end of the edge counts for both of
-/// its neighbours: a cut too many does no harm.
+/// Parameters in (0, 1) where an arc passes through a straight edge. What passes an end of the edge
+/// within rounding counts: a cut too many does no harm.
 std::vector<double> crossings(const Arc& arc, const Vec2& a, const Vec2& b) {
   std::vector<double> found;
+  const double length = (b - a).norm();
   const auto keep = [&](double s) {
     if (!(s > 0 && s < 1)) return;
-    const double tau = (arc.at(s) - a).dot(b - a) / (b - a).squaredNorm();
-    if (tau > -edge_slack && tau < 1 + edge_slack) found.push_back(s);
+    const double along = (arc.at(s) - a).dot(b - a) / length;
+    if (along > -slack && along < length + slack) found.push_back(s);
   };
   // n·(point − a) = 0 along the arc is a quadratic in s.
   const Vec2 n = perpendicular(b - a);
@@ -406,21 +407,37 @@ class Judge {
       const BorderEdge& edge = border_.edges()[e];
       for (const double s : crossings(arc, edge.a, edge.b)) {
         cuts.push_back(s);
-        pieces_[e].push_back(std::clamp(
-            (arc.at(s) - edge.a).dot(edge.b - edge.a) / (edge.b - edge.a).squaredNorm(), 0.0, 1.0));
+        cut_border(e, arc.at(s));
+      }
+      // Whether it reaches the border is a matter of rounding, and not the same for edges that coincide.
+      for (const Vec2& end : {arc.from, arc.to}) {
+        if (distance_to_segment(end, edge.a, edge.b) < slack) cut_border(e, end);
       }
     }
     std::sort(cuts.begin(), cuts.end());
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-      const int winding = border_.winding(arc.at((cuts[k] + cuts[k + 1]) / 2));
+      const int winding = border_.winding(arc.at((cuts[k] + cuts[k + 1]) / 2) + aside());
       if (winding == 0) continue;
       integrate(left, arc, cuts[k], cuts[k + 1], winding);
       integrate(right, arc, cuts[k], cuts[k + 1], -winding);
     }
   }
 
+  /// Where cells' borders run along the island's border, both must go to the same side of each other: as if
+  /// the whole diagram lay a little aside.
+  static Vec2 aside() { return off_lines * Vec2(0.8090169943749475, 0.5877852522924731); }
+
+  /// Notes that a cell's border comes to edge `e` at `p`; once too often does no harm.
+  void cut_border(std::size_t e, const Vec2& p) {
+    const BorderEdge& edge = border_.edges()[e];
+    const Vec2 along = edge.b - edge.a;
+    pieces_[e].push_back(std::clamp((p - edge.a).dot(along) / along.squaredNorm(), 0.0, 1.0));
+  }
+
   static Box box_of(const Arc& arc) {
-    return {arc.from.cwiseMin(arc.to).cwiseMin(arc.control), arc.from.cwiseMax(arc.to).cwiseMax(arc.control)};
+    const Vec2 margin(slack, slack);
+    return {arc.from.cwiseMin(arc.to).cwiseMin(arc.control) - margin,
+            arc.from.cwiseMax(arc.to).cwiseMax(arc.control) + margin};
   }
 
   Site nearest(const Vec2& p) const {
@@ -451,7 +468,7 @@ class Judge {
       const Arc arc = line(edge.a, edge.b);
       for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
         if (cuts[k + 1] <= cuts[k]) continue;
-        integrate(nearest(arc.at((cuts[k] + cuts[k + 1]) / 2)), arc, cuts[k], cuts[k + 1], 1);
+        integrate(nearest(arc.at((cuts[k] + cuts[k + 1]) / 2) - aside()), arc, cuts[k], cuts[k + 1], 1);
       }
     }
   }
