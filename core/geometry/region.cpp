@@ -8,7 +8,9 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double grid = 1e6;  ///< grid steps per mm
+constexpr double grid = 1e6;           ///< grid steps per mm
+constexpr double edges_in_reach = 4;   ///< of mean length, in the first step of an offset
+constexpr double between_steps = 0.1;  ///< of the tolerance, for what a step leaves to the next
 
 ClipperLib::Path to_path(const Ring& ring) {
   ClipperLib::Path path;
@@ -66,6 +68,30 @@ Region combine(const Region& a, const Region& b, ClipperLib::ClipType type) {
   return to_region(tree);
 }
 
+Region offset_once(const Region& region, double distance, double tolerance) {
+  ClipperLib::ClipperOffset shifter(2.0, tolerance * grid);
+  shifter.AddPaths(to_paths(region), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
+  ClipperLib::PolyTree tree;
+  shifter.Execute(tree, distance * grid);
+  return to_region(tree);
+}
+
+double mean_edge(const Region& region) {
+  double length = 0;
+  std::size_t edges = 0;
+  for (const Polygon& polygon : region) {
+    length += perimeter(polygon);
+    edges += polygon.outer.size();
+    for (const Ring& hole : polygon.holes) edges += hole.size();
+  }
+  return edges > 0 ? length / static_cast<double>(edges) : 0.0;
+}
+
+void simplify(Polygon& polygon, double tolerance) {
+  polygon.outer = simplified(polygon.outer, tolerance);
+  for (Ring& hole : polygon.holes) hole = simplified(hole, tolerance);
+}
+
 }  // namespace
 
 Region enclosed(const std::vector<Ring>& rings, FillRule rule) {
@@ -99,11 +125,16 @@ Region subtract(const Region& a, const Region& b) {
 }
 
 Region offset(const Region& region, double distance, double tolerance) {
-  ClipperLib::ClipperOffset shifter(2.0, tolerance * grid);
-  shifter.AddPaths(to_paths(region), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
-  ClipperLib::PolyTree tree;
-  shifter.Execute(tree, distance * grid);
-  return to_region(tree);
+  // Clipper's time grows with the square of the edges within reach. Steps that grow keep them few: the first
+  // ones take away the detail that the later ones would stumble over.
+  Region result = region;
+  double left = std::abs(distance);
+  for (double step = edges_in_reach * mean_edge(region); step > 0 && left > 2 * step; step *= 2) {
+    result = offset_once(result, std::copysign(step, distance), tolerance);
+    for (Polygon& polygon : result) simplify(polygon, between_steps * tolerance);
+    left -= step;
+  }
+  return offset_once(result, std::copysign(left, distance), tolerance);
 }
 
 Region opened(const Region& region, double radius, double tolerance) {

@@ -35,10 +35,11 @@ constexpr double vertex_tolerance =
 constexpr double least_turn =
     1e-12;  ///< sine between two borders below which their meeting point is left as it is
 constexpr double least_mean =
-    0.99;                           ///< squared, of two directions' sum, for neighbours that do not turn back
-constexpr double slack = 2e-7;      ///< mm, between things that rounding may make touch or not
-constexpr double off_lines = 1e-7;  ///< mm, by which the diagram is taken to lie beside the border
-constexpr double far_away = 20;     ///< island diagonals to the sites that close the diagram
+    0.99;                       ///< squared, of two directions' sum, for neighbours that do not turn back
+constexpr double slack = 1e-9;  ///< mm, between things that rounding may make touch or not
+constexpr double off_lines =
+    1e-11;  ///< mm, by which the diagram is taken to lie beside the border: beyond rounding, no area
+constexpr double far_away = 20;  ///< island diagonals to the sites that close the diagram
 
 /// A vertex of the curve, or the open segment that leaves it. Points far away that close the diagram count on
 /// from the last vertex.
