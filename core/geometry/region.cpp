@@ -8,9 +8,9 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double grid = 1e6;           ///< grid steps per mm
-constexpr double edges_in_reach = 4;   ///< of mean length, in the first step of an offset
-constexpr double between_steps = 0.1;  ///< of the tolerance, for what a step leaves to the next
+constexpr double grid = 1e6;             ///< grid steps per mm
+constexpr double vertices_in_reach = 4;  ///< on straight borders, of the first step of an offset
+constexpr double between_steps = 0.1;    ///< of the tolerance, for what a step leaves to the next
 
 ClipperLib::Path to_path(const Ring& ring) {
   ClipperLib::Path path;
@@ -76,15 +76,14 @@ Region offset_once(const Region& region, double distance, double tolerance) {
   return to_region(tree);
 }
 
-double mean_edge(const Region& region) {
-  double length = 0;
-  std::size_t edges = 0;
+/// mm between vertices, if the border ran straight around the region.
+double vertex_distance(const Region& region) {
+  std::size_t vertices = 0;
   for (const Polygon& polygon : region) {
-    length += perimeter(polygon);
-    edges += polygon.outer.size();
-    for (const Ring& hole : polygon.holes) edges += hole.size();
+    vertices += polygon.outer.size();
+    for (const Ring& hole : polygon.holes) vertices += hole.size();
   }
-  return edges > 0 ? length / static_cast<double>(edges) : 0.0;
+  return vertices > 0 ? 2 * bounds(region).size().sum() / static_cast<double>(vertices) : 0.0;
 }
 
 void simplify(Polygon& polygon, double tolerance) {
@@ -125,11 +124,11 @@ Region subtract(const Region& a, const Region& b) {
 }
 
 Region offset(const Region& region, double distance, double tolerance) {
-  // Clipper's time grows with the square of the edges within reach. Steps that grow keep them few: the first
-  // ones take away the detail that the later ones would stumble over.
+  // Clipper's time grows with the square of the vertices within reach. Steps that grow keep them few: the
+  // first ones take away the detail that the later ones would stumble over.
   Region result = region;
   double left = std::abs(distance);
-  for (double step = edges_in_reach * mean_edge(region); step > 0 && left > 2 * step; step *= 2) {
+  for (double step = vertices_in_reach * vertex_distance(region); step > 0 && left > 2 * step; step *= 2) {
     result = offset_once(result, std::copysign(step, distance), tolerance);
     for (Polygon& polygon : result) simplify(polygon, between_steps * tolerance);
     left -= step;
