@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/curve/alignment.hpp"
-#include "core/curve/clearance.hpp"
 #include "core/curve/coverage.hpp"
+#include "core/curve/leash.hpp"
 #include "core/curve/resample.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
@@ -21,11 +21,8 @@ constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle 
 constexpr std::size_t memory = 7;                 ///< L-BFGS pairs, as in the paper
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
-constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
-constexpr double freedom_in_widths = 1.0;  ///< clearances are not looked for beyond it
+constexpr double slack_in_widths = 0.1;    ///< lists of near segments hold for such moves
 constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
-constexpr double border_margin = 0.02;     ///< bead widths; a curve this close counts as touching
-constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
 
@@ -96,40 +93,6 @@ Polygon turned(Polygon polygon, double angle) {
   return polygon;
 }
 
-/// Where each vertex may be, from the last look at the clearances.
-class Leash {
- public:
-  Leash(const BorderIndex& border, double bead_width) : border_(border), width_(bead_width) {}
-
-  void fasten(const Curve& curve) {
-    anchor_ = curve.vertices;
-    free_ =
-        freedom(curve, border_, freedom_in_widths * width_, {border_margin * width_, self_margin * width_});
-  }
-
-  /// Shortens a move to what is free; returns the largest used share of freedom.
-  double limit(Curve& curve) const {
-    double used = 0;
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-      const Vec2 move = curve.vertices[i] - anchor_[i];
-      const double length = move.norm();
-      if (length > free_[i]) {
-        curve.vertices[i] = anchor_[i] + free_[i] * (1 - 1e-12) / length * move;
-        used = 1;
-      } else if (free_[i] > 0) {
-        used = std::max(used, length / free_[i]);
-      }
-    }
-    return used;
-  }
-
- private:
-  const BorderIndex& border_;
-  double width_;
-  std::vector<Vec2> anchor_;
-  std::vector<double> free_;
-};
-
 class Fairer {
  public:
   Fairer(const Polygon& island, const FairingOptions& options)
@@ -138,7 +101,7 @@ class Fairer {
         area_(area(island)),
         border_(island_, options.bead_width),
         lattice_(sample(island_, pitch(options))),
-        coverage_(lattice_, reach_in_widths * options.bead_width),
+        coverage_(lattice_, slack_in_widths * options.bead_width),
         leash_(border_, options.bead_width) {
     alignment_weight_ = options.alignment;
     if (options.field != nullptr) alignment_ = Alignment(lattice_, *options.field, irrational_turn);
@@ -201,7 +164,7 @@ class Fairer {
     for (int halving = 0; halving < most_halvings; ++halving, scale /= 2) {
       Curve trial = curve;
       for (std::size_t i = 0; i < curve.size(); ++i) trial.vertices[i] += scale * direction[i];
-      const double used = leash_.limit(trial);
+      leash_.limit(trial);
       Field move(curve.size());
       for (std::size_t i = 0; i < curve.size(); ++i) move[i] = trial.vertices[i] - curve.vertices[i];
       const double slope = dot(gradient, move);
@@ -215,7 +178,7 @@ class Fairer {
       curve = std::move(trial);
       value = trial_value;
       gradient = std::move(trial_gradient);
-      if (used > 0.5) leash_.fasten(curve);
+      leash_.follow(curve);
       return true;
     }
     return false;

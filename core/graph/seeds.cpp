@@ -42,28 +42,32 @@ std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
   return points;
 }
 
-Vec2 position(const Lattice& lattice, std::size_t k) {
-  return lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
-}
-
 /// Seeds for what is too far from all others, by visiting the far samples in order of distance.
-void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, double d) {
+void fill_gaps(std::vector<Vec2>& seeds, const Polygon& domain, const Lattice& lattice, LatticeOwners& owners,
+               double d) {
   if (seeds.empty()) {
-    const auto heaviest = std::max_element(lattice.weight.begin(), lattice.weight.end());
-    seeds.push_back(position(lattice, static_cast<std::size_t>(heaviest - lattice.weight.begin())));
+    if (lattice.size() == 0) {
+      seeds.push_back(domain.outer.front());
+      return;
+    }
+    std::size_t heaviest = 0;
+    for (std::size_t k = 1; k < lattice.size(); ++k) {
+      if (lattice.weight(k) > lattice.weight(heaviest)) heaviest = k;
+    }
+    seeds.push_back(lattice.position(heaviest));
   }
-  owners.assign(as_points(seeds), d);
+  owners.assign(as_points(seeds));
   const double limit2 = std::pow(farthest_without_seed * d, 2);
   std::vector<std::size_t> far;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] > 0 && owners.distance2(k) > limit2) far.push_back(k);
+    if (lattice.weight(k) > 0 && owners.distance2(k) > limit2) far.push_back(k);
   }
   std::sort(far.begin(), far.end(), [&](std::size_t a, std::size_t b) {
     return owners.distance2(a) != owners.distance2(b) ? owners.distance2(a) > owners.distance2(b) : a < b;
   });
   const std::size_t old = seeds.size();
   for (const std::size_t k : far) {
-    const Vec2 p = position(lattice, k);
+    const Vec2 p = lattice.position(k);
     const bool served = std::any_of(seeds.begin() + static_cast<std::ptrdiff_t>(old), seeds.end(),
                                     [&](const Vec2& s) { return (s - p).squaredNorm() < limit2; });
     if (!served) seeds.push_back(p);
@@ -71,16 +75,16 @@ void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& 
 }
 
 /// One step of Lloyd's method: every seed to the centroid of its samples.
-void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, const BorderIndex& border,
-           double d) {
-  owners.assign(as_points(seeds), d);
+void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners,
+           const BorderIndex& border) {
+  owners.assign(as_points(seeds));
   std::vector<double> mass(seeds.size(), 0);
   std::vector<Vec2> moment(seeds.size(), Vec2(0, 0));
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     if (owners.owner(k) < 0) continue;
     const auto s = static_cast<std::size_t>(owners.owner(k));
-    mass[s] += lattice.weight[k];
-    moment[s] += lattice.weight[k] * position(lattice, k);
+    mass[s] += lattice.weight(k);
+    moment[s] += lattice.weight(k) * lattice.position(k);
   }
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (mass[s] <= 0) continue;
@@ -98,8 +102,8 @@ std::vector<Vec2> place_seeds(const Polygon& domain, double d, Random& random) {
   LatticeOwners owners(lattice);
   const BorderIndex border(domain, d);
   std::vector<Vec2> seeds = triangular_tiling(domain, d, random);
-  fill_gaps(seeds, lattice, owners, d);
-  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border, d);
+  fill_gaps(seeds, domain, lattice, owners, d);
+  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border);
   return seeds;
 }
 

@@ -89,8 +89,8 @@ bool mostly_aligned(const Polygon& piece, const Work& work) {
   const Lattice lattice = sample(piece, std::max(work.width(), bounds(piece).size().maxCoeff() / 1000));
   double aligned = 0;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] <= 0) continue;
-    aligned += lattice.weight[k] * work.field.at(lattice.origin + Vec2(lattice.x[k], lattice.y[k])).norm();
+    if (lattice.weight(k) <= 0) continue;
+    aligned += lattice.weight(k) * work.field.at(lattice.position(k)).norm();
   }
   return aligned > area(piece) / 2;
 }
@@ -146,12 +146,12 @@ Holes look_for_holes(const Curve& curve, const Polygon& region, double w) {
     const double extent = bounds(piece).size().maxCoeff();
     const Lattice lattice = sample(piece, std::max(w / far_samples, extent / 30000));
     LatticeOwners owners(lattice);
-    owners.assign(segments, 1.25 * far * w);
+    owners.assign(segments);
     for (std::size_t k = 0; k < lattice.size(); ++k) {
-      if (lattice.weight[k] <= 0 || owners.owner(k) < 0) continue;
-      const double distance = std::sqrt(static_cast<double>(owners.distance2(k)));
+      if (lattice.weight(k) <= 0 || owners.owner(k) < 0) continue;
+      const double distance = std::sqrt(owners.distance2(k));
       holes.farthest = std::max(holes.farthest, distance);
-      if (distance > far * w) holes.area += lattice.weight[k];
+      if (distance > far * w) holes.area += lattice.weight(k);
     }
   }
   return holes;
@@ -304,8 +304,8 @@ double principal_axis(const ZoneRegion& region) {
   for (const Polygon& polygon : region.polygons) {
     const Lattice lattice = sample(polygon, std::max(bounds(polygon).size().maxCoeff() / 50, 1e-6));
     for (std::size_t k = 0; k < lattice.size(); ++k) {
-      if (lattice.weight[k] <= 0) continue;
-      samples.emplace_back(lattice.origin + Vec2(lattice.x[k], lattice.y[k]), lattice.weight[k]);
+      if (lattice.weight(k) <= 0) continue;
+      samples.emplace_back(lattice.position(k), lattice.weight(k));
       center += samples.back().second * samples.back().first;
       total += samples.back().second;
     }

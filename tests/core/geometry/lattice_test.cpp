@@ -14,7 +14,7 @@ TEST_CASE("sample weights add up to the polygon's area, first moments to its cen
   const Lattice lattice = sample(polygon, pitch);
   Vec2 moment(0, 0);
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    moment += lattice.weight[k] * (lattice.origin + Vec2(lattice.x[k], lattice.y[k]));
+    moment += lattice.weight(k) * (lattice.position(k));
   }
   CHECK(lattice.total_weight() == Approx(area(polygon)).epsilon(1e-6));
   const Vec2 expected = bounds(polygon).center();  // both shapes are symmetric
@@ -41,10 +41,10 @@ TEST_CASE("the nearest segment of every sample is that of brute force") {
   segments.push_back({{1, 2}, {4, 2}});  // level and upright ones
   segments.push_back({{3, 1}, {3, 4}});
   LatticeOwners owners(lattice);
-  owners.assign(segments, 3.0);
+  owners.assign(segments);
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] <= 0) continue;
-    const Vec2 p = lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
+    if (lattice.weight(k) <= 0) continue;
+    const Vec2 p = lattice.position(k);
     double best = 1e9;
     for (const Segment& s : segments) best = std::min(best, distance_to_segment(p, s.a, s.b));
     REQUIRE(owners.owner(k) >= 0);
@@ -57,8 +57,8 @@ TEST_CASE("the nearest segment of every sample is that of brute force") {
 TEST_CASE("samples out of reach still get an owner") {
   const Lattice lattice = sample(rectangle(20, 1), 0.25);
   LatticeOwners owners(lattice);
-  owners.assign({{{0.5, 0.5}, {0.5, 0.5}}}, 0.5);
+  owners.assign({{{0.5, 0.5}, {0.5, 0.5}}});
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] > 0) REQUIRE(owners.owner(k) == 0);
+    if (lattice.weight(k) > 0) REQUIRE(owners.owner(k) == 0);
   }
 }

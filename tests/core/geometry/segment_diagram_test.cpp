@@ -74,13 +74,13 @@ TEST_CASE("cells add up to the island and agree with a fine lattice") {
   for (std::size_t i = 0; i < path.size(); ++i) segments.push_back({path[i], path[(i + 1) % path.size()]});
   const Lattice lattice = sample(island, 0.01);
   LatticeOwners owners(lattice);
-  owners.assign(segments, 3.0);
+  owners.assign(segments);
   std::vector<double> areas(path.size(), 0);
   double moment = 0;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] <= 0) continue;
-    areas[static_cast<std::size_t>(owners.owner(k))] += lattice.weight[k];
-    moment += lattice.weight[k] * owners.distance2(k);
+    if (lattice.weight(k) <= 0) continue;
+    areas[static_cast<std::size_t>(owners.owner(k))] += lattice.weight(k);
+    moment += lattice.weight(k) * owners.distance2(k);
   }
   CHECK(sum.second_moment == Approx(moment).epsilon(1e-3));
   for (std::size_t i = 0; i < path.size(); ++i) {
