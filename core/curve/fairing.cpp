@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <vector>
 
 #include "core/curve/alignment.hpp"
@@ -11,6 +10,8 @@
 #include "core/curve/resample.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/quasi_newton.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -18,64 +19,12 @@ namespace {
 using Field = std::vector<Vec2>;  ///< one vector per vertex
 
 constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle against the island's axes
-constexpr std::size_t memory = 7;                 ///< L-BFGS pairs, as in the paper
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
 constexpr double slack_in_widths = 0.1;    ///< lists of near segments hold for such moves
 constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
-
-double dot(const Field& a, const Field& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
-void add_scaled(Field& a, double factor, const Field& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
-}
-
-/// The L-BFGS direction from remembered steps and gradient changes (Liu and Nocedal 1989).
-class QuasiNewton {
- public:
-  void forget() { pairs_.clear(); }
-  bool empty() const { return pairs_.empty(); }
-
-  void remember(Field step, Field change) {
-    const double curvature = dot(step, change);
-    if (!(curvature > 1e-12 * dot(change, change))) return;
-    if (pairs_.size() == memory) pairs_.pop_front();
-    pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
-  }
-
-  Field direction(const Field& gradient) const {
-    Field q = gradient;
-    std::vector<double> alpha(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {
-      alpha[k] = pairs_[k].inverse * dot(pairs_[k].step, q);
-      add_scaled(q, -alpha[k], pairs_[k].change);
-    }
-    if (!pairs_.empty()) {
-      const Pair& last = pairs_.back();
-      const double scale = 1 / (last.inverse * dot(last.change, last.change));
-      for (Vec2& v : q) v *= scale;
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double beta = pairs_[k].inverse * dot(pairs_[k].change, q);
-      add_scaled(q, alpha[k] - beta, pairs_[k].step);
-    }
-    for (Vec2& v : q) v = -v;
-    return q;
-  }
-
- private:
-  struct Pair {
-    Field step, change;
-    double inverse;
-  };
-  std::deque<Pair> pairs_;
-};
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -97,12 +46,14 @@ class Fairer {
  public:
   Fairer(const Polygon& island, const FairingOptions& options)
       : options_(options),
+        workers_(options.threads),
         island_(turned(island, irrational_turn)),
         area_(area(island)),
         border_(island_, options.bead_width),
         lattice_(sample(island_, pitch(options))),
-        coverage_(lattice_, slack_in_widths * options.bead_width),
-        leash_(border_, options.bead_width) {
+        coverage_(lattice_, slack_in_widths * options.bead_width, &workers_),
+        leash_(border_, options.bead_width, &workers_),
+        newton_(&workers_) {
     alignment_weight_ = options.alignment;
     if (options.field != nullptr) alignment_ = Alignment(lattice_, *options.field, irrational_turn);
     const double w = options.bead_width;
@@ -167,13 +118,13 @@ class Fairer {
       leash_.limit(trial);
       Field move(curve.size());
       for (std::size_t i = 0; i < curve.size(); ++i) move[i] = trial.vertices[i] - curve.vertices[i];
-      const double slope = dot(gradient, move);
+      const double slope = dot(gradient, move, &workers_);
       if (slope >= 0) return false;
       Field trial_gradient;
       const double trial_value = evaluate(trial, trial_gradient);
       if (trial_value > value + sufficient_decrease * slope) continue;
       Field change = trial_gradient;
-      add_scaled(change, -1, gradient);
+      add_scaled(change, -1, gradient, &workers_);
       newton_.remember(std::move(move), std::move(change));
       curve = std::move(trial);
       value = trial_value;
@@ -206,6 +157,7 @@ class Fairer {
   }
 
   FairingOptions options_;
+  Workers workers_;
   Polygon island_;
   double area_;
   BorderIndex border_;

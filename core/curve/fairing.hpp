@@ -29,6 +29,7 @@ struct FairingOptions {
       0.05;  ///< weight of (33) on the curve as it comes, square bead widths; compare γ_Obj (54)
   double fine_alignment =
       0.02;                  ///< on the subdivided curve: what is aligned stays so, and coverage evens out
+  int threads = 1;           ///< that share the work; the result is the same for any number
   double smoothness = 0.12;  ///< γ_Lap in units of area ÷ vertices (31)
 };
 

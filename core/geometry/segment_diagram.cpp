@@ -127,9 +127,10 @@ class Judge {
  public:
   Judge(const Ring& curve, const Polygon& island)
       : curve_(curve),
-        border_(island, pitch(curve)),
+        pitch_(pitch(curve)),
+        border_(island, pitch_),
         segments_(segments_of(curve)),
-        grid_(segments_, pitch(curve)),
+        grid_(segments_, pitch_),
         pieces_(border_.edges().size()) {
     result_.points.resize(curve.size());
     result_.segments.resize(curve.size());
@@ -427,7 +428,7 @@ class Judge {
   Site nearest(const Vec2& p) const {
     double best = std::numeric_limits<double>::infinity();
     std::size_t index = 0;
-    for (double reach = pitch(curve_), searched = 0; !(best <= searched); searched = reach, reach *= 2) {
+    for (double reach = pitch_, searched = 0; !(best <= searched); searched = reach, reach *= 2) {
       const Vec2 margin(reach, reach);
       grid_.near({p - margin, p + margin}, [&](std::size_t i) {
         const double d = distance_to_segment(p, segments_[i].a, segments_[i].b);
@@ -458,6 +459,7 @@ class Judge {
   }
 
   const Ring& curve_;
+  double pitch_;
   BorderIndex border_;
   std::vector<Segment> segments_;
   SegmentGrid grid_;

@@ -167,6 +167,7 @@ void fair_draft(Draft& draft, const FillableRegion& part, Work& work) {
   fairing.target_length = area(part.region) / w;
   fairing.hold_length = !part.thin;
   fairing.field = &work.field;
+  fairing.threads = work.options.threads;
   Curve result = fair(smoothed(draft.curve, part.region, w), part.region, fairing).curve;
   if (!work.field.empty() && look_for_holes(result, part.region, w).farthest > nearly_far * w) {
     fairing.field = nullptr;
