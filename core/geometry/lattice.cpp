@@ -6,48 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/clip.hpp"
+
 namespace unicursal::core {
 namespace {
-
-/// Rings clipped to a half-plane one after another (Sutherland and Hodgman). For a non-convex ring the result
-/// may hold edges that run back and forth along the clipping line; they cancel in every moment.
-enum class Side { left, right, below, above };
-
-bool keeps(Side side, const Vec2& p, double at) {
-  switch (side) {
-    case Side::left:
-      return p.x() <= at;
-    case Side::right:
-      return p.x() >= at;
-    case Side::below:
-      return p.y() <= at;
-    case Side::above:
-      return p.y() >= at;
-  }
-  return false;
-}
-
-Vec2 crossing(Side side, const Vec2& a, const Vec2& b, double at) {
-  if (side == Side::left || side == Side::right) {
-    return {at, a.y() + (b.y() - a.y()) * (at - a.x()) / (b.x() - a.x())};
-  }
-  return {a.x() + (b.x() - a.x()) * (at - a.y()) / (b.y() - a.y()), at};
-}
-
-std::vector<Ring> clipped(const std::vector<Ring>& rings, Side side, double at) {
-  std::vector<Ring> result;
-  for (const Ring& ring : rings) {
-    Ring kept;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const bool a_in = keeps(side, a, at), b_in = keeps(side, b, at);
-      if (a_in) kept.push_back(a);
-      if (a_in != b_in) kept.push_back(crossing(side, a, b, at));
-    }
-    if (kept.size() >= 3) result.push_back(std::move(kept));
-  }
-  return result;
-}
 
 struct Moments {
   double area = 0;

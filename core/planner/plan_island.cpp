@@ -69,6 +69,7 @@ struct Work {
   const DirectionField& field;
   Random random;
   IslandPlan plan;
+  Workers workers{options.threads};
 
   double width() const { return options.bead_width; }
 };
@@ -230,7 +231,7 @@ CurveObjectives objectives(const SegmentDiagram& diagram, const Curve& curve, do
 PlannedCurve finish(const Draft& draft, const FillableRegion& part, Work& work) {
   const Stopwatch watch(work.plan.widths);
   const double w = work.width();
-  const SegmentDiagram diagram = segment_diagram(draft.curve.vertices, part.region);
+  const SegmentDiagram diagram = segment_diagram(draft.curve.vertices, part.region, &work.workers);
   PlannedCurve planned;
   planned.area = area(part.region);
   planned.path = along_zones(draft.curve, segment_areas(diagram, draft.curve, w), work.island);
