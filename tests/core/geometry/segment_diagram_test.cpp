@@ -92,6 +92,30 @@ TEST_CASE("cells add up to the island and agree with a fine lattice") {
   }
 }
 
+TEST_CASE("a diagram in pieces is that of the whole curve, with any number of threads") {
+  // Enough vertices for several pieces; the hole makes them non-convex.
+  Ring path;
+  constexpr int count = 7000;
+  for (int k = 0; k < count; ++k) {
+    const double turn = 2 * std::numbers::pi * k / count;
+    path.push_back(Vec2(6, 6) + (4.4 + 0.8 * std::sin(40 * turn)) * Vec2(std::cos(turn), std::sin(turn)));
+  }
+  const Polygon island = square_with_hole();
+  Workers two(2);
+  const SegmentDiagram diagram = segment_diagram(path, island), shared = segment_diagram(path, island, &two);
+  const CellIntegrals sum = total(diagram);
+  CHECK(sum.area == Approx(area(island)).epsilon(1e-12));
+
+  // The curve and the island look the same turned by a quarter, the pieces do not.
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::size_t turned = (i + count / 4) % count;
+    REQUIRE(diagram.segments[i].area == Approx(diagram.segments[turned].area).margin(1e-9));
+    REQUIRE(diagram.points[i].second_moment == Approx(diagram.points[turned].second_moment).margin(1e-9));
+    REQUIRE(shared.segments[i].area == diagram.segments[i].area);
+    REQUIRE(shared.points[i].second_moment == diagram.points[i].second_moment);
+  }
+}
+
 TEST_CASE("collinear and nearly collinear vertices change nothing") {
   const Ring plain{{2, 2}, {8, 2}, {8, 8}, {2, 8}};
   const Ring dense{{2, 2}, {4, 2}, {5, 2 + 1e-9}, {6, 2}, {8, 2}, {8, 8}, {5, 8}, {2, 8}};
