@@ -1,15 +1,18 @@
 #include "core/curve/coverage.hpp"
 
+#include <utility>
+
 namespace unicursal::core {
 
 Coverage::Coverage(const Lattice& lattice, double slack, Workers* workers)
     : owners_(lattice, slack, workers) {}
 
 double Coverage::evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient) {
-  segments_.resize(curve.size());
-  for (std::size_t i = 0; i < curve.size(); ++i)
-    segments_[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
-  owners_.assign(segments_);
+  std::vector<Segment> segments(curve.size());
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
+  }
+  owners_.assign(std::move(segments));
   const std::vector<SegmentPull>& pulls = owners_.pulls();
   for (std::size_t i = 0; i < curve.size(); ++i) {
     gradient[i] += 2 * weight * (pulls[i].all - pulls[i].end + pulls[curve.before(i)].end);

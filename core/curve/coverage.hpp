@@ -28,7 +28,6 @@ class Coverage {
 
  private:
   LatticeOwners owners_;
-  std::vector<Segment> segments_;
 };
 
 }  // namespace unicursal::core

@@ -46,14 +46,13 @@ class Fairer {
  public:
   Fairer(const Polygon& island, const FairingOptions& options)
       : options_(options),
-        workers_(options.threads),
         island_(turned(island, irrational_turn)),
         area_(area(island)),
         border_(island_, options.bead_width),
         lattice_(sample(island_, pitch(options))),
-        coverage_(lattice_, slack_in_widths * options.bead_width, &workers_),
-        leash_(border_, options.bead_width, &workers_),
-        newton_(&workers_) {
+        coverage_(lattice_, slack_in_widths * options.bead_width, options.workers),
+        leash_(border_, options.bead_width, options.workers),
+        newton_(options.workers) {
     alignment_weight_ = options.alignment;
     if (options.field != nullptr) alignment_ = Alignment(lattice_, *options.field, irrational_turn);
     const double w = options.bead_width;
@@ -72,7 +71,7 @@ class Fairer {
       alignment_weight_ = options_.fine_alignment;
       curve = descend(std::move(curve), options_.fine_iterations);
     }
-    curve = thinned(curve, border_, final_spacing * options_.bead_width);
+    curve = thinned(curve, border_, final_spacing * options_.bead_width, options_.workers);
     curve.vertices = turned(std::move(curve.vertices), -irrational_turn);
     return curve;
   }
@@ -84,7 +83,9 @@ class Fairer {
     return options.bead_width / options.samples_per_width;
   }
 
-  Curve spread(const Curve& curve) const { return respaced(curve, border_, 0.75 * options_.bead_width); }
+  Curve spread(const Curve& curve) const {
+    return respaced(curve, border_, 0.75 * options_.bead_width, options_.workers);
+  }
 
   double evaluate(const Curve& curve, Field& gradient) {
     gradient.assign(curve.size(), Vec2(0, 0));
@@ -118,14 +119,14 @@ class Fairer {
       leash_.limit(trial);
       Field move(curve.size());
       for (std::size_t i = 0; i < curve.size(); ++i) move[i] = trial.vertices[i] - curve.vertices[i];
-      const double slope = dot(gradient, move, &workers_);
+      const double slope = dot(gradient, move, options_.workers);
       if (slope >= 0) return false;
       Field trial_gradient;
       const double trial_value = evaluate(trial, trial_gradient);
       if (trial_value > value + sufficient_decrease * slope) continue;
       Field change = trial_gradient;
-      add_scaled(change, -1, gradient, &workers_);
-      newton_.remember(std::move(move), std::move(change));
+      add_scaled(change, -1, gradient, options_.workers);
+      newton_.remember(move, change);
       curve = std::move(trial);
       value = trial_value;
       gradient = std::move(trial_gradient);
@@ -157,7 +158,6 @@ class Fairer {
   }
 
   FairingOptions options_;
-  Workers workers_;
   Polygon island_;
   double area_;
   BorderIndex border_;
@@ -173,9 +173,9 @@ class Fairer {
 
 }  // namespace
 
-Curve smoothed(const Curve& curve, const Polygon& island, double bead_width) {
+Curve smoothed(const Curve& curve, const Polygon& island, double bead_width, Workers* workers) {
   const BorderIndex border(island, bead_width);
-  Leash leash(border, bead_width);
+  Leash leash(border, bead_width, workers);
   Curve result = curve;
   for (int pass = 0; pass < 5; ++pass) {
     leash.fasten(result);

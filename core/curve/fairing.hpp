@@ -14,6 +14,7 @@
 #include "core/curve/curve.hpp"
 #include "core/field/direction_field.hpp"
 #include "core/geometry/polygon.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 
@@ -28,9 +29,9 @@ struct FairingOptions {
   double alignment =
       0.05;  ///< weight of (33) on the curve as it comes, square bead widths; compare γ_Obj (54)
   double fine_alignment =
-      0.02;                  ///< on the subdivided curve: what is aligned stays so, and coverage evens out
-  int threads = 1;           ///< that share the work; the result is the same for any number
-  double smoothness = 0.12;  ///< γ_Lap in units of area ÷ vertices (31)
+      0.02;                    ///< on the subdivided curve: what is aligned stays so, and coverage evens out
+  Workers* workers = nullptr;  ///< that share the work; the result is the same for any number of them
+  double smoothness = 0.12;    ///< γ_Lap in units of area ÷ vertices (31)
 };
 
 struct FairingResult {
@@ -39,7 +40,7 @@ struct FairingResult {
 };
 
 /// Five steps of (5), each cut short where it would use up a vertex's freedom. Precondition as for fair().
-Curve smoothed(const Curve& curve, const Polygon& island, double bead_width);
+Curve smoothed(const Curve& curve, const Polygon& island, double bead_width, Workers* workers = nullptr);
 
 /// Precondition: `curve` is simple, strictly inside `island` and has at least 5 vertices. So is the result.
 FairingResult fair(const Curve& curve, const Polygon& island, const FairingOptions& options);

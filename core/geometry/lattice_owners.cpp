@@ -1,6 +1,7 @@
 #include "core/geometry/lattice_owners.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/nearest_kernel.hpp"
 #include "core/geometry/segment_rows.hpp"
@@ -15,9 +16,9 @@ constexpr std::size_t range = 4096;  ///< segments whose sums are gathered in on
 LatticeOwners::LatticeOwners(const Lattice& lattice, double slack, Workers* workers)
     : lattice_(lattice), slack_(slack), workers_(workers != nullptr ? *workers : serial_) {}
 
-void LatticeOwners::assign(const std::vector<Segment>& segments) {
+void LatticeOwners::assign(std::vector<Segment> segments) {
   const bool lists_good = lists_hold(segments);
-  current_ = segments;
+  current_ = std::move(segments);
   owner_.resize(lattice_.size());
   if (!lists_good) make_lists();
   workers_.each(lattice_.tiles.size(), [this](std::size_t tile) { scan(tile); });

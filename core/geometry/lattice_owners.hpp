@@ -31,7 +31,7 @@ class LatticeOwners {
   explicit LatticeOwners(const Lattice& lattice, double slack = 0, Workers* workers = nullptr);
 
   /// Finds the nearest segment of every sample with weight.
-  void assign(const std::vector<Segment>& segments);
+  void assign(std::vector<Segment> segments);
 
   /// Index of the nearest segment; −1 for samples without weight, or if there are no segments.
   std::int32_t owner(std::size_t sample) const;

@@ -76,6 +76,8 @@ class ListMaker {
     for (double needed = look(); needed > reach_; needed = look()) {
       reach_ = std::min(headroom * needed, 2 * reach_);
     }
+    lists_.entries.assign(entries_.begin(),
+                          entries_.end());  // no larger than it must be: there are many tiles
   }
 
  private:
@@ -98,7 +100,7 @@ class ListMaker {
   /// Lists what is within reach; returns how far the farthest circle has to look.
   double look() {
     gather();
-    lists_.entries.clear();
+    entries_.clear();
     lists_.start.assign(1, 0);
     double needed = 0;
     const std::size_t first_block = lattice_.first_block(tile_);
@@ -167,13 +169,13 @@ class ListMaker {
     }
     const float limit = (std::sqrt(nearest2) + 2 * circle.radius + slack_) * (1 + rounding);
     // Without branches: what to keep cannot be foreseen.
-    std::size_t kept = lists_.entries.size();
-    lists_.entries.resize(kept + count + 1);
+    std::size_t kept = entries_.size();
+    entries_.resize(kept + count + 1);
     for (std::size_t k = 0; k < count; ++k) {
-      lists_.entries[kept] = candidate_[k];
+      entries_[kept] = candidate_[k];
       kept += distance2_[k] <= limit * limit ? 1 : 0;
     }
-    lists_.entries.resize(kept);
+    entries_.resize(kept);
     lists_.start.push_back(static_cast<std::uint32_t>(kept));
     return limit;
   }
@@ -191,7 +193,7 @@ class ListMaker {
   SegmentArrays arrays_;
   std::vector<std::pair<std::size_t, std::size_t>> ranges_;
   std::vector<float> distance2_;
-  std::vector<std::int32_t> candidate_;
+  std::vector<std::int32_t> candidate_, entries_;
 };
 
 }  // namespace

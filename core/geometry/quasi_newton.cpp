@@ -10,21 +10,29 @@ constexpr double least_curvature = 1e-12;  ///< relative, of a pair worth keepin
 constexpr std::size_t range = 4096;        ///< vectors that are added up in one piece
 
 /// Four sums side by side, so that none waits for the last.
-double dot_of_range(const Vec2* a, const Vec2* b, std::size_t count) {
+template <typename Vector>
+double dot_of_range(const Vec2* a, const Vector* b, std::size_t count) {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   std::size_t i = 0;
   for (; i + 1 < count; i += 2) {
-    x0 += a[i].x() * b[i].x();
-    y0 += a[i].y() * b[i].y();
-    x1 += a[i + 1].x() * b[i + 1].x();
-    y1 += a[i + 1].y() * b[i + 1].y();
+    x0 += a[i][0] * static_cast<double>(b[i][0]);
+    y0 += a[i][1] * static_cast<double>(b[i][1]);
+    x1 += a[i + 1][0] * static_cast<double>(b[i + 1][0]);
+    y1 += a[i + 1][1] * static_cast<double>(b[i + 1][1]);
   }
-  if (i < count) x0 += a[i].dot(b[i]);
+  if (i < count) {
+    x0 += a[i][0] * static_cast<double>(b[i][0]);
+    y0 += a[i][1] * static_cast<double>(b[i][1]);
+  }
   return (x0 + x1) + (y0 + y1);
 }
 
-void add_to_range(Vec2* a, double factor, const Vec2* b, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) a[i] += factor * b[i];
+template <typename Vector>
+void add_to_range(Vec2* a, double factor, const Vector* b, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    a[i][0] += factor * static_cast<double>(b[i][0]);
+    a[i][1] += factor * static_cast<double>(b[i][1]);
+  }
 }
 
 /// Calls work(first, count) for every range, and adds up what it returns in order.
@@ -43,13 +51,21 @@ double sum_of_ranges(std::size_t count, Workers* workers, Work work) {
   return sum;
 }
 
+using Floats = std::vector<std::array<float, 2>>;
+
 /// a += factor · b, and then a · c, in one go.
-double add_and_dot(std::vector<Vec2>& a, double factor, const std::vector<Vec2>& b,
-                   const std::vector<Vec2>& c, Workers* workers) {
+double add_and_dot(std::vector<Vec2>& a, double factor, const Floats& b, const Floats& c, Workers* workers) {
   return sum_of_ranges(a.size(), workers, [&](std::size_t first, std::size_t count) {
     add_to_range(a.data() + first, factor, b.data() + first, count);
     return dot_of_range(a.data() + first, c.data() + first, count);
   });
+}
+
+Floats in_floats(const std::vector<Vec2>& vectors) {
+  Floats result;
+  result.reserve(vectors.size());
+  for (const Vec2& v : vectors) result.push_back({static_cast<float>(v.x()), static_cast<float>(v.y())});
+  return result;
 }
 
 }  // namespace
@@ -67,11 +83,11 @@ void add_scaled(std::vector<Vec2>& a, double factor, const std::vector<Vec2>& b,
   });
 }
 
-void QuasiNewton::remember(std::vector<Vec2> step, std::vector<Vec2> change) {
+void QuasiNewton::remember(const std::vector<Vec2>& step, const std::vector<Vec2>& change) {
   const double product = dot(step, change, workers_), square = dot(change, change, workers_);
   if (!(product > least_curvature * square)) return;
   if (pairs_.size() == memory) pairs_.pop_front();
-  pairs_.push_back({std::move(step), std::move(change), 1 / product, product / square});
+  pairs_.push_back({in_floats(step), in_floats(change), 1 / product, product / square});
 }
 
 std::vector<Vec2> QuasiNewton::direction(const std::vector<Vec2>& gradient) const {
@@ -79,10 +95,10 @@ std::vector<Vec2> QuasiNewton::direction(const std::vector<Vec2>& gradient) cons
   const std::size_t count = pairs_.size();
   if (count > 0) {
     std::vector<double> alpha(count);
-    double product = dot(pairs_.back().step, q, workers_);
+    double product = add_and_dot(q, 0, pairs_.back().change, pairs_.back().step, workers_);
     for (std::size_t k = count; k-- > 0;) {
       alpha[k] = pairs_[k].inverse * product;
-      const std::vector<Vec2>& next = k > 0 ? pairs_[k - 1].step : pairs_[0].change;
+      const Floats& next = k > 0 ? pairs_[k - 1].step : pairs_[0].change;
       product = add_and_dot(q, -alpha[k], pairs_[k].change, next, workers_);
     }
     // Instead of scaling q here, its products are scaled, and q at the end.
@@ -93,7 +109,7 @@ std::vector<Vec2> QuasiNewton::direction(const std::vector<Vec2>& gradient) cons
       if (k + 1 < count) {
         product = add_and_dot(q, factor, pairs_[k].step, pairs_[k + 1].change, workers_);
       } else {
-        add_scaled(q, factor, pairs_[k].step, workers_);
+        add_and_dot(q, factor, pairs_[k].step, pairs_[k].step, workers_);
       }
     }
     for (Vec2& v : q) v *= -scale;

@@ -2,6 +2,7 @@
 // the line search: they can guard steps, pause, and forget what was learned when the objective changes.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <vector>
 
@@ -24,13 +25,14 @@ class QuasiNewton {
   bool empty() const { return pairs_.empty(); }
 
   /// What a step did to the gradient; pairs without positive curvature are left out.
-  void remember(std::vector<Vec2> step, std::vector<Vec2> change);
+  void remember(const std::vector<Vec2>& step, const std::vector<Vec2>& change);
   /// Points downhill; the negative gradient as long as nothing is remembered.
   std::vector<Vec2> direction(const std::vector<Vec2>& gradient) const;
 
  private:
+  /// In floats: a direction needs no more, and large islands have many.
   struct Pair {
-    std::vector<Vec2> step, change;
+    std::vector<std::array<float, 2>> step, change;
     double inverse;    ///< 1 ÷ their dot product
     double curvature;  ///< their dot product ÷ the change's square
   };

@@ -137,7 +137,7 @@ struct Holes {
   double area = 0;      ///< mm²
 };
 
-Holes look_for_holes(const Curve& curve, const Polygon& region, double w) {
+Holes look_for_holes(const Curve& curve, const Polygon& region, double w, Workers* workers) {
   std::vector<Segment> segments(curve.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {
     segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
@@ -146,7 +146,7 @@ Holes look_for_holes(const Curve& curve, const Polygon& region, double w) {
   for (const Polygon& piece : opened({region}, w / 2, 0.005 * w)) {
     const double extent = bounds(piece).size().maxCoeff();
     const Lattice lattice = sample(piece, std::max(w / far_samples, extent / 30000));
-    LatticeOwners owners(lattice);
+    LatticeOwners owners(lattice, 0, workers);
     owners.assign(segments);
     for (std::size_t k = 0; k < lattice.size(); ++k) {
       if (lattice.weight(k) <= 0 || owners.owner(k) < 0) continue;
@@ -168,9 +168,10 @@ void fair_draft(Draft& draft, const FillableRegion& part, Work& work) {
   fairing.target_length = area(part.region) / w;
   fairing.hold_length = !part.thin;
   fairing.field = &work.field;
-  fairing.threads = work.options.threads;
-  Curve result = fair(smoothed(draft.curve, part.region, w), part.region, fairing).curve;
-  if (!work.field.empty() && look_for_holes(result, part.region, w).farthest > nearly_far * w) {
+  fairing.workers = &work.workers;
+  Curve result = fair(smoothed(draft.curve, part.region, w, &work.workers), part.region, fairing).curve;
+  if (!work.field.empty() &&
+      look_for_holes(result, part.region, w, &work.workers).farthest > nearly_far * w) {
     fairing.field = nullptr;
     result = fair(result, part.region, fairing).curve;
   }
@@ -242,7 +243,7 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, Work& work) 
   planned.faired = draft.faired;
   planned.split_and_reconnect = draft.split_and_reconnect;
   planned.doubled_edges = draft.doubled_edges;
-  const Holes holes = look_for_holes(draft.curve, part.region, w);
+  const Holes holes = look_for_holes(draft.curve, part.region, w, &work.workers);
   planned.farthest = holes.farthest;
   work.plan.far_area += holes.area;
   return planned;

@@ -76,7 +76,8 @@ TEST_CASE("a faired curve is the same for any number of threads") {
   options.target_length = area(island) / options.bead_width;
   const Curve start = first_curve(island, 0.9, 5);
   const Curve one = fair(start, island, options).curve;
-  options.threads = 3;
+  Workers workers(3);
+  options.workers = &workers;
   const Curve three = fair(start, island, options).curve;
   REQUIRE(one.size() == three.size());
   for (std::size_t i = 0; i < one.size(); ++i) REQUIRE(one.vertices[i] == three.vertices[i]);
