@@ -5,7 +5,7 @@
 namespace unicursal::core {
 
 Coverage::Coverage(const Lattice& lattice, double slack, Workers* workers)
-    : owners_(lattice, slack, workers) {}
+    : owners_(lattice, {slack, true, workers}) {}
 
 double Coverage::evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient) {
   std::vector<Segment> segments(curve.size());

@@ -2,9 +2,10 @@
 // island of the squared distance to the curve, mm⁴, and its gradient per vertex, mm³.
 //
 // Departure from the paper: the diagram of segments is sampled, not constructed; each sample pulls the two
-// ends of its nearest segment as (15), (21) and (22) do in the limit. The value is exact for the lattice
-// while owners stay the same, and so is the gradient (owners change where distances are equal), both up to
-// float rounding of each sample's share.
+// ends of its nearest segment as (15), (21) and (22) do in the limit. A square that the border between two
+// cells cuts is shared by both, in proportion, which makes five squares per bead width as good as twelve
+// that have one owner each. The gradient is that of the continuous objective; against the sampled value it is
+// right but for terms of second order in the size of a square (tests hold it against differences).
 #pragma once
 
 #include <vector>

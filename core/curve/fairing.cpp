@@ -7,6 +7,7 @@
 #include "core/curve/alignment.hpp"
 #include "core/curve/coverage.hpp"
 #include "core/curve/leash.hpp"
+#include "core/curve/orientation.hpp"
 #include "core/curve/resample.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
@@ -100,9 +101,36 @@ class Fairer {
       const double weight = alignment_weight_ * options_.bead_width * options_.bead_width;
       value += weight * alignment_.evaluate(curve, coverage_.owners(), weight, gradient);
     }
+    value += orientation(curve, gradient);
     const double excess = curve.length() - options_.target_length;
     length_with_gradient(curve, multiplier_ + 2 * stiffness_ * excess, gradient);
     return value + multiplier_ * excess + stiffness_ * excess * excess;
+  }
+
+  double orientation(const Curve& curve, Field& gradient) const {
+    double value = 0;
+    for (std::size_t z = 0; z < members_.size(); ++z) {
+      double length = 0;
+      for (std::size_t i = 0; i < curve.size(); ++i) {
+        if (members_[z][i]) length += (curve.vertices[curve.after(i)] - curve.vertices[i]).norm();
+      }
+      const double w = options_.bead_width;
+      const double weight =
+          (options_.zones[z].even ? options_.evenness : -options_.likeness) * length * w * w * w;
+      value += weight * isotropy_with_gradient(curve, members_[z], weight, gradient);
+    }
+    return value;
+  }
+
+  /// A segment belongs to the zone that its middle lies in, and stays with it until the next look.
+  void look_up_zones(const Curve& curve) {
+    members_.assign(options_.zones.size(), std::vector<char>(curve.size(), 0));
+    for (std::size_t z = 0; z < members_.size(); ++z) {
+      for (std::size_t i = 0; i < curve.size(); ++i) {
+        const Vec2 middle = (curve.vertices[i] + curve.vertices[curve.after(i)]) / 2;
+        members_[z][i] = options_.zones[z].contains(turned(middle, -irrational_turn));
+      }
+    }
   }
 
   /// One accepted step along a descent direction; false when none was found.
@@ -139,9 +167,11 @@ class Fairer {
   Curve descend(Curve curve, int iterations) {
     newton_.forget();
     leash_.fasten(curve);
+    look_up_zones(curve);
     Field gradient;
     double value = evaluate(curve, gradient);
     for (int i = 0; i < iterations; ++i) {
+      if (options_.another && !options_.another()) break;
       ++iterations_;
       if (i > 0 && i % multiplier_period == 0) {
         multiplier_ += stiffness_ * (curve.length() - options_.target_length);
@@ -166,6 +196,7 @@ class Fairer {
   Alignment alignment_;
   Leash leash_;
   QuasiNewton newton_;
+  std::vector<std::vector<char>> members_;  ///< per orientation zone and segment
   double multiplier_ = 0, stiffness_ = 0;
   double alignment_weight_ = 0;
   int iterations_ = 0;

@@ -1,6 +1,7 @@
 #include "core/geometry/lattice_owners.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "core/geometry/nearest_kernel.hpp"
@@ -13,8 +14,11 @@ constexpr std::size_t range = 4096;  ///< segments whose sums are gathered in on
 
 }  // namespace
 
-LatticeOwners::LatticeOwners(const Lattice& lattice, double slack, Workers* workers)
-    : lattice_(lattice), slack_(slack), workers_(workers != nullptr ? *workers : serial_) {}
+LatticeOwners::LatticeOwners(const Lattice& lattice, const OwnerOptions& options)
+    : lattice_(lattice),
+      slack_(options.slack),
+      split_(options.split),
+      workers_(options.workers != nullptr ? *options.workers : serial_) {}
 
 void LatticeOwners::assign(std::vector<Segment> segments) {
   const bool lists_good = lists_hold(segments);
@@ -54,7 +58,9 @@ void LatticeOwners::make_lists() {
   } else {
     const SegmentRows rows(listed_);
     workers_.each(lists_.size(), [&](std::size_t tile) {
-      make_near_lists(lattice_, lattice_.tiles[tile], listed_, rows, slack_, lists_[tile]);
+      // The other owner of a split square is no farther than the nearest by more than its half diagonals.
+      const double farther = split_ ? std::numbers::sqrt2 * lattice_.pitch : 0;
+      make_near_lists(lattice_, lattice_.tiles[tile], listed_, rows, slack_ + farther / 2, lists_[tile]);
     });
   }
   number_sums();
@@ -93,7 +99,8 @@ void LatticeOwners::scan(std::size_t number) {
   tile_moments_[number] =
       scan_blocks({lattice_.blocks.data() + first, lattice_.last_block(tile) - first, lattice_.borders.data(),
                    static_cast<float>(lattice_.pitch), segments.data(), lists.start.data(),
-                   lists.entries.data(), owner_.data() + Lattice::lanes * first, sums});
+                   lists.entries.data(), owner_.data() + Lattice::lanes * first, sums,
+                   split_ ? lists.segments.data() : nullptr, static_cast<std::int32_t>(current_.size())});
 }
 
 /// Calls add(segment, sum) for all sums of all segments, those of one segment in order.

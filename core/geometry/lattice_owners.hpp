@@ -3,7 +3,10 @@
 //
 // Every block of samples keeps a list of the segments that may be nearest to one of its samples. Lists stay
 // good until a point has moved by more than `slack` (as the neighbour lists of molecular dynamics do), so
-// most calls test about eight segments per block of eight samples and look for nothing.
+// most calls test about ten segments per block of eight samples and look for nothing.
+//
+// Sums over the samples may split squares: one that the border between two cells cuts is shared by both, in
+// proportion, which makes five squares per bead width as good as twelve that have one owner each.
 #pragma once
 
 #include <array>
@@ -18,8 +21,14 @@
 
 namespace unicursal::core {
 
+struct OwnerOptions {
+  double slack = 0;            ///< mm; 0 where segments do not move by little
+  bool split = false;          ///< share squares; then segments are those of a closed curve, in its order
+  Workers* workers = nullptr;  ///< that share the work; the result is the same for any number of them
+};
+
 /// What the samples nearest to one segment a + t (b − a), t in [0, 1], add up to. Per sample p of weight m,
-/// off = nearest point − p.
+/// off = nearest point − p. Split squares count for either segment by their share.
 struct SegmentPull {
   Vec2 all{0, 0};  ///< Σ m off, mm³
   Vec2 end{0, 0};  ///< Σ m t off, mm³
@@ -27,8 +36,8 @@ struct SegmentPull {
 
 class LatticeOwners {
  public:
-  /// Keeps references to the lattice and the workers. `slack` mm: 0 where segments do not move by little.
-  explicit LatticeOwners(const Lattice& lattice, double slack = 0, Workers* workers = nullptr);
+  /// Keeps references to the lattice and the workers.
+  explicit LatticeOwners(const Lattice& lattice, const OwnerOptions& options = {});
 
   /// Finds the nearest segment of every sample with weight.
   void assign(std::vector<Segment> segments);
@@ -38,7 +47,7 @@ class LatticeOwners {
   /// mm². Precondition: the sample has an owner.
   double distance2(std::size_t sample) const;
 
-  /// Σ m distance² over all samples, mm⁴.
+  /// Σ m distance² over all samples, mm⁴; where squares are split, of what each segment has of them.
   double second_moment() const { return second_moment_; }
   /// Per segment.
   const std::vector<SegmentPull>& pulls() const { return pulls_; }
@@ -56,6 +65,7 @@ class LatticeOwners {
 
   const Lattice& lattice_;
   double slack_;
+  bool split_;
   mutable Workers serial_{1};
   Workers& workers_;
   std::vector<Segment> listed_;                    ///< as they were when the lists were made

@@ -1,5 +1,6 @@
 #include "core/geometry/nearest_kernel.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -22,11 +23,91 @@ constexpr Floats square_x{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
 constexpr Floats square_y{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
+/// The nearest point of a segment, per sample.
+struct Foot {
+  Floats distance2, share, x, y;  ///< share of the way from the segment's start; x, y from the sample
+  Ints owner;
+};
+
+#define UNICURSAL_INLINE inline __attribute__((always_inline))
+
+/// Keeps whichever is nearer, the foot or that on segment `index`, where `allowed`.
+UNICURSAL_INLINE void consider(Foot& foot, const Floats& x, const Floats& y, const TileSegment& s,
+                               std::int32_t index, const Ints& allowed) {
+  const Floats zero{}, one = zero + 1.0F;
+  const Floats px = x - s.ax, py = y - s.ay;
+  Floats t = (px * s.ux + py * s.uy) * s.inverse;
+  t = t < zero ? zero : t;
+  t = t > one ? one : t;
+  const Floats qx = t * s.ux - px, qy = t * s.uy - py;
+  const Floats d = qx * qx + qy * qy;
+  const Ints nearer = (d < foot.distance2) & allowed;
+  foot.distance2 = nearer ? d : foot.distance2;
+  foot.share = nearer ? t : foot.share;
+  foot.x = nearer ? qx : foot.x;
+  foot.y = nearer ? qy : foot.y;
+  foot.owner = nearer ? Ints{} + index : foot.owner;
+}
+
+UNICURSAL_INLINE Foot nowhere() {
+  const Floats zero{};
+  return {zero + infinite, zero, zero, zero, Ints{} - 1};
+}
+
+UNICURSAL_INLINE Floats root(const Floats& v) {
+  Floats result;
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) result[k] = std::sqrt(v[k]);
+  return result;
+}
+
+UNICURSAL_INLINE void add(std::array<float, 4>* sums, const Foot& foot, const Floats& mass) {
+  const Floats x = mass * foot.x, y = mass * foot.y, end_x = foot.share * x, end_y = foot.share * y;
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) {
+    if (!(mass[k] > 0)) continue;
+    Quad sum;
+    std::array<float, 4>& place = sums[foot.owner[k]];
+    std::memcpy(&sum, place.data(), sizeof sum);
+    sum += Quad{x[k], y[k], end_x[k], end_y[k]};
+    std::memcpy(place.data(), &sum, sizeof sum);
+  }
+}
+
+/// The nearest of the listed segments that are not the owner's neighbours along the curve.
+UNICURSAL_INLINE Foot competitor(const TileScan& tile, std::uint32_t begin, std::uint32_t end,
+                                 const Floats& x, const Floats& y, const Foot& own) {
+  Ints place{};
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) place[k] = own.owner[k] < 0 ? 0 : tile.along[own.owner[k]];
+  Foot other = nowhere();
+  for (std::uint32_t e = begin; e < end; ++e) {
+    const std::int32_t index = tile.entries[e];
+    const Ints forth = place - tile.along[index], gap = forth < 0 ? -forth : forth;
+    consider(other, x, y, tile.segments[index], index, (gap > 1) & (gap < tile.around - 1));
+  }
+  return other;
+}
+
+/// The line where both segments are equally far cuts the square; distances change across it as their
+/// directions say. Returns the other's share, 0 to ½, and lowers the mean squared distance accordingly.
+UNICURSAL_INLINE Floats split(const Foot& own, const Foot& other, float pitch, Floats& mean) {
+  const Floats zero{};
+  const Ints both = (own.distance2 > zero) & (other.distance2 < zero + infinite);
+  const Floats near = root(both ? own.distance2 : zero + 1.0F),
+               far = root(both ? other.distance2 : zero + 1.0F);
+  const Floats slope_x = own.x / near - other.x / far, slope_y = own.y / near - other.y / far;
+  const Floats spread =
+      pitch * ((slope_x < zero ? -slope_x : slope_x) + (slope_y < zero ? -slope_y : slope_y));
+  Floats share = 0.5F - (far - near) / (spread > zero ? spread : zero + 1.0F);
+  share = (share > zero) & (spread > zero) & both ? share : zero;
+  mean = own.distance2 - share * share * spread * (near + far) * 0.5F;
+  return share;
+}
+
 }  // namespace
 
 UNICURSAL_VECTORISED
 double scan_blocks(const TileScan& tile) {
-  const Floats zero{}, one = zero + 1.0F;
+  const Floats zero{};
+  const Ints all = Ints{} - 1;
   double moment = 0;
   for (std::size_t b = 0; b < tile.count; ++b) {
     const Lattice::Block& block = tile.blocks[b];
@@ -38,37 +119,26 @@ double scan_blocks(const TileScan& tile) {
       std::memcpy(&y, border.y.data(), sizeof y);
       std::memcpy(&mass, border.weight.data(), sizeof mass);
     }
-    Floats best = zero + infinite, share = zero, off_x = zero, off_y = zero;
-    Ints owner = Ints{} - 1;
-    for (std::uint32_t e = tile.start[b]; e < tile.start[b + 1]; ++e) {
+    const std::uint32_t begin = tile.start[b], end = tile.start[b + 1];
+    Foot own = nowhere();
+    for (std::uint32_t e = begin; e < end; ++e) {
       const std::int32_t index = tile.entries[e];
-      const TileSegment& s = tile.segments[index];
-      const Floats px = x - s.ax, py = y - s.ay;
-      Floats t = (px * s.ux + py * s.uy) * s.inverse;
-      t = t < zero ? zero : t;
-      t = t > one ? one : t;
-      const Floats qx = t * s.ux - px, qy = t * s.uy - py;
-      const Floats d = qx * qx + qy * qy;
-      const Ints nearer = d < best;
-      best = nearer ? d : best;
-      share = nearer ? t : share;
-      off_x = nearer ? qx : off_x;
-      off_y = nearer ? qy : off_y;
-      owner = nearer ? Ints{} + index : owner;
+      consider(own, x, y, tile.segments[index], index, all);
     }
-    owner = mass > zero ? owner : Ints{} - 1;
-    std::memcpy(tile.owner + Lattice::lanes * b, &owner, sizeof owner);
-    const Floats sum_x = mass * off_x, sum_y = mass * off_y;
-    const Floats end_x = share * sum_x, end_y = share * sum_y, weighed = mass * best;
-    for (std::size_t k = 0; k < Lattice::lanes; ++k) {
-      if (owner[k] < 0) continue;
-      Quad sum;
-      std::array<float, 4>& place = tile.sums[owner[k]];
-      std::memcpy(&sum, place.data(), sizeof sum);
-      sum += Quad{sum_x[k], sum_y[k], end_x[k], end_y[k]};
-      std::memcpy(place.data(), &sum, sizeof sum);
-      moment += weighed[k];
+    if (begin == end) mass = zero;
+    own.owner = mass > zero ? own.owner : all;
+    std::memcpy(tile.owner + Lattice::lanes * b, &own.owner, sizeof own.owner);
+    Floats mean = own.distance2;
+    if (tile.along != nullptr) {
+      const Foot other = competitor(tile, begin, end, x, y, own);
+      const Floats share = split(own, other, tile.pitch, mean);
+      add(tile.sums, other, share * mass);
+      add(tile.sums, own, (1.0F - share) * mass);
+    } else {
+      add(tile.sums, own, mass);
     }
+    const Floats weighed = mass * mean;
+    for (std::size_t k = 0; k < Lattice::lanes; ++k) moment += mass[k] > 0 ? weighed[k] : 0.0F;
   }
   return moment;
 }

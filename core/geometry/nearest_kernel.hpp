@@ -26,6 +26,9 @@ struct TileScan {
   const std::int32_t* entries;  ///< segments to test, per block
   std::int32_t* owner;          ///< out, per sample; −1 without weight
   std::array<float, 4>* sums;   ///< added to, per segment: Σ m off, Σ m t off
+  const std::int32_t* along =
+      nullptr;              ///< per segment its place along a closed curve; null: split no squares
+  std::int32_t around = 0;  ///< segments of that curve
 };
 
 /// Finds owners, adds to the sums, and returns Σ m · distance².

@@ -98,9 +98,10 @@ void first_curve() {
   Random random(1);
   const auto graph = make_cell_graph(parts.regions.front().domain, seed_distance * width, random);
   const auto cycle = graph ? first_cycle(*graph) : std::nullopt;
-  const bool valid = cycle && self_intersections(cycle->curve) == 0 &&
-                     segments_outside(cycle->curve, BorderIndex(island, width)) == 0;
-  fmt::print("\nfirst valid curve: {} nodes, {:.3f} CPU s{}\n", cycle ? cycle->nodes : 0, cpu() - start,
+  const Curve curve = cycle ? drawn(cycle->tour) : Curve{};
+  const bool valid = curve.size() >= 5 && self_intersections(curve) == 0 &&
+                     segments_outside(curve, BorderIndex(island, width)) == 0;
+  fmt::print("\nfirst valid curve: {} vertices, {:.3f} CPU s{}\n", curve.size(), cpu() - start,
              valid ? "" : "  NOT VALID");
 }
 

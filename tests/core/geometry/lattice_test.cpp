@@ -65,7 +65,7 @@ TEST_CASE("owners are right while segments move, whether lists are made anew or 
   }
   segments.push_back({{0.5, 0.5}, {11.5, 11}});  // much longer than the others
   Workers two(2);
-  LatticeOwners kept(lattice, 0.3), shared(lattice, 0.3, &two);
+  LatticeOwners kept(lattice, {0.3, false, nullptr}), shared(lattice, {0.3, false, &two});
   for (int round = 0; round < 12; ++round) {
     kept.assign(segments);
     shared.assign(segments);
