@@ -8,7 +8,8 @@ namespace unicursal::core {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double flaw_share = 0.6;  ///< of what a full chord earns; a stop that earns less is a flaw
+constexpr double length_band = 0.1;  ///< of the asked length, to either side
+constexpr double flaw_share = 0.6;   ///< of what a full chord earns; a stop that earns less is a flaw
 
 /// off² from sin² off, within 2 %: the start of the series of arcsin², and what makes it end at π²/4.
 double squared_angle(double sine2) {
@@ -60,9 +61,10 @@ CycleObjective::CycleObjective(const EditableTour& tour, const DemandAt& demand,
   for (std::size_t s = 0; s < t.stop_count(); ++s) {
     if (t.next[s] < 0) continue;
     pieces_[s] = piece(static_cast<StopIndex>(s), t.before[s], t.next[s]);
+    length_ += pieces_[s].length;
     if (pieces_[s].bin >= 0)
-      even_[static_cast<std::size_t>(demand_[s].even_zone)].length += pieces_[s].weight;
-    add_mass(demand_[s].even_zone, pieces_[s].bin, pieces_[s].weight);
+      even_[static_cast<std::size_t>(demand_[s].even_zone)].length += pieces_[s].length;
+    add_mass(demand_[s].even_zone, pieces_[s].bin, pieces_[s].length);
   }
   value_ = recomputed();
   flawed_above_ = -flaw_share * weights_.reward * edge_length_;
@@ -74,7 +76,7 @@ CycleObjective::CycleObjective(const EditableTour& tour, const DemandAt& demand,
 
 void CycleObjective::update_flaw(StopIndex s) {
   const auto i = static_cast<std::size_t>(s);
-  const bool flawed = pieces_[i].cost > flawed_above_;
+  const bool flawed = pieces_[i].cost - weights_.reward * pieces_[i].length > flawed_above_;
   if (flawed == (flaw_at_[i] >= 0)) return;
   if (flawed) {
     flaw_at_[i] = static_cast<int>(flaws_.size());
@@ -95,9 +97,9 @@ CycleObjective::Piece CycleObjective::piece(StopIndex s, StopIndex before, StopI
       t.position[static_cast<std::size_t>(next)] - t.position[static_cast<std::size_t>(before)];
   const double length2 = chord.squaredNorm(), half = std::sqrt(length2) / 2;
   Piece result;
-  result.cost = half * (weights_.chord * off_direction(chord, length2, demand.direction) - weights_.reward);
+  result.cost = half * weights_.chord * off_direction(chord, length2, demand.direction);
+  result.length = half;
   if (demand.even_zone >= 0) {
-    result.weight = half;
     const double angle = std::atan2(chord.y(), chord.x()) / pi;
     const int bin = static_cast<int>(std::floor((angle - std::floor(angle)) * bins));
     result.bin = std::clamp(bin, 0, bins - 1);
@@ -111,13 +113,29 @@ double CycleObjective::evenness_of(const EvenZone& zone) const {
   return zone.length > 0 ? weights_.evenness * sum / zone.length : 0.0;
 }
 
+/// −reward · length, with a slope that goes from −reward at 0.9 of the asked length to +reward at 1.1.
+double CycleObjective::length_cost(double length) const {
+  if (!(weights_.length > 0)) return -weights_.reward * length;
+  const double x = length / weights_.length;
+  double earned = x;
+  if (x > 1 + length_band) {
+    earned = 2 - x;
+  } else if (x > 1 - length_band) {
+    earned = 1 - length_band / 2 - (1 - x) * (1 - x) / (2 * length_band);
+  }
+  return -weights_.reward * weights_.length * earned;
+}
+
 double CycleObjective::recomputed() const {
   const Tour& t = tour_.tour();
-  double value = 0;
+  double value = 0, length = 0;
   for (std::size_t s = 0; s < t.stop_count(); ++s) {
     if (t.next[s] < 0) continue;
-    value += piece(static_cast<StopIndex>(s), t.before[s], t.next[s]).cost + edge_cost(t.leave[s]);
+    const Piece now = piece(static_cast<StopIndex>(s), t.before[s], t.next[s]);
+    value += now.cost + edge_cost(t.leave[s]);
+    length += now.length;
   }
+  value += length_cost(length);
   for (const EvenZone& zone : even_) value += evenness_of(zone);
   return value;
 }
@@ -145,8 +163,8 @@ double CycleObjective::evenness_difference() const {
     const int zone = demand_[static_cast<std::size_t>(a.stop)].even_zone;
     if (zone < 0) continue;
     const Piece& old = pieces_[static_cast<std::size_t>(a.stop)];
-    moves[count++] = {zone, old.bin, -old.weight};
-    moves[count++] = {zone, a.piece.bin, a.piece.weight};
+    moves[count++] = {zone, old.bin, -old.length};
+    moves[count++] = {zone, a.piece.bin, a.piece.length};
   }
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -173,7 +191,7 @@ double CycleObjective::difference(const LocalChange& change) {
     fresh = {s, t.before[static_cast<std::size_t>(s)], t.next[static_cast<std::size_t>(s)], {}};
     return fresh;
   };
-  difference_ = 0;
+  difference_ = longer_ = 0;
   for (int k = 0; k < change.count; ++k) {
     const Departure& d = change.departures[static_cast<std::size_t>(k)];
     const StopIndex to = tour_.target(d.by);
@@ -184,8 +202,11 @@ double CycleObjective::difference(const LocalChange& change) {
   for (int k = 0; k < affected_count_; ++k) {
     Affected& a = affected_[static_cast<std::size_t>(k)];
     a.piece = piece(a.stop, a.before, a.next);
-    difference_ += a.piece.cost - pieces_[static_cast<std::size_t>(a.stop)].cost;
+    const Piece& old = pieces_[static_cast<std::size_t>(a.stop)];
+    difference_ += a.piece.cost - old.cost;
+    longer_ += a.piece.length - old.length;
   }
+  difference_ += length_cost(length_ + longer_) - length_cost(length_);
   if (!even_.empty()) difference_ += evenness_difference();
   return difference_;
 }
@@ -195,14 +216,15 @@ void CycleObjective::accept() {
     const Affected& a = affected_[static_cast<std::size_t>(k)];
     Piece& old = pieces_[static_cast<std::size_t>(a.stop)];
     const int zone = demand_[static_cast<std::size_t>(a.stop)].even_zone;
-    if (old.bin != a.piece.bin || old.weight != a.piece.weight) {
-      add_mass(zone, old.bin, -old.weight);
-      add_mass(zone, a.piece.bin, a.piece.weight);
+    if (old.bin != a.piece.bin || old.length != a.piece.length) {
+      add_mass(zone, old.bin, -old.length);
+      add_mass(zone, a.piece.bin, a.piece.length);
     }
     old = a.piece;
     update_flaw(a.stop);
   }
   value_ += difference_;
+  length_ += longer_;
 }
 
 }  // namespace unicursal::core

@@ -32,6 +32,8 @@ using DemandAt = std::function<Demand(const Vec2&)>;
 struct ObjectiveWeights {
   double chord = 1;     ///< alignment of chords
   double reward = 0.3;  ///< rad²: what a chord earns per length; at this squared angle it earns nothing
+  double length =
+      0;  ///< mm: as all chords together come near it, more length earns less, then costs; 0: never
   double evenness = 2;  ///< of E_iso · L in isotropic zones
 };
 
@@ -56,9 +58,10 @@ class CycleObjective {
  private:
   static constexpr int bins = 100;
   using Histogram = std::array<double, bins>;
-  struct Piece {  ///< a stop's share
-    double cost = 0, weight = 0;
-    int bin = -1;
+  struct Piece {        ///< a stop's share
+    double cost = 0;    ///< of the angle, mm · rad²
+    double length = 0;  ///< half the chord, mm
+    int bin = -1;       ///< of the histogram; −1 outside isotropic zones
   };
   struct EvenZone {
     Histogram mass{}, potential{};  ///< mm per bin, and its convolution with the kernel
@@ -68,6 +71,7 @@ class CycleObjective {
   Piece piece(StopIndex s, StopIndex before, StopIndex next) const;
   double edge_cost(HalfEdgeIndex h) const { return edge_cost_[static_cast<std::size_t>(h / 2)]; }
   double evenness_of(const EvenZone& zone) const;
+  double length_cost(double length) const;
   void update_flaw(StopIndex s);
   void add_mass(int zone, int bin, double weight);
   double evenness_difference() const;
@@ -79,7 +83,7 @@ class CycleObjective {
   std::vector<Piece> pieces_;      ///< per stop
   std::vector<EvenZone> even_;
   Histogram kernel_{};
-  double value_ = 0, edge_length_ = 0;
+  double value_ = 0, edge_length_ = 0, length_ = 0;
   std::vector<StopIndex> flaws_;
   std::vector<int> flaw_at_;  ///< per stop: where it stands in flaws_, −1 if it does not
   double flawed_above_ = 0;   ///< cost of a stop
@@ -90,7 +94,7 @@ class CycleObjective {
   };
   std::array<Affected, 8> affected_{};
   int affected_count_ = 0;
-  double difference_ = 0;
+  double difference_ = 0, longer_ = 0;
 };
 
 }  // namespace unicursal::core

@@ -17,7 +17,7 @@ namespace unicursal::core {
 struct ShuffleOptions {
   enum class Rule { annealing, algorithm_1 };
   Rule rule = Rule::annealing;
-  int sweeps = 600;       ///< a sweep is one look per stop; Algorithm 1: half of them shuffle, half improve
+  int sweeps = 400;       ///< a sweep is one look per stop; Algorithm 1: half of them shuffle, half improve
   double hot = 0.5;       ///< first temperature, in mean edge lengths times rad² (the objective's unit)
   double cold = 0.01;     ///< last temperature
   double at_flaws = 0.6;  ///< share of looks at stops where the objective is poor

@@ -21,6 +21,7 @@ using Doubles = double __attribute__((vector_size(32)));
 static_assert(Lattice::block_columns == 4 && Lattice::block_rows == 2);
 constexpr Floats square_x{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
 constexpr Floats square_y{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
+constexpr float same_direction = 0.5F;  ///< cosine above which two segments lie in the same direction
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// The nearest point of a segment, per sample.
@@ -31,22 +32,22 @@ struct Foot {
 
 #define UNICURSAL_INLINE inline __attribute__((always_inline))
 
-/// Keeps whichever is nearer, the foot or that on segment `index`, where `allowed`.
-UNICURSAL_INLINE void consider(Foot& foot, const Floats& x, const Floats& y, const TileSegment& s,
-                               std::int32_t index, const Ints& allowed) {
+UNICURSAL_INLINE Foot foot_on(const TileSegment& s, std::int32_t index, const Floats& x, const Floats& y) {
   const Floats zero{}, one = zero + 1.0F;
   const Floats px = x - s.ax, py = y - s.ay;
   Floats t = (px * s.ux + py * s.uy) * s.inverse;
   t = t < zero ? zero : t;
   t = t > one ? one : t;
   const Floats qx = t * s.ux - px, qy = t * s.uy - py;
-  const Floats d = qx * qx + qy * qy;
-  const Ints nearer = (d < foot.distance2) & allowed;
-  foot.distance2 = nearer ? d : foot.distance2;
-  foot.share = nearer ? t : foot.share;
-  foot.x = nearer ? qx : foot.x;
-  foot.y = nearer ? qy : foot.y;
-  foot.owner = nearer ? Ints{} + index : foot.owner;
+  return {qx * qx + qy * qy, t, qx, qy, Ints{} + index};
+}
+
+UNICURSAL_INLINE void take(Foot& best, const Foot& foot, const Ints& where) {
+  best.distance2 = where ? foot.distance2 : best.distance2;
+  best.share = where ? foot.share : best.share;
+  best.x = where ? foot.x : best.x;
+  best.y = where ? foot.y : best.y;
+  best.owner = where ? foot.owner : best.owner;
 }
 
 UNICURSAL_INLINE Foot nowhere() {
@@ -72,16 +73,24 @@ UNICURSAL_INLINE void add(std::array<float, 4>* sums, const Foot& foot, const Fl
   }
 }
 
-/// The nearest of the listed segments that are not the owner's neighbours along the curve.
+/// The nearest of the listed segments that are not the owner's neighbours along the curve and lie in another
+/// direction: more of the owner's own strand comes as near without a border of its own.
 UNICURSAL_INLINE Foot competitor(const TileScan& tile, std::uint32_t begin, std::uint32_t end,
                                  const Floats& x, const Floats& y, const Foot& own) {
   Ints place{};
-  for (std::size_t k = 0; k < Lattice::lanes; ++k) place[k] = own.owner[k] < 0 ? 0 : tile.along[own.owner[k]];
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) {
+    place[k] = own.owner[k] < 0 ? 0 : tile.along[own.owner[k]];
+  }
+  const Floats zero{};
   Foot other = nowhere();
   for (std::uint32_t e = begin; e < end; ++e) {
     const std::int32_t index = tile.entries[e];
     const Ints forth = place - tile.along[index], gap = forth < 0 ? -forth : forth;
-    consider(other, x, y, tile.segments[index], index, (gap > 1) & (gap < tile.around - 1));
+    const Foot foot = foot_on(tile.segments[index], index, x, y);
+    const Floats along = own.x * foot.x + own.y * foot.y;
+    const Ints aside =
+        (along < zero) | (along * along < same_direction * same_direction * own.distance2 * foot.distance2);
+    take(other, foot, (foot.distance2 < other.distance2) & aside & (gap > 1) & (gap < tile.around - 1));
   }
   return other;
 }
@@ -123,7 +132,8 @@ double scan_blocks(const TileScan& tile) {
     Foot own = nowhere();
     for (std::uint32_t e = begin; e < end; ++e) {
       const std::int32_t index = tile.entries[e];
-      consider(own, x, y, tile.segments[index], index, all);
+      const Foot foot = foot_on(tile.segments[index], index, x, y);
+      take(own, foot, foot.distance2 < own.distance2);
     }
     if (begin == end) mass = zero;
     own.owner = mass > zero ? own.owner : all;

@@ -112,19 +112,35 @@ std::vector<OrientationZone> Demands::orientation_zones() const {
   return result;
 }
 
-std::optional<double> Demands::one_direction(const Polygon& piece) const {
-  if (field_.empty()) return std::nullopt;
+Vec2 Demands::mean_direction(const Polygon& piece, double& aligned_share) const {
   Vec2 sum(0, 0);
-  double total = 0;
+  double aligned = 0, total = 0;
   const Lattice lattice =
       sample(piece, std::max(bead_width_, bounds(piece).size().maxCoeff() / samples_across));
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     if (lattice.weight(k) <= 0) continue;
-    sum += lattice.weight(k) * field_.at(lattice.position(k));
+    const Vec2 v = field_.at(lattice.position(k));
+    sum += lattice.weight(k) * v;
+    aligned += lattice.weight(k) * v.norm();
     total += lattice.weight(k);
   }
-  if (!(sum.norm() > one_direction_share * total)) return std::nullopt;
-  return direction(sum);
+  aligned_share = aligned / total;
+  return sum / total;
+}
+
+bool Demands::mostly_aligned(const Polygon& piece) const {
+  if (field_.empty()) return false;
+  double share = 0;
+  mean_direction(piece, share);
+  return share > 0.5;
+}
+
+std::optional<double> Demands::one_direction(const Polygon& piece) const {
+  if (field_.empty()) return std::nullopt;
+  double share = 0;
+  const Vec2 mean = mean_direction(piece, share);
+  if (!(mean.norm() > one_direction_share)) return std::nullopt;
+  return direction(mean);
 }
 
 double principal_axis(const ZoneRegion& region) {

@@ -32,10 +32,13 @@ class Demands {
   /// For fairing: the zones with an orientation objective.
   std::vector<OrientationZone> orientation_zones() const;
 
+  /// Most of the piece is to be aligned.
+  bool mostly_aligned(const Polygon& piece) const;
   /// The direction, rad, that nearly all of the piece is to follow; nothing when directions differ.
   std::optional<double> one_direction(const Polygon& piece) const;
 
  private:
+  Vec2 mean_direction(const Polygon& piece, double& aligned_share) const;
   int material_borders(const Vec2& a, const Vec2& b) const;
 
   const std::vector<Zone>& zones_;

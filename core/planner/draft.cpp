@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "core/curve/clearance.hpp"
@@ -19,19 +20,52 @@
 namespace unicursal::core {
 namespace {
 
-/// d ÷ bead width, measured (tests/bench/spacing): strands that zigzag from node to node at 30° to either
-/// side then lie one bead width apart (d = √3 w); more cells cost time and crowd the strands.
-constexpr double seed_distance_in_widths = 1.75;
-constexpr double fewest_cells = 2.5;  ///< an island of less gets a contour
-constexpr int tries = 8;              ///< with other seeds, before a contour is taken instead
+// All measured over the example jobs (tests/bench/run).
+constexpr double seed_distance_in_widths = 2.05;  ///< d ÷ bead width; more cells cost time and crowd strands
+constexpr double rows_of_nodes_above = 1.86;      ///< d ÷ bead width; below, zigzags of nodes fit better
+constexpr double needle_growth = 1.75;            ///< of the needles' length with d ÷ bead width
+constexpr double longest_needle = 2;              ///< in the paper's lengths
+constexpr double fewest_cells = 2.5;              ///< an island of less gets a contour
+constexpr int tries = 8;                          ///< with other seeds, before a contour is taken instead
 constexpr double least_half_width = 0.15, most_half_width = 0.3;  ///< bead widths, half of what can be passed
 constexpr std::size_t most_pieces = 50;  ///< of materials in one island, to be joined one by one
 constexpr double speck = 0.05;           ///< square bead widths; no curve of its own below that
 constexpr double most_thin = 0.002;      ///< of a piece of one material that its own curve may leave out
 constexpr double nearly_far = 1.0;       ///< bead widths; where fairing for direction gives up
 
-void optimise(Tour& tour, IslandWork& work) {
+/// What a piece of the island asks, as far as seeds and schedules depend on it.
+struct Wishes {
+  bool aligned = false;                 ///< most of it follows directions
+  std::optional<double> one_direction;  ///< rad, where they are all alike
+};
+
+/// Cells grow along the field as much as brings the strands to the asked spacing: with point seeds strands of
+/// zigzags lie d ÷ √3 apart, rows of nodes d ÷ 2, and needles bring them closer. Where the direction is the
+/// same everywhere, a tiling in that direction does better than needles.
+GraphOptions graph_options(const Wishes& wishes, double d, const IslandWork& work) {
+  GraphOptions options;
+  options.seeds.d = d;
+  const double ratio = d / work.width();
+  if (wishes.one_direction) {
+    const bool rows_of_nodes = ratio > rows_of_nodes_above;
+    options.seeds.rows = *wishes.one_direction + (rows_of_nodes ? std::numbers::pi / 6 : 0.0);
+    if (!rows_of_nodes) options.seeds.stretch = std::clamp(ratio / std::numbers::sqrt3, 0.85, 1.2);
+  } else if (wishes.aligned) {
+    const double length = 1 + needle_growth * (ratio - std::numbers::sqrt3);
+    options.needle_length = std::clamp(length, 0.0, longest_needle);
+    if (options.needle_length > 0) options.field = &work.demands.field();
+  }
+  return options;
+}
+
+void optimise(Tour& tour, const FillableRegion& part, const Wishes& wishes, IslandWork& work) {
   ShuffleOptions options = work.settings.shuffle;
+  options.weights.length = area(part.region) / work.width() * (wishes.aligned ? 0.95 : 1.2);
+  if (wishes.aligned) {
+    options.hot = work.settings.aligned_hot;
+    options.cold = work.settings.aligned_cold;
+  }
+  if (wishes.one_direction) options.sweeps *= work.settings.one_direction_sweeps;
   options.another = work.pace.stage();
   const ShuffleReport report = shuffle(
       tour, work.demands.at(), work.demands.edge_cost(work.settings.edge_alignment), options, work.random);
@@ -41,17 +75,18 @@ void optimise(Tour& tour, IslandWork& work) {
 }
 
 std::optional<Draft> cycle_draft(const FillableRegion& part, double d, IslandWork& work) {
+  const Wishes wishes{work.demands.mostly_aligned(part.region), work.demands.one_direction(part.region)};
   for (int attempt = 0; attempt < tries; ++attempt) {
     std::optional<CellGraph> graph;
     {
       const Stopwatch watch(work.plan.graph);
-      graph = make_cell_graph(part.domain, d, work.random);
+      graph = make_cell_graph(part.domain, graph_options(wishes, d, work), work.random);
     }
     if (!graph) continue;
     const Stopwatch watch(work.plan.cycle);
     std::optional<Cycle> cycle = first_cycle(*graph, work.demands.first_run_cost());
     if (!cycle) continue;
-    optimise(cycle->tour, work);
+    optimise(cycle->tour, part, wishes, work);
     Curve curve = drawn(cycle->tour);
     if (sound(curve, part.region, work.width()))
       return Draft{std::move(curve), cycle->split_and_reconnect, cycle->doubled_edges, false};

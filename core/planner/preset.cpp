@@ -18,7 +18,8 @@ Settings paper() {
   s.shuffle.candidates = 2;
   s.shuffle.generations = 3;
   s.shuffle.at_flaws = 0;
-  s.shuffle.weights = {0, 0, 1};
+  s.shuffle.weights = {0, 0, 0, 1};
+  s.one_direction_sweeps = 1;
   s.edge_alignment = 1;
   // (54) with A ÷ L0 = w: 1/50 of a square bead width, for alignment and orientation alike.
   s.fairing.alignment = s.fairing.fine_alignment = 0.02;
