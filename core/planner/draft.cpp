@@ -115,10 +115,12 @@ void fair_draft(Draft& draft, const FillableRegion& part, IslandWork& work) {
   fairing.target_length = area(part.region) / w;
   fairing.hold_length = !part.thin;
   fairing.field = &work.demands.field();
+  fairing.workers = &work.workers;
   fairing.zones = work.demands.orientation_zones();
   fairing.another = work.pace.stage();
-  Curve result = fair(smoothed(draft.curve, part.region, w), part.region, fairing).curve;
-  if (!work.demands.field().empty() && look_for_holes(result, part.region, w).farthest > nearly_far * w) {
+  Curve result = fair(smoothed(draft.curve, part.region, w, &work.workers), part.region, fairing).curve;
+  if (!work.demands.field().empty() &&
+      look_for_holes(result, part.region, w, &work.workers).farthest > nearly_far * w) {
     fairing.field = nullptr;
     fairing.another = work.pace.stage();
     result = fair(result, part.region, fairing).curve;

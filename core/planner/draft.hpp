@@ -5,6 +5,7 @@
 
 #include "core/geometry/random.hpp"
 #include "core/pace.hpp"
+#include "core/parallel.hpp"
 #include "core/planner/demands.hpp"
 #include "core/planner/fillable.hpp"
 #include "core/planner/plan_island.hpp"
@@ -22,6 +23,7 @@ struct IslandWork {
   Random random;
   Pace pace;
   IslandPlan plan;  ///< times and figures gather here
+  Workers workers;
 
   double width() const { return options.bead_width; }
 };
