@@ -226,7 +226,7 @@ void check_random_domains(Random& random, int count) {
 
 TEST_CASE("random domains with needles: the graph's invariants hold") {
   Random random(22);
-  check_random_domains(random, 60);
+  check_random_domains(random, 20);
 }
 
 TEST_CASE("thousands of random domains with needles", "[long]") {
