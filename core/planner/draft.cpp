@@ -24,9 +24,11 @@ namespace {
 constexpr double seed_distance_in_widths = 2.05;  ///< d ÷ bead width; more cells cost time and crowd strands
 constexpr double rows_of_nodes_above = 1.86;      ///< d ÷ bead width; below, zigzags of nodes fit better
 constexpr double needle_growth = 1.75;            ///< of the needles' length with d ÷ bead width
-constexpr double longest_needle = 2;              ///< in the paper's lengths
-constexpr double fewest_cells = 2.5;              ///< an island of less gets a contour
-constexpr int tries = 8;                          ///< with other seeds, before a contour is taken instead
+// Of the asked length, what the chords of a tour may come to: a tour that is too long crowds its strands.
+constexpr double aligned_length = 0.95, free_length = 1.2;
+constexpr double longest_needle = 2;  ///< in the paper's lengths
+constexpr double fewest_cells = 2.5;  ///< an island of less gets a contour
+constexpr int tries = 8;              ///< with other seeds, before a contour is taken instead
 constexpr double least_half_width = 0.15, most_half_width = 0.3;  ///< bead widths, half of what can be passed
 constexpr std::size_t most_pieces = 50;  ///< of materials in one island, to be joined one by one
 constexpr double speck = 0.05;           ///< square bead widths; no curve of its own below that
@@ -60,7 +62,7 @@ GraphOptions graph_options(const Wishes& wishes, double d, const IslandWork& wor
 
 void optimise(Tour& tour, const FillableRegion& part, const Wishes& wishes, IslandWork& work) {
   ShuffleOptions options = work.settings.shuffle;
-  options.weights.length = area(part.region) / work.width() * (wishes.aligned ? 0.95 : 1.2);
+  options.weights.length = area(part.region) / work.width() * (wishes.aligned ? aligned_length : free_length);
   if (wishes.aligned) {
     options.hot = work.settings.aligned_hot;
     options.cold = work.settings.aligned_cold;
