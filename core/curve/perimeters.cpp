@@ -16,38 +16,40 @@ constexpr double least_left = 0.8;       ///< width of what is left to the fill;
 constexpr double level_step = 0.05;      ///< between the distances at which thin places are followed
 constexpr double narrow_share = 3;       ///< level steps: the radius below which centres belong to a level
 constexpr double thin_area = 0.6;        ///< out of reach of a disc one bead in radius: more is no corner
-constexpr double corner_spike = 0.12;    ///< thin and beyond the wide part's ring: less is a corner
+constexpr double corner_spike = 0.02;    ///< of a thin place: less is a corner beside it
+constexpr double hair = 0.02;            ///< half the width of differences that are rounding
 constexpr double contact = 0.02;         ///< how near two areas touch
+constexpr double notch = 0.13;           ///< half the width of notches that are closed
+constexpr double dust = 0.02;            ///< smaller pieces and holes are rounding
 constexpr double pocket = 0.3;  ///< smaller holes of what a ring encloses, without reason, are closed
 constexpr double bend = 0.005;  ///< that a simplified ring may move
-constexpr double longest_segment = 2;
+constexpr double shortest_segment = 0.02, longest_segment = 2;
 constexpr std::size_t fewest_vertices = 8;
 
 Region rounded_corners(const Region& region, double radius, double w) {
   return offset(offset(region, -radius, arc_tolerance * w), radius, arc_tolerance * w);
 }
 
-std::size_t hole_count(const Region& region) {
-  std::size_t count = 0;
-  for (const Polygon& polygon : region) count += polygon.holes.size();
-  return count;
+/// Rounding leaves hairs along edges, which link what is apart.
+Region without_hairs(const Region& difference, double w) {
+  return rounded_corners(difference, hair * w, w);
 }
 
-/// Does a ring half a bead inside the border, `base`, not do?
-bool has_thin_places(const Polygon& region, const Region& base, double w) {
-  if (base.size() != 1 || hole_count(base) != region.holes.size()) return true;
-  const Region thin = subtract({region}, opened({region}, w, arc_tolerance * w));
-  return std::any_of(thin.begin(), thin.end(),
-                     [&](const Polygon& piece) { return area(piece) > thin_area * w * w; });
+/// What a disc of one bead's radius cannot reach, corners aside.
+Region thin_places(const Polygon& region, double w) {
+  Region thin = without_hairs(subtract({region}, opened({region}, w, arc_tolerance * w)), w);
+  std::erase_if(thin, [&](const Polygon& piece) { return area(piece) < thin_area * w * w; });
+  return thin;
 }
 
 /// Discs of half the radius of those that fill the thin places, on the same centres (the medial axis).
-Region half_discs(const Polygon& region, double least_width, double w) {
+Region half_discs(const Region& region, double least_width, double w) {
   const double tolerance = arc_tolerance * w;
   std::vector<Region> levels;
   for (double depth = least_width / 4; depth < w / 2; depth += level_step * w) {
-    const Region centres = offset({region}, -2 * depth, tolerance);
-    const Region narrow = subtract(centres, opened(centres, narrow_share * level_step * w, tolerance));
+    const Region centres = offset(region, -2 * depth, tolerance);
+    const Region narrow =
+        without_hairs(subtract(centres, opened(centres, narrow_share * level_step * w, tolerance)), w);
     levels.push_back(offset(narrow, depth, tolerance));
   }
   std::vector<const Region*> all;
@@ -55,10 +57,12 @@ Region half_discs(const Polygon& region, double least_width, double w) {
   return unite(all);
 }
 
-/// A thin place worth following: a spike that is no mere corner, or a neck between wide places.
-bool worth_following(const Polygon& thin, const Region& base, double w) {
-  if (area(thin) > corner_spike * w * w) return true;
-  return intersect(offset({thin}, contact * w, arc_tolerance * w), base).size() > 1;
+/// Is this a part of a thin place, or what links two wide places? Otherwise it reaches into a corner.
+bool worth_following(const Polygon& discs, const Region& thin, const Region& wide, double w) {
+  if (area(intersect({discs}, thin)) > corner_spike * w * w) return true;
+  const Region grown = offset({discs}, contact * w, arc_tolerance * w);
+  return std::count_if(wide.begin(), wide.end(),
+                       [&](const Polygon& piece) { return !intersect(grown, {piece}).empty(); }) > 1;
 }
 
 Region without_pockets(Region region, const Polygon& border, double w) {
@@ -72,8 +76,26 @@ Region without_pockets(Region region, const Polygon& border, double w) {
   return region;
 }
 
+/// Offsets leave vertices a hair apart, sometimes backwards.
+Ring without_crumbs(const Ring& ring, double least) {
+  Ring result;
+  for (const Vec2& v : ring) {
+    if (result.empty() || (v - result.back()).norm() >= least) result.push_back(v);
+  }
+  while (result.size() > 3 && (result.back() - result.front()).norm() < least) result.pop_back();
+  return result;
+}
+
+Region without_dust(Region region, double w) {
+  const double least = dust * w * w;
+  std::erase_if(region, [&](const Polygon& piece) { return area(piece) < least; });
+  for (Polygon& piece : region)
+    std::erase_if(piece.holes, [&](const Ring& hole) { return -signed_area(hole) < least; });
+  return region;
+}
+
 Curve ring_curve(const Ring& ring, double w) {
-  const Ring few = simplified(ring, bend * w);
+  const Ring few = simplified(without_crumbs(ring, shortest_segment * w), bend * w);
   Curve curve;
   for (std::size_t i = 0; i < few.size(); ++i) {
     const Vec2 &a = few[i], &b = few[i + 1 < few.size() ? i + 1 : 0];
@@ -98,14 +120,15 @@ std::vector<Curve> rings_of(const Region& region, double w) {
 Region within_ring(const Polygon& region, double bead_width, double least_width) {
   const double w = bead_width, tolerance = arc_tolerance * w;
   const Region base = rounded_corners(offset({region}, -w / 2, tolerance), corner_radius * w, w);
-  if (!has_thin_places(region, base, w)) return base;
+  const Region thin = thin_places(region, w);
+  if (thin.empty() && base.size() == 1) return without_pockets(base, region, w);
   Region followed = base;
-  for (const Polygon& thin : subtract(half_discs(region, least_width, w), base)) {
-    if (worth_following(thin, base, w)) followed.push_back(thin);
+  for (const Polygon& discs : subtract(half_discs({region}, least_width, w), base)) {
+    if (worth_following(discs, thin, base, w)) followed.push_back(discs);
   }
   // Grown a little they unite in spite of rounding; notches between them are closed on the way.
-  const Region closed = offset(offset(followed, corner_radius * w, tolerance), -corner_radius * w, tolerance);
-  return without_pockets(rounded_corners(closed, corner_radius * w, w), region, w);
+  const Region closed = offset(offset(followed, notch * w, tolerance), -notch * w, tolerance);
+  return without_dust(without_pockets(rounded_corners(closed, corner_radius * w, w), region, w), w);
 }
 
 Perimeters perimeters(const Polygon& region, int count, double bead_width, double least_width) {
@@ -119,8 +142,8 @@ Perimeters perimeters(const Polygon& region, int count, double bead_width, doubl
       const Region within = within_ring(piece, w, k == 0 ? least_width : least_left * w);
       for (Curve& ring : rings_of(within, w)) rings.push_back(std::move(ring));
       if (within.empty()) continue;
-      const Region next =
-          opened(offset({piece}, -w, arc_tolerance * w), least_left * w / 2, arc_tolerance * w);
+      const Region next = without_dust(
+          opened(offset({piece}, -w, arc_tolerance * w), least_left * w / 2, arc_tolerance * w), w);
       left.insert(left.end(), next.begin(), next.end());
     }
     if (rings.empty()) break;
