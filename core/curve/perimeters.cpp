@@ -14,7 +14,8 @@ constexpr double arc_tolerance = 0.005;  ///< of rounded offsets
 constexpr double corner_radius = 0.1;    ///< of a ring's corners, and a fifth of what two strands keep apart
 constexpr double least_left = 0.8;       ///< width of what is left to the fill; beads widen over the rest
 constexpr double level_step = 0.05;      ///< between the distances at which thin places are followed
-constexpr double narrow_share = 3;       ///< level steps: the radius below which centres belong to a level
+constexpr double narrow_share = 2.5;     ///< level steps: the radius below which centres belong to a level
+constexpr double half_level = 0.025;     ///< between a level's least and mean distance
 constexpr double thin_area = 0.6;        ///< out of reach of a disc one bead in radius: more is no corner
 constexpr double corner_spike = 0.02;    ///< of a thin place: less is a corner beside it
 constexpr double hair = 0.02;            ///< half the width of differences that are rounding
@@ -42,15 +43,24 @@ Region thin_places(const Polygon& region, double w) {
   return thin;
 }
 
+/// Offsets double the vertices of round borders again and again.
+Region lean(Region region, double tolerance) {
+  for (Polygon& polygon : region) {
+    polygon.outer = simplified(polygon.outer, tolerance);
+    for (Ring& hole : polygon.holes) hole = simplified(hole, tolerance);
+  }
+  return region;
+}
+
 /// Discs of half the radius of those that fill the thin places, on the same centres (the medial axis).
 Region half_discs(const Region& region, double least_width, double w) {
   const double tolerance = arc_tolerance * w;
   std::vector<Region> levels;
   for (double depth = least_width / 4; depth < w / 2; depth += level_step * w) {
-    const Region centres = offset(region, -2 * depth, tolerance);
+    const Region centres = lean(offset(region, -2 * depth, tolerance), tolerance);
     const Region narrow =
         without_hairs(subtract(centres, opened(centres, narrow_share * level_step * w, tolerance)), w);
-    levels.push_back(offset(narrow, depth, tolerance));
+    levels.push_back(offset(narrow, depth - half_level * w, tolerance));
   }
   std::vector<const Region*> all;
   for (const Region& level : levels) all.push_back(&level);
