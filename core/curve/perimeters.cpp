@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/curve/resample.hpp"
@@ -16,16 +17,19 @@ constexpr double least_left = 0.8;       ///< width of what is left to the fill;
 constexpr double level_step = 0.05;      ///< between the distances at which thin places are followed
 constexpr double narrow_share = 2.5;     ///< level steps: the radius below which centres belong to a level
 constexpr double half_level = 0.025;     ///< between a level's least and mean distance
-constexpr double thin_area = 0.6;        ///< out of reach of a disc one bead in radius: more is no corner
+constexpr double thin_reach = 0.95;      ///< radius of discs that do not reach into thin places
+constexpr double thin_area = 0.6;        ///< out of their reach: more is no corner
 constexpr double corner_spike = 0.02;    ///< of a thin place: less is a corner beside it
 constexpr double hair = 0.02;            ///< half the width of differences that are rounding
 constexpr double contact = 0.02;         ///< how near two areas touch
 constexpr double notch = 0.13;           ///< half the width of notches that are closed
-constexpr double dust = 0.02;            ///< smaller pieces and holes are rounding
+constexpr double least_inside =
+    1.2;                        ///< area that is worth a curve; its middle is within 1.2 of the last ring
+constexpr double dust = 0.02;   ///< smaller pieces and holes are rounding
 constexpr double pocket = 0.3;  ///< smaller holes of what a ring encloses, without reason, are closed
 constexpr double bend = 0.005;  ///< that a simplified ring may move
-constexpr double shortest_segment = 0.02, longest_segment = 2;
-constexpr std::size_t fewest_vertices = 8;
+constexpr double shortest_segment = 0.02;
+constexpr std::size_t fewest_vertices = 5;
 
 Region rounded_corners(const Region& region, double radius, double w) {
   return offset(offset(region, -radius, arc_tolerance * w), radius, arc_tolerance * w);
@@ -36,9 +40,9 @@ Region without_hairs(const Region& difference, double w) {
   return rounded_corners(difference, hair * w, w);
 }
 
-/// What a disc of one bead's radius cannot reach, corners aside.
+/// What is narrower than two beads, corners aside.
 Region thin_places(const Polygon& region, double w) {
-  Region thin = without_hairs(subtract({region}, opened({region}, w, arc_tolerance * w)), w);
+  Region thin = without_hairs(subtract({region}, opened({region}, thin_reach * w, arc_tolerance * w)), w);
   std::erase_if(thin, [&](const Polygon& piece) { return area(piece) < thin_area * w * w; });
   return thin;
 }
@@ -105,13 +109,7 @@ Region without_dust(Region region, double w) {
 }
 
 Curve ring_curve(const Ring& ring, double w) {
-  const Ring few = simplified(without_crumbs(ring, shortest_segment * w), bend * w);
-  Curve curve;
-  for (std::size_t i = 0; i < few.size(); ++i) {
-    const Vec2 &a = few[i], &b = few[i + 1 < few.size() ? i + 1 : 0];
-    const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / (longest_segment * w))));
-    for (int k = 0; k < pieces; ++k) curve.vertices.push_back(a + static_cast<double>(k) / pieces * (b - a));
-  }
+  Curve curve{simplified(without_crumbs(ring, shortest_segment * w), bend * w)};
   while (curve.size() < fewest_vertices) curve = subdivided(curve);
   return curve;
 }
@@ -154,7 +152,8 @@ Perimeters perimeters(const Polygon& region, int count, double bead_width, doubl
       if (within.empty()) continue;
       const Region next = without_dust(
           opened(offset({piece}, -w, arc_tolerance * w), least_left * w / 2, arc_tolerance * w), w);
-      left.insert(left.end(), next.begin(), next.end());
+      std::copy_if(next.begin(), next.end(), std::back_inserter(left),
+                   [&](const Polygon& rest) { return area(rest) > least_inside * w * w; });
     }
     if (rings.empty()) break;
     result.rings.push_back(std::move(rings));

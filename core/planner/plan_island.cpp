@@ -22,6 +22,7 @@
 #include "core/graph/cell_graph.hpp"
 #include "core/planner/fillable.hpp"
 #include "core/planner/stopwatch.hpp"
+#include "core/planner/with_perimeters.hpp"
 #include "core/planner/zones_along.hpp"
 
 namespace unicursal::core {
@@ -49,6 +50,7 @@ struct Draft {
   Curve curve;
   std::size_t split_and_reconnect = 0, doubled_edges = 0;
   bool faired = false;
+  int perimeters = 0;
 };
 
 double half_width(const PlanOptions& options) {
@@ -238,6 +240,7 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, Work& work) 
   planned.self_intersections = self_intersections(draft.curve);
   planned.outside_segments = segments_outside(draft.curve, BorderIndex(part.region, w));
   planned.faired = draft.faired;
+  planned.perimeters = draft.perimeters;
   planned.split_and_reconnect = draft.split_and_reconnect;
   planned.doubled_edges = draft.doubled_edges;
   const Holes holes = look_for_holes(draft.curve, part.region, w);
@@ -287,7 +290,39 @@ std::optional<Draft> draft_by_material(const FillableRegion& part, Work& work) {
   return sum;
 }
 
+/// Contours and fill in one curve, by material where that works.
+std::optional<Draft> draft_with_perimeters(const FillableRegion& part, bool whole_island, int count,
+                                           Work& work) {
+  Draft sum;
+  const FillRegion fill = [&](const FillableRegion& region) -> std::optional<Curve> {
+    std::optional<Draft> draft = first_draft(region, work);
+    if (draft) fair_draft(*draft, region, work);
+    if (!draft || !draft->faired) return std::nullopt;
+    sum.split_and_reconnect += draft->split_and_reconnect;
+    sum.doubled_edges += draft->doubled_edges;
+    return std::move(draft->curve);
+  };
+  std::vector<std::vector<Polygon>> divisions{{part.region}};
+  if (whole_island && work.island.zones.size() > 1)
+    divisions.insert(divisions.begin(), material_pieces(work.island, work.zones, work.width()));
+  for (const std::vector<Polygon>& pieces : divisions) {
+    if (pieces.empty() || pieces.size() > most_pieces) continue;
+    sum = {};
+    std::optional<Outlined> one =
+        with_perimeters(part.region, pieces, {count, work.width(), half_width(work.options)}, fill);
+    if (!one || !sound(one->curve, part.region, work.width())) continue;
+    sum.curve = std::move(one->curve);
+    sum.faired = true;
+    sum.perimeters = one->perimeters;
+    return sum;
+  }
+  return std::nullopt;
+}
+
 std::optional<Draft> draft_for(const FillableRegion& part, bool whole_island, Work& work) {
+  for (int count = work.options.perimeters; count > 0; count /= 2) {
+    if (std::optional<Draft> draft = draft_with_perimeters(part, whole_island, count, work)) return draft;
+  }
   if (whole_island && work.island.zones.size() > 1) {
     if (std::optional<Draft> draft = draft_by_material(part, work)) return draft;
   }

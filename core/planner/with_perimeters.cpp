@@ -1,8 +1,8 @@
 #include "core/planner/with_perimeters.hpp"
 
+#include <algorithm>
 #include <utility>
 
-#include "core/curve/clearance.hpp"
 #include "core/curve/join.hpp"
 #include "core/curve/perimeters.hpp"
 
@@ -30,6 +30,7 @@ struct Strand {
 struct Share {
   std::vector<Strand> strands;
   Region inside;
+  int depth = 0;  ///< contours laid
 };
 
 void add(Share& share, const Polygon& region, int count, const PerimeterOptions& options) {
@@ -37,6 +38,7 @@ void add(Share& share, const Polygon& region, int count, const PerimeterOptions&
   for (std::size_t k = 0; k < laid.rings.size(); ++k) {
     for (Curve& ring : laid.rings[k]) share.strands.push_back({std::move(ring), 0, k == 0});
   }
+  share.depth = std::max(share.depth, static_cast<int>(laid.rings.size()));
   share.inside.insert(share.inside.end(), laid.inside.begin(), laid.inside.end());
 }
 
@@ -95,19 +97,23 @@ std::optional<Curve> joined_strands(std::vector<Strand> strands, const Polygon& 
 
 }  // namespace
 
-std::optional<Curve> with_perimeters(const Polygon& island, const std::vector<Polygon>& pieces,
-                                     const PerimeterOptions& options, const FillRegion& fill) {
+std::optional<Outlined> with_perimeters(const Polygon& island, const std::vector<Polygon>& pieces,
+                                        const PerimeterOptions& options, const FillRegion& fill) {
   std::vector<Strand> strands;
+  int depth = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     Share share = pieces.size() == 1 ? along_whole_border(island, options)
                                      : along_share_of_outline(pieces[k], island, options);
     if (!fill_inside(share, most_thin * area(pieces[k]), options, fill)) return std::nullopt;
+    depth = std::max(depth, share.depth);
     for (Strand& strand : share.strands) {
       strand.piece = k;
       strands.push_back(std::move(strand));
     }
   }
-  return joined_strands(std::move(strands), island, options.bead_width);
+  std::optional<Curve> curve = joined_strands(std::move(strands), island, options.bead_width);
+  if (!curve) return std::nullopt;
+  return Outlined{std::move(*curve), pieces.size() == 1 ? depth : 2 * depth};
 }
 
 }  // namespace unicursal::core

@@ -24,9 +24,14 @@ struct PerimeterOptions {
   double half_width = 0;  ///< mm, half of the least width that can be laid, as for fillable()
 };
 
+struct Outlined {
+  Curve curve;
+  int perimeters = 0;  ///< contours really laid, where there are most; fewer than asked for when no more fit
+};
+
 /// One closed curve for `island`. `pieces` are its parts of one material each; a single one means all of it.
 /// Nothing where a piece is too thin, cannot be filled, or cannot be joined to the others.
-std::optional<Curve> with_perimeters(const Polygon& island, const std::vector<Polygon>& pieces,
-                                     const PerimeterOptions& options, const FillRegion& fill);
+std::optional<Outlined> with_perimeters(const Polygon& island, const std::vector<Polygon>& pieces,
+                                        const PerimeterOptions& options, const FillRegion& fill);
 
 }  // namespace unicursal::core
