@@ -23,21 +23,22 @@ constexpr double corner_spike = 0.02;    ///< of a thin place: less is a corner 
 constexpr double hair = 0.02;            ///< half the width of differences that are rounding
 constexpr double contact = 0.02;         ///< how near two areas touch
 constexpr double notch = 0.13;           ///< half the width of notches that are closed
-constexpr double least_inside =
-    1.2;                        ///< area that is worth a curve; its middle is within 1.2 of the last ring
-constexpr double dust = 0.02;   ///< smaller pieces and holes are rounding
+constexpr double small_area = 3, small_radius = 0.65;  ///< a piece of less is left to its neighbours
+constexpr double shortest_ring = 2.5;                  ///< a shorter one could not be joined to others
+constexpr double dust = 0.02;                          ///< smaller pieces and holes are rounding
 constexpr double pocket = 0.3;  ///< smaller holes of what a ring encloses, without reason, are closed
 constexpr double bend = 0.005;  ///< that a simplified ring may move
 constexpr double shortest_segment = 0.02;
 constexpr std::size_t fewest_vertices = 5;
 
-Region rounded_corners(const Region& region, double radius, double w) {
+/// Where a disc reaches: rounds corners. Unlike opened() it leaves no hairs where rounding differs.
+Region disc_reach(const Region& region, double radius, double w) {
   return offset(offset(region, -radius, arc_tolerance * w), radius, arc_tolerance * w);
 }
 
 /// Rounding leaves hairs along edges, which link what is apart.
 Region without_hairs(const Region& difference, double w) {
-  return rounded_corners(difference, hair * w, w);
+  return disc_reach(difference, hair * w, w);
 }
 
 /// What is narrower than two beads, corners aside.
@@ -117,6 +118,7 @@ Curve ring_curve(const Ring& ring, double w) {
 std::vector<Curve> rings_of(const Region& region, double w) {
   std::vector<Curve> rings;
   for (const Polygon& polygon : region) {
+    if (perimeter(polygon.outer) < shortest_ring * w) continue;
     rings.push_back(ring_curve(polygon.outer, w));
     for (const Ring& hole : polygon.holes) rings.push_back(ring_curve(hole, w));
   }
@@ -125,9 +127,14 @@ std::vector<Curve> rings_of(const Region& region, double w) {
 
 }  // namespace
 
+bool worth_a_curve(const Polygon& piece, double bead_width) {
+  const double w = bead_width;
+  return area(piece) > small_area * w * w || !offset({piece}, -small_radius * w, arc_tolerance * w).empty();
+}
+
 Region within_ring(const Polygon& region, double bead_width, double least_width) {
   const double w = bead_width, tolerance = arc_tolerance * w;
-  const Region base = rounded_corners(offset({region}, -w / 2, tolerance), corner_radius * w, w);
+  const Region base = disc_reach(offset({region}, -w / 2, tolerance), corner_radius * w, w);
   const Region thin = thin_places(region, w);
   if (thin.empty() && base.size() == 1) return without_pockets(base, region, w);
   Region followed = base;
@@ -136,7 +143,7 @@ Region within_ring(const Polygon& region, double bead_width, double least_width)
   }
   // Grown a little they unite in spite of rounding; notches between them are closed on the way.
   const Region closed = offset(offset(followed, notch * w, tolerance), -notch * w, tolerance);
-  return without_dust(without_pockets(rounded_corners(closed, corner_radius * w, w), region, w), w);
+  return without_dust(without_pockets(disc_reach(closed, corner_radius * w, w), region, w), w);
 }
 
 Perimeters perimeters(const Polygon& region, int count, double bead_width, double least_width) {
@@ -150,10 +157,10 @@ Perimeters perimeters(const Polygon& region, int count, double bead_width, doubl
       const Region within = within_ring(piece, w, k == 0 ? least_width : least_left * w);
       for (Curve& ring : rings_of(within, w)) rings.push_back(std::move(ring));
       if (within.empty()) continue;
-      const Region next = without_dust(
-          opened(offset({piece}, -w, arc_tolerance * w), least_left * w / 2, arc_tolerance * w), w);
+      const Region next =
+          without_dust(disc_reach(offset({piece}, -w, arc_tolerance * w), least_left * w / 2, w), w);
       std::copy_if(next.begin(), next.end(), std::back_inserter(left),
-                   [&](const Polygon& rest) { return area(rest) > least_inside * w * w; });
+                   [&](const Polygon& rest) { return worth_a_curve(rest, w); });
     }
     if (rings.empty()) break;
     result.rings.push_back(std::move(rings));

@@ -25,6 +25,10 @@ struct Perimeters {
 /// disjoint and strictly inside `region`, but for rounding; callers check what they make of them.
 Perimeters perimeters(const Polygon& region, int count, double bead_width, double least_width);
 
+/// Is a piece between strands so large that it needs a curve of its own? All of a smaller one is within 1.15
+/// bead widths of what runs half a bead outside it.
+bool worth_a_curve(const Polygon& piece, double bead_width);
+
 /// The region that one ring round `region` encloses, between its outer and its inner rings.
 Region within_ring(const Polygon& region, double bead_width, double least_width);
 

@@ -48,20 +48,24 @@ Share along_whole_border(const Polygon& island, const PerimeterOptions& options)
   return share;
 }
 
+/// Where a disc reaches; without the hairs that rounding leaves along edges, and which link what is apart.
+Region disc_reach(const Region& region, double radius, double w) {
+  return offset(offset(region, -radius, arc_tolerance * w), radius, arc_tolerance * w);
+}
+
 /// Loops in the part of the piece that lies along the island's outline; where none fits it stays to the fill.
 Share along_share_of_outline(const Polygon& piece, const Polygon& island, const PerimeterOptions& options) {
-  const double w = options.bead_width, tolerance = arc_tolerance * w;
+  const double w = options.bead_width;
   const int loops = (options.count + 1) / 2;
-  Region inner =
-      opened(intersect({piece}, offset({island}, -2 * loops * w, tolerance)), least_inner * w / 2, tolerance);
-  const Region band = offset(offset(subtract({piece}, inner), -hair * w, tolerance), hair * w, tolerance);
+  const Region deep = intersect({piece}, offset({island}, -2 * loops * w, arc_tolerance * w));
+  Region inner = disc_reach(deep, least_inner * w / 2, w);
   Share share;
-  for (const Polygon& part : band) {
+  for (const Polygon& part : disc_reach(subtract({piece}, inner), hair * w, w)) {
     const std::size_t before = share.strands.size();
     add(share, part, loops, options);
     if (share.strands.size() > before) continue;
     share.inside.pop_back();
-    inner = unite(inner, offset({part}, hair * w, tolerance));
+    inner = unite(inner, offset({part}, hair * w, arc_tolerance * w));
   }
   for (const Polygon& rest : intersect(inner, {piece})) share.inside.push_back(rest);
   return share;
@@ -73,7 +77,7 @@ bool fill_inside(Share& share, double most_left_out, const PerimeterOptions& opt
   const double w = options.bead_width;
   double left_out = 0;
   for (const Polygon& region : share.inside) {
-    if (area(region) < dust * w * w) continue;
+    if (share.depth > 0 && !worth_a_curve(region, w)) continue;
     const Fillable parts = fillable(region, w, options.half_width);
     left_out += parts.too_thin;
     for (const FillableRegion& part : parts.regions) {
