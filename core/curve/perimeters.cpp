@@ -48,11 +48,21 @@ Region thin_places(const Polygon& region, double w) {
   return thin;
 }
 
+/// Offsets leave vertices a hair apart, sometimes backwards.
+Ring without_crumbs(const Ring& ring, double least) {
+  Ring result;
+  for (const Vec2& v : ring) {
+    if (result.empty() || (v - result.back()).norm() >= least) result.push_back(v);
+  }
+  while (result.size() > 3 && (result.back() - result.front()).norm() < least) result.pop_back();
+  return result;
+}
+
 /// Offsets double the vertices of round borders again and again.
 Region lean(Region region, double tolerance) {
   for (Polygon& polygon : region) {
-    polygon.outer = simplified(polygon.outer, tolerance);
-    for (Ring& hole : polygon.holes) hole = simplified(hole, tolerance);
+    polygon.outer = simplified(without_crumbs(polygon.outer, tolerance), tolerance);
+    for (Ring& hole : polygon.holes) hole = simplified(without_crumbs(hole, tolerance), tolerance);
   }
   return region;
 }
@@ -89,16 +99,6 @@ Region without_pockets(Region region, const Polygon& border, double w) {
     });
   }
   return region;
-}
-
-/// Offsets leave vertices a hair apart, sometimes backwards.
-Ring without_crumbs(const Ring& ring, double least) {
-  Ring result;
-  for (const Vec2& v : ring) {
-    if (result.empty() || (v - result.back()).norm() >= least) result.push_back(v);
-  }
-  while (result.size() > 3 && (result.back() - result.front()).norm() < least) result.pop_back();
-  return result;
 }
 
 Region without_dust(Region region, double w) {
@@ -157,8 +157,8 @@ Perimeters perimeters(const Polygon& region, int count, double bead_width, doubl
       const Region within = within_ring(piece, w, k == 0 ? least_width : least_left * w);
       for (Curve& ring : rings_of(within, w)) rings.push_back(std::move(ring));
       if (within.empty()) continue;
-      const Region next =
-          without_dust(disc_reach(offset({piece}, -w, arc_tolerance * w), least_left * w / 2, w), w);
+      const Region reached = disc_reach(offset({piece}, -w, arc_tolerance * w), least_left * w / 2, w);
+      const Region next = lean(without_dust(reached, w), arc_tolerance * w);
       std::copy_if(next.begin(), next.end(), std::back_inserter(left),
                    [&](const Polygon& rest) { return worth_a_curve(rest, w); });
     }
