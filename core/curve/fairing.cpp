@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <vector>
 
 #include "core/curve/alignment.hpp"
 #include "core/curve/clearance.hpp"
 #include "core/curve/coverage.hpp"
+#include "core/curve/orientation.hpp"
 #include "core/curve/resample.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/quasi_newton.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 using Field = std::vector<Vec2>;  ///< one vector per vertex
 
 constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle against the island's axes
-constexpr std::size_t memory = 7;                 ///< L-BFGS pairs, as in the paper
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
 constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
@@ -28,57 +28,6 @@ constexpr double border_margin = 0.02;     ///< bead widths; a curve this close 
 constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
-
-double dot(const Field& a, const Field& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
-void add_scaled(Field& a, double factor, const Field& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
-}
-
-/// The L-BFGS direction from remembered steps and gradient changes (Liu and Nocedal 1989).
-class QuasiNewton {
- public:
-  void forget() { pairs_.clear(); }
-  bool empty() const { return pairs_.empty(); }
-
-  void remember(Field step, Field change) {
-    const double curvature = dot(step, change);
-    if (!(curvature > 1e-12 * dot(change, change))) return;
-    if (pairs_.size() == memory) pairs_.pop_front();
-    pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
-  }
-
-  Field direction(const Field& gradient) const {
-    Field q = gradient;
-    std::vector<double> alpha(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {
-      alpha[k] = pairs_[k].inverse * dot(pairs_[k].step, q);
-      add_scaled(q, -alpha[k], pairs_[k].change);
-    }
-    if (!pairs_.empty()) {
-      const Pair& last = pairs_.back();
-      const double scale = 1 / (last.inverse * dot(last.change, last.change));
-      for (Vec2& v : q) v *= scale;
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double beta = pairs_[k].inverse * dot(pairs_[k].change, q);
-      add_scaled(q, alpha[k] - beta, pairs_[k].step);
-    }
-    for (Vec2& v : q) v = -v;
-    return q;
-  }
-
- private:
-  struct Pair {
-    Field step, change;
-    double inverse;
-  };
-  std::deque<Pair> pairs_;
-};
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -185,9 +134,36 @@ class Fairer {
       const double weight = alignment_weight_ * options_.bead_width * options_.bead_width;
       value += weight * alignment_.evaluate(curve, coverage_.owners(), weight, gradient);
     }
+    value += orientation(curve, gradient);
     const double excess = curve.length() - options_.target_length;
     length_with_gradient(curve, multiplier_ + 2 * stiffness_ * excess, gradient);
     return value + multiplier_ * excess + stiffness_ * excess * excess;
+  }
+
+  double orientation(const Curve& curve, Field& gradient) const {
+    double value = 0;
+    for (std::size_t z = 0; z < members_.size(); ++z) {
+      double length = 0;
+      for (std::size_t i = 0; i < curve.size(); ++i) {
+        if (members_[z][i]) length += (curve.vertices[curve.after(i)] - curve.vertices[i]).norm();
+      }
+      const double w = options_.bead_width;
+      const double weight =
+          (options_.zones[z].even ? options_.evenness : -options_.likeness) * length * w * w * w;
+      value += weight * isotropy_with_gradient(curve, members_[z], weight, gradient);
+    }
+    return value;
+  }
+
+  /// A segment belongs to the zone that its middle lies in, and stays with it until the next look.
+  void look_up_zones(const Curve& curve) {
+    members_.assign(options_.zones.size(), std::vector<char>(curve.size(), 0));
+    for (std::size_t z = 0; z < members_.size(); ++z) {
+      for (std::size_t i = 0; i < curve.size(); ++i) {
+        const Vec2 middle = (curve.vertices[i] + curve.vertices[curve.after(i)]) / 2;
+        members_[z][i] = options_.zones[z].contains(turned(middle, -irrational_turn));
+      }
+    }
   }
 
   /// One accepted step along a descent direction; false when none was found.
@@ -224,9 +200,11 @@ class Fairer {
   Curve descend(Curve curve, int iterations) {
     newton_.forget();
     leash_.fasten(curve);
+    look_up_zones(curve);
     Field gradient;
     double value = evaluate(curve, gradient);
     for (int i = 0; i < iterations; ++i) {
+      if (options_.another && !options_.another()) break;
       ++iterations_;
       if (i > 0 && i % multiplier_period == 0) {
         multiplier_ += stiffness_ * (curve.length() - options_.target_length);
@@ -251,6 +229,7 @@ class Fairer {
   Alignment alignment_;
   Leash leash_;
   QuasiNewton newton_;
+  std::vector<std::vector<char>> members_;  ///< per orientation zone and segment
   double multiplier_ = 0, stiffness_ = 0;
   double alignment_weight_ = 0;
   int iterations_ = 0;

@@ -22,6 +22,7 @@ struct Lattice {
 
   std::size_t size() const { return weight.size(); }
   double total_weight() const;
+  Vec2 position(std::size_t k) const { return origin + Vec2(x[k], y[k]); }
 };
 
 /// Precondition: pitch > 0. Throws std::length_error beyond 2^31 squares.

@@ -20,7 +20,7 @@ Curve first_curve(const Polygon& island, double d, std::uint64_t seed) {
   REQUIRE(graph);
   const auto cycle = first_cycle(*graph);
   REQUIRE(cycle);
-  return cycle->curve;
+  return drawn(cycle->tour);
 }
 
 void check_sound(const Curve& curve, const Polygon& island) {
@@ -49,7 +49,7 @@ TEST_CASE("vertices that stay within their freedom cannot make a curve cross its
   Curve curve = first_curve(island, 0.9, 5);
   Random random(8);
   for (int round = 0; round < 200; ++round) {
-    const std::vector<double> free = freedom(curve, BorderIndex(island, 1.0), 0.6);
+    const std::vector<double> free = freedom(curve, BorderIndex(island, 1.0), 0.6, {1e-3, 1e-3});
     for (std::size_t i = 0; i < curve.size(); ++i) {
       const double turn = random.uniform(0, 2 * std::numbers::pi);
       curve.vertices[i] += free[i] * Vec2(std::cos(turn), std::sin(turn));
