@@ -16,6 +16,7 @@
 #include "core/graph/cell_graph.hpp"
 #include "core/planner/measure.hpp"
 #include "core/planner/stopwatch.hpp"
+#include "core/planner/with_perimeters.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -172,6 +173,40 @@ std::optional<Draft> draft_by_material(const FillableRegion& part, IslandWork& w
   return sum;
 }
 
+/// Contours and fill in one curve. `pieces` are the parts of one material each; a single one stands for all.
+std::optional<Draft> draft_with_perimeters(const FillableRegion& part, const std::vector<Polygon>& pieces,
+                                           int count, IslandWork& work) {
+  Draft sum;
+  const FillRegion fill = [&](const FillableRegion& region) -> std::optional<Curve> {
+    std::optional<Draft> draft = first_draft(region, work);
+    if (draft) fair_draft(*draft, region, work);
+    if (!draft || !draft->faired) return std::nullopt;
+    sum.split_and_reconnect += draft->split_and_reconnect;
+    sum.doubled_edges += draft->doubled_edges;
+    return std::move(draft->curve);
+  };
+  std::optional<Outlined> one =
+      with_perimeters(part.region, pieces, {count, work.width(), half_width(work.options)}, fill);
+  if (!one || !sound(one->curve, part.region, work.width())) return std::nullopt;
+  sum.curve = std::move(one->curve);
+  sum.faired = true;
+  sum.perimeters = one->perimeters;
+  return sum;
+}
+
+/// As many contours as can be had: by material, else around all of them, else half as many, down to none.
+std::optional<Draft> draft_with_perimeters(const FillableRegion& part, bool by_material, IslandWork& work) {
+  const std::vector<Polygon> pieces =
+      by_material ? material_pieces(work.island, work.zones, work.width()) : std::vector<Polygon>{};
+  for (int count = work.options.perimeters; count > 0; count /= 2) {
+    if (pieces.size() > 1 && pieces.size() <= most_pieces) {
+      if (std::optional<Draft> found = draft_with_perimeters(part, pieces, count, work)) return found;
+    }
+    if (std::optional<Draft> found = draft_with_perimeters(part, {part.region}, count, work)) return found;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 double half_width(const PlanOptions& options) {
@@ -185,7 +220,9 @@ bool sound(const Curve& curve, const Polygon& region, double bead_width) {
 }
 
 std::optional<Draft> draft(const FillableRegion& part, bool by_material, IslandWork& work) {
-  if (by_material && work.island.zones.size() > 1) {
+  by_material = by_material && work.island.zones.size() > 1;
+  if (std::optional<Draft> found = draft_with_perimeters(part, by_material, work)) return found;
+  if (by_material) {
     if (std::optional<Draft> found = draft_by_material(part, work)) return found;
   }
   std::optional<Draft> found = first_draft(part, work);
