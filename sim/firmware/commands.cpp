@@ -115,7 +115,7 @@ void Firmware::plan(const MoveTarget& target, double e) {
   const PerAxis<double> mm{target.place[0], target.place[1], target.place[2], filament_};
   PerAxis<std::int64_t> steps{};
   for (std::size_t i = 0; i < axes; ++i) steps[i] = to_steps(mm[i], planner_.limits().steps_per_mm[i]);
-  planner_.add(now_, steps, fed, target.speed, mixer_.current());
+  planner_.push({steps, fed, target.speed, mixer_.current()}, now_);
 }
 
 /// What of a move's E is really fed: all, or nothing when that is refused; XY moves all the same.

@@ -45,18 +45,18 @@ void Firmware::advance(double until) {
   for (auto next = next_event(); next && *next <= until; next = next_event()) {
     now_ = std::max(now_, *next);
     if (!planner_.still()) active_at_ = now_;
-    planner_.advance(now_);
+    planner_.advance_to(now_);
     settle();
     tick();
   }
   if (dead()) return;
   now_ = std::max(now_, until);
-  planner_.advance(now_);
+  planner_.advance_to(now_);
 }
 
 std::optional<double> Firmware::next_event() const {
   if (dead()) return std::nullopt;
-  std::optional<double> next = planner_.next_end();
+  std::optional<double> next = planner_.next_event();
   const auto consider = [&next](double time) { next = std::min(next.value_or(time), time); };
   if (running_) consider(busy_at_);
   if (report_interval_ > 0) consider(report_at_);
@@ -224,6 +224,7 @@ void Firmware::wait_for_room(std::function<void()> then) {
 }
 
 void Firmware::wait_until_still(std::function<void()> then) {
+  planner_.stop_is_meant();
   waits_.push_back({Wait::For::stillness, 0, std::move(then), std::nullopt});
 }
 

@@ -24,8 +24,4 @@ void Nozzle::moved(const ExecutedMove& move) {
   }
 }
 
-bool lays_bead(const ExecutedMove& move) {
-  return move.filament > 0 && moves_in_plane(move);
-}
-
 }  // namespace unicursal::sim

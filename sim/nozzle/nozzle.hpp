@@ -39,7 +39,4 @@ class Nozzle : public MoveSink {
   BedSink& bed_;
 };
 
-/// A move that lays a bead: it feeds forward and goes somewhere in the plane.
-bool lays_bead(const ExecutedMove& move);
-
 }  // namespace unicursal::sim

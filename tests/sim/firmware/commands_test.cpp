@@ -29,7 +29,7 @@ TEST_CASE("a move is answered when it is planned: the sixteenth waits for a free
   CHECK(bench.firmware.now() == 0);
   CHECK(bench.send("G1 X16").empty());
   REQUIRE(bench.firmware.blocked());
-  const double first_end = *bench.firmware.planner().next_end();
+  const double first_end = *bench.firmware.planner().next_event();
   bench.firmware.advance(first_end - 1e-6);
   CHECK(bench.replies.empty());
   bench.firmware.advance(first_end);
