@@ -15,8 +15,11 @@
 #include "sim/bed/deposit.hpp"
 #include "sim/firmware/firmware.hpp"
 #include "sim/line/terminal.hpp"
+#include "sim/motion/motion_log.hpp"
+#include "sim/motion/move_sinks.hpp"
 #include "sim/nozzle/feed_log.hpp"
 #include "sim/nozzle/nozzle.hpp"
+#include "sim/raster.hpp"
 #include "sim/report.hpp"
 #include "sim/stop_signals.hpp"
 
@@ -53,6 +56,10 @@ void check(const SimulatorOptions& options) {
   require(positive(options.feeder_steps_per_mm), "the feeders need a positive number of steps per mm");
   require(positive(options.filament_diameter), "the filament needs a positive diameter in mm");
   require(positive(options.pixel), "a picture's pixel needs a positive size in mm");
+  require(options.raster_pixel >= 0.01 && options.raster_pixel <= 1, "a raster's pixel is 0.01 to 1 mm wide");
+  require(options.dead_volume >= 0 && options.dead_volume <= 1000 && options.mixing_volume >= 0 &&
+              options.mixing_volume <= 1000,
+          "the chamber's volumes are 0 to 1000 mm³");
   require(std::isfinite(options.speed) && options.speed >= 0, "the clock's speed is 0 or a positive number");
   require(options.feeders >= 1 && options.feeders <= max_feeders, "a printer has one to six feeders");
 }
@@ -209,17 +216,28 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   std::ofstream report = open_report(options.report);
   std::optional<BeadPictures> pictures;
   if (options.pictures) pictures.emplace(*options.pictures, options.pixel);
-  Deposit deposit(pictures ? &*pictures : nullptr);
-  Nozzle nozzle(options.filament_diameter, deposit);
+  std::optional<RasterWriter> rasters;
+  std::optional<Spread> spread;
+  Deposit deposit({.drawing = pictures ? &*pictures : nullptr});
+  if (options.rasters) {
+    rasters.emplace(*options.rasters);
+    spread.emplace(BedSize{options.bed[0], options.bed[1]}, options.raster_pixel);
+    deposit = Deposit({pictures ? &*pictures : nullptr, &*spread, &*rasters});
+  }
+  Nozzle nozzle(options.filament_diameter,
+                Chamber({options.dead_volume, options.mixing_volume}, options.feeders), deposit);
   FeedLog feed;
-  BothSinks sinks(feed, nozzle);
+  MotionLog motion(nozzle.filament_area());
+  MoveSinks sinks({&feed, &nozzle, &motion});
   Simulation simulation(options, sinks);
 
   ready(simulation.path());
   simulation.run();
+  deposit.finish();
 
   if (options.report) {
-    report << report_json(machine_for(options), simulation.firmware(), feed, deposit) << '\n';
+    report << report_json(machine_for(options), simulation.firmware(), {feed, nozzle, deposit, motion})
+           << '\n';
     report.close();
     if (!report)
       throw std::system_error(EIO, std::generic_category(), "cannot write " + options.report->string());

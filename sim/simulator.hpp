@@ -17,6 +17,10 @@ struct SimulatorOptions {
   std::optional<std::filesystem::path> report;  ///< JSON, written when the simulation ends
   std::optional<std::filesystem::path> pictures;  ///< folder for deposit-NNNN.png, one for each printed layer
   double pixel = 0.1;                             ///< mm per picture pixel
+  std::optional<std::filesystem::path> rasters;   ///< file or pipe for the layers as laid (sim/raster.hpp)
+  double raster_pixel = 0.05;                     ///< mm; coarser on a bed so big that memory asks for it
+  double dead_volume = 2.1;                       ///< mm³ that pass before the first trace of a new mixture
+  double mixing_volume = 4.0;                     ///< mm³ from there to 95 % of it
   std::vector<double> bed = {200, 200, 200};      ///< mm, x y z
   double filament_diameter = 1.75;                ///< mm
   std::vector<double> steps_per_mm = {80, 80, 400};          ///< x y z

@@ -9,8 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "core/picture/image.hpp"
-#include "sim/bed/colours.hpp"
+#include "core/picture/filaments.hpp"
 
 namespace unicursal::sim {
 
@@ -56,7 +55,7 @@ class Pen {
 
   void draw(const Record& bead) {
     if (!waiting_.empty() && (waiting_.back().x1 != bead.x0 || waiting_.back().y1 != bead.y0)) finish_run();
-    stroke(bead, bead.width, darker(bead.colour, border_light));
+    stroke(bead, bead.width, picture::lit(bead.colour, border_light));
     waiting_.push_back(bead);
     ahead_ += length(bead);
     while (ahead_ - length(waiting_.front()) > waiting_.front().width) draw_core();
@@ -131,7 +130,7 @@ void BeadPictures::bead(std::size_t layer, const Bead& bead, double width) {
                       narrow(bead.to.x),
                       narrow(bead.to.y),
                       narrow(std::min(width, widest_drawn)),
-                      colour_of(bead.shares)};
+                      picture::mixed_filaments(bead.shares)};
   if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1) fail(waiting_);
 }
 

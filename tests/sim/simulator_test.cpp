@@ -15,6 +15,7 @@
 
 #include "bench.hpp"
 #include "folder.hpp"
+#include "sim/nozzle/chamber.hpp"
 #include "sim/simulator.hpp"
 
 using namespace unicursal::sim;
@@ -186,7 +187,14 @@ TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite o
   CHECK(report["warnings"].empty());
   REQUIRE(report["layers"].size() == 2);
   CHECK(report["layers"][1]["height"].get<double>() == Approx(0.2));
-  CHECK(report["layers"][0]["moves"] == 40);
+  CHECK(report["layers"][0]["beads"] >= 40);
+  const json& chamber = report["chamber"];
+  const double capacity = Chamber({}, 3).content()[0];
+  for (std::size_t f = 0; f < 3; ++f) {
+    const double left = chamber["content_mm3"][f].get<double>() - capacity;
+    CHECK(chamber["fed_mm3"][f].get<double>() ==
+          Approx(chamber["deposited_mm3"][f].get<double>() + left).epsilon(1e-6));
+  }
   CHECK(report["layers"][1]["travels"] == 1);
   const double asked = 2 * 20 * (0.7484 + 0.0168);
   CHECK(report["extruded_mm"].get<double>() == Approx(asked).epsilon(1e-4));
