@@ -16,6 +16,7 @@
 #include "sim/firmware/firmware.hpp"
 #include "sim/line/terminal.hpp"
 #include "sim/motion/motion_log.hpp"
+#include "sim/motion/motion_picture.hpp"
 #include "sim/motion/move_sinks.hpp"
 #include "sim/nozzle/feed_log.hpp"
 #include "sim/nozzle/nozzle.hpp"
@@ -214,8 +215,11 @@ class Simulation {
 int run_simulator(const SimulatorOptions& options, const std::function<void(const std::string&)>& ready) {
   check(options);
   std::ofstream report = open_report(options.report);
-  std::optional<BeadPictures> pictures;
-  if (options.pictures) pictures.emplace(*options.pictures, options.pixel);
+  std::optional<BeadStore> pictures;
+  if (options.pictures) {
+    clear_pictures(*options.pictures);
+    pictures.emplace(*options.pictures);
+  }
   std::optional<RasterWriter> rasters;
   std::optional<Spread> spread;
   Deposit deposit({.drawing = pictures ? &*pictures : nullptr});
@@ -242,7 +246,11 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
     if (!report)
       throw std::system_error(EIO, std::generic_category(), "cannot write " + options.report->string());
   }
-  if (pictures) pictures->draw();
+  if (pictures) {
+    draw_layers(*pictures, *options.pictures, options.pixel);
+    draw_part(*pictures, *options.pictures);
+    picture::write_png(*options.pictures / "motion.png", draw_motion(motion));
+  }
   return 0;
 }
 

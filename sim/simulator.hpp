@@ -15,8 +15,8 @@ struct SimulatorOptions {
   std::optional<std::filesystem::path> link;    ///< a symbolic link to make to the pseudo-terminal
   double speed = 0;                             ///< printer seconds per real second; 0: as fast as lines come
   std::optional<std::filesystem::path> report;  ///< JSON, written when the simulation ends
-  std::optional<std::filesystem::path> pictures;  ///< folder for deposit-NNNN.png, one for each printed layer
-  double pixel = 0.1;                             ///< mm per picture pixel
+  std::optional<std::filesystem::path> pictures;  ///< folder for deposit-NNNN.png of each layer, part.png, motion.png
+  double pixel = 0.05;                            ///< mm per picture pixel
   std::optional<std::filesystem::path> rasters;   ///< file or pipe for the layers as laid (sim/raster.hpp)
   double raster_pixel = 0.05;                     ///< mm; coarser on a bed so big that memory asks for it
   double dead_volume = 2.1;                       ///< mm³ that pass before the first trace of a new mixture

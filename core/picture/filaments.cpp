@@ -23,12 +23,11 @@ std::uint8_t from_light(double light) {
 }
 
 double absorption(std::uint8_t value) {
-  const double r = std::max(darkest, to_light(value));
-  return (1 - r) * (1 - r) / (2 * r);
+  return -std::log(std::max(darkest, to_light(value)));
 }
 
-std::uint8_t reflected(double absorption_ratio) {
-  return from_light(1 + absorption_ratio - std::sqrt(absorption_ratio * (absorption_ratio + 2)));
+std::uint8_t reflected(double absorbed) {
+  return from_light(std::exp(-absorbed));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What a mixture of filaments looks like. Pigments do not mix like light: dark ones cover light ones. The
-// model is Kubelka and Munk's for each of red, green and blue: an opaque layer of reflectance R has
-// absorption ÷ scattering K/S = (1 − R)² ÷ 2R, and K/S of a mixture is the sum over its parts.
+// model is Beer and Lambert's for translucent plastic: light passes the parts one after the other, so for
+// each of red, green and blue the logarithm of what comes back is the mean of the parts', weighted by their
+// shares.
 #pragma once
 
 #include <array>

@@ -149,11 +149,13 @@ class CommandLine {
     app->add_option("--profile", job_.profile, "bed, filament and accelerations of this printer")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was seen as JSON at the end")->type_name("FILE");
-    app->add_option("--picture", job_.pictures, "write a picture of each layer's deposit into this folder")
+    app->add_option("--picture", job_.pictures, "write pictures of each layer, the part and the motion into this folder")
         ->type_name("DIR");
     app->add_option("--pixel", pixel_, "mm per picture pixel")
         ->check(finite_number(0.01, 10))
         ->type_name("MM");
+    app->add_option("--rasters", rasters_, "write every layer as laid to this file or pipe (sim/raster.hpp)")
+        ->type_name("FILE");
     app->add_flag("--once", once_, "end when a host has used the line and closed it");
   }
 
@@ -171,6 +173,7 @@ class CommandLine {
     command.options.report = path_if(job_.report);
     command.options.pictures = path_if(job_.pictures);
     command.options.pixel = pixel_;
+    command.options.rasters = path_if(rasters_);
     command.options.once = once_;
     return command;
   }
@@ -179,9 +182,9 @@ class CommandLine {
                 "unicursal"};
   JobArguments job_;
   double speed_ = 0;
-  double pixel_ = 0.1;
+  double pixel_ = 0.05;
   std::size_t layer_ = 0, island_ = 0;
-  std::string output_, port_, link_;
+  std::string output_, port_, link_, rasters_;
   std::vector<std::string> outputs_;
   bool once_ = false;
 };

@@ -33,23 +33,33 @@ Comparison compare_with(const nlohmann::json& simulator, const Run& run, const S
 Exit dry_run(const DryRunCommand& command) {
   const PreparedJob prepared = prepare_and_warn(command.job);
   Run run(prepared, "dry-run", command.job.outputs);
+  // Outlives the simulator, whose end is that of the stream it waits for.
+  DepositCheck check(intended_mixtures(run), command.job.outputs.pictures);
   SimulatorProcess simulator(simulator_arguments(command, prepared));
+  run.tell(check);
+  check.watch(simulator.take_rasters());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   check_beginning(prepared, lookahead);
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
   const StreamResult result = stream_with_progress(port, lookahead, run, "dry run");
   if (result.ending == Ending::failed) conclude(run, result, {{"planning", planning_json(lookahead)}});
   const nlohmann::json seen = simulator.finish();
+  check.finish();
+  const MotionFindings motion = motion_findings(seen, prepared.job.flow);
   const Comparison comparison = compare_with(seen, run, result);
-  conclude(
-      run, result,
-      {{"planning", planning_json(lookahead)}, {"simulator", seen}, {"comparison", to_json(comparison)}});
+  conclude(run, result,
+           {{"planning", planning_json(lookahead)},
+            {"simulator", seen},
+            {"comparison", to_json(comparison)},
+            {"laid", check.to_json()},
+            {"motion", to_json(motion)}});
   show(stdout, "{}", summary(run.totals(), lookahead.effort()));
   if (result.ending == Ending::stopped) {
     show(stdout, "stopped by the user\n");
     return Exit::failed;
   }
-  show(stdout, "{}", summary(comparison));
+  show(stdout, "{}{}{}", summary(comparison), summary(motion), summary(check.total()));
+  if (check.problem()) show(stderr, "warning: {}\n", *check.problem());
   return comparison.lines_whole() ? Exit::success : Exit::failed;
 }
 

@@ -13,6 +13,8 @@ void follow(const gcode::Printer& printer, sim::SimulatorOptions& options) {
   options.bed.assign(printer.bed.begin(), printer.bed.end());
   options.filament_diameter = printer.filament_diameter;
   options.max_acceleration.assign(printer.max_acceleration.begin(), printer.max_acceleration.end());
+  options.dead_volume = printer.dead_volume;
+  options.mixing_volume = printer.mixing_volume;
   options.feeders = static_cast<std::size_t>(printer.feeders);
 }
 

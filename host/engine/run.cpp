@@ -18,6 +18,13 @@ nlohmann::json layer_entry(const PlannedLayer& planned, const gcode::PlacedLayer
   return entry;
 }
 
+void move(core::Polygon& polygon, const core::Vec2& offset) {
+  for (core::Vec2& vertex : polygon.outer) vertex += offset;
+  for (core::Ring& hole : polygon.holes) {
+    for (core::Vec2& vertex : hole) vertex += offset;
+  }
+}
+
 }  // namespace
 
 Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& outputs)
@@ -43,6 +50,7 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
   totals_.figures += measure(planned);
   add_layer(totals_.materials, layer, zone_materials_);
   add_prime(totals_.materials, chunk);
+  if (check_ != nullptr) check_->expect(target_of(prepared_, planned));
   if (log_) log_->add(layer_entry(planned, layer, chunk));
   if (pictures_) pictures_->draw(std::move(planned));
   return chunk;
@@ -107,6 +115,29 @@ double peak_memory() {
     return kib / 1024;
   }
   return 0;
+}
+
+TargetLayer target_of(const PreparedJob& prepared, const PlannedLayer& planned) {
+  TargetLayer target;
+  target.index = planned.layer.index;
+  target.top = planned.layer.top - prepared.lowered;
+  target.height = planned.layer.height;
+  for (const core::Island& island : planned.layer.islands) {
+    for (const core::ZoneRegion& region : island.zones) {
+      const auto label = static_cast<RegionLabel>(prepared.part->zones().at(region.zone).material);
+      for (core::Polygon polygon : region.polygons) {
+        move(polygon, prepared.offset);
+        target.zones.push_back({std::move(polygon), label});
+      }
+    }
+  }
+  return target;
+}
+
+std::vector<gcode::Mixture> intended_mixtures(const Run& run) {
+  std::vector<gcode::Mixture> mixtures;
+  for (const MaterialVolume& material : run.totals().materials) mixtures.push_back(material.intended);
+  return mixtures;
 }
 
 CurveStyle curve_style(const PreparedJob& prepared) {

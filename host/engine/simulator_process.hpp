@@ -26,6 +26,9 @@ class SimulatorProcess {
   SimulatorProcess(const SimulatorProcess&) = delete;
   SimulatorProcess& operator=(const SimulatorProcess&) = delete;
 
+  /// The stream of the layers that were laid (sim/raster.hpp). Hands the descriptor over; once.
+  int take_rasters();
+
   /// The pseudo-terminal that the simulated printer listens on.
   const std::string& port() const { return port_; }
 
@@ -41,7 +44,8 @@ class SimulatorProcess {
   std::filesystem::path folder_;  ///< for the report, removed in the end
   std::string port_;
   pid_t child_ = -1;
-  int output_ = -1;  ///< reading end of its standard output
+  int output_ = -1;   ///< reading end of its standard output
+  int rasters_ = -1;  ///< reading end of its rasters
 };
 
 }  // namespace unicursal::host

@@ -50,4 +50,41 @@ std::string summary(const Comparison& comparison) {
   return text;
 }
 
+std::string summary(const DepositFindings& d) {
+  if (d.area <= 0) return "";
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 "laid:      gaps {:.2f} %, overfill {:.2f} % of {:.0f} mm²; height {:.0f} to {:.0f} %\n",
+                 100 * d.gap_fraction(), 100 * d.overfill_fraction(), d.area, 100 * d.fill.percentile(0.05),
+                 100 * d.fill.percentile(0.95));
+  if (d.wrong > 0) {
+    fmt::format_to(
+        out,
+        "mixtures:  {:.1f} mm² ({:.2f} %) nearer to another zone's; half of it within {:.2f} mm of a "
+        "border, 90 % within {:.2f}\n",
+        d.wrong, 100 * d.wrong_fraction(), d.wrong_distance.percentile(0.5),
+        d.wrong_distance.percentile(0.9));
+  }
+  fmt::format_to(out, "           misplaced plastic {:.1f} mm² ({:.2f} %)\n", d.mixture_error,
+                 100 * d.mixture_error / d.area);
+  return text;
+}
+
+std::string summary(const MotionFindings& m) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "motion:    {:.2f} mm/s on average, {} travels of {:.1f} mm in all, {} starvations",
+                 m.mean_speed, m.travels, m.travel, m.starvations);
+  if (m.hasty_stops > 0) fmt::format_to(out, ", {} stops for late moves", m.hasty_stops);
+  fmt::format_to(
+      out, "\nflow:      within 5 % of {:.2f} mm³/s for {:.1f} % of the time ({:.1f} % of the seconds)\n",
+      m.nominal_flow, 100 * m.in_tolerance, 100 * m.seconds_in_tolerance);
+  if (m.in_tolerance < MotionFindings::hold_share && m.holdable_flow > 0) {
+    fmt::format_to(out, "           about {:.2f} mm³/s could be held for {:.0f} % of it\n", m.holdable_flow,
+                   100 * MotionFindings::hold_share);
+  }
+  return text;
+}
+
 }  // namespace unicursal::host

@@ -43,7 +43,7 @@ void Deposit::laid(const Bead& bead) {
   extents_.include(bead.from);
   extents_.include(bead.to);
   last_width_ = layer.height > 0 ? bead.volume / (length * layer.height) : 0;
-  if (takers_.drawing != nullptr) takers_.drawing->bead(layers_.size() - 1, bead, last_width_);
+  if (takers_.drawing != nullptr) takers_.drawing->bead(layers_.size() - 1, layer, bead, last_width_);
   if (takers_.spread != nullptr && layer.height > 0) takers_.spread->lay(bead, last_width_);
 }
 

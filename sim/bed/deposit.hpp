@@ -37,7 +37,7 @@ struct Extents {
 class BeadSink {
  public:
   virtual ~BeadSink() = default;
-  virtual void bead(std::size_t layer, const Bead& bead, double width) = 0;
+  virtual void bead(std::size_t layer, const DepositedLayer& about, const Bead& bead, double width) = 0;
 };
 
 class Deposit : public BedSink {

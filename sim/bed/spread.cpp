@@ -7,7 +7,7 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double most_pixels = 36e6;    // of a bed
+constexpr double most_pixels = 16e6;    // of a bed
 constexpr double margin = 10;           // mm around the bed that the raster covers as well
 constexpr double widest_radius = 3;     // mm; a thicker bead heaps up within it
 constexpr double steps_per_width = 8;   // along a bead

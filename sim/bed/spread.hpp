@@ -9,7 +9,7 @@
 // no pressure, viscosity, die swell or cooling; the layer below counts as flat.
 //
 // Memory: one layer, in tiles that exist where something lies. The pixel is the finest asked for with which
-// the whole bed stays within 36 million pixels. mm, mm³.
+// the whole bed stays within 16 million pixels. mm, mm³.
 #pragma once
 
 #include <cstdint>

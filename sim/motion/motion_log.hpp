@@ -56,6 +56,7 @@ class MotionLog : public MoveSink {
   const std::array<double, Planner::usable_blocks + 1>& fill() const { return fill_; }
   const std::vector<MotionSpan>& spans() const { return spans_; }
   double span_seconds() const { return span_seconds_; }
+  double first_bead() const { return first_; }  ///< when the first span begins
 
  private:
   using Bins = std::map<int, double>;

@@ -124,16 +124,18 @@ struct Pixels {
 TEST_CASE("each layer gives a picture with the bead where it lies; a prime line does not shrink later ones") {
   const Folder folder;
   {
-    BeadPictures pictures(folder.path(), 0.1);
-    Deposit deposit({&pictures});
+    clear_pictures(folder.path());
+    BeadStore store(folder.path());
+    Deposit deposit({&store});
     deposit.laid(bead({10, 10, 0.2}, {30, 10, 0.2}, 20 * 0.2 * 0.5));
     deposit.laid(bead({20, 10, 0.4}, {20, 20, 0.4}, 10 * 0.2 * 0.5));
-    pictures.draw();
+    draw_layers(store, folder.path(), 0.1);
+    draw_part(store, folder.path());
   }
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder.path())) files.push_back(entry.path().filename());
   std::sort(files.begin(), files.end());
-  CHECK(files == std::vector<fs::path>{"deposit-0000.png", "deposit-0001.png"});
+  CHECK(files == std::vector<fs::path>{"deposit-0000.png", "deposit-0001.png", "part.png"});
 
   // The first shows 20 × 10 mm of centre lines, the second only the upright bead of 10 mm, both with a
   // margin.

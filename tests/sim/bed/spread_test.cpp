@@ -146,9 +146,9 @@ TEST_CASE("a new layer begins empty") {
 }
 
 TEST_CASE("the pixel of a big bed is coarser, so that a layer's memory stays bounded") {
-  CHECK(Spread({200, 200}, 0.05).pixel() == 0.05);
+  CHECK(Spread({150, 150}, 0.05).pixel() == 0.05);
   const double coarse = Spread({1000, 1000}, 0.05).pixel();
-  CHECK(1020 * 1020 / (coarse * coarse) <= 36.1e6);
+  CHECK(1020 * 1020 / (coarse * coarse) <= 16.1e6);
 }
 
 TEST_CASE("layers come out of the stream as they went in") {
