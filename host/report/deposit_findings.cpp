@@ -25,7 +25,8 @@ double AreaHistogram::percentile(double part) const {
       return bin_ * (bin + std::clamp((part * total_ - below) / area, 0.0, 1.0));
     below += area;
   }
-  return 0;
+  // Rounding may leave the sum just below the whole.
+  return areas_.empty() ? 0 : bin_ * (areas_.rbegin()->first + 1);
 }
 
 double DepositFindings::fill_deviation() const {

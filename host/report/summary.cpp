@@ -6,6 +6,13 @@
 #include <iterator>
 
 namespace unicursal::host {
+namespace {
+
+std::string counted(std::uint64_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
 
 std::string duration_words(double seconds) {
   if (seconds < 60) return fmt::format("{:.1f} s", seconds);
@@ -74,9 +81,9 @@ std::string summary(const DepositFindings& d) {
 std::string summary(const MotionFindings& m) {
   std::string text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "motion:    {:.2f} mm/s on average, {} travels of {:.1f} mm in all, {} starvations",
-                 m.mean_speed, m.travels, m.travel, m.starvations);
-  if (m.hasty_stops > 0) fmt::format_to(out, ", {} stops for late moves", m.hasty_stops);
+  fmt::format_to(out, "motion:    {:.2f} mm/s on average, {} of {:.1f} mm in all, {}", m.mean_speed,
+                 counted(m.travels, "travel"), m.travel, counted(m.starvations, "starvation"));
+  if (m.hasty_stops > 0) fmt::format_to(out, ", {} for late moves", counted(m.hasty_stops, "stop"));
   fmt::format_to(
       out, "\nflow:      within 5 % of {:.2f} mm³/s for {:.1f} % of the time ({:.1f} % of the seconds)\n",
       m.nominal_flow, 100 * m.in_tolerance, 100 * m.seconds_in_tolerance);
