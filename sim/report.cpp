@@ -24,6 +24,10 @@ json lines(const Firmware& firmware) {
           {"number_errors", counts.number_errors},
           {"resends", counts.resends},
           {"repeated", counts.repeated},
+          {"skipped", counts.skipped},
+          {"unseen_damage", counts.unseen_damage},
+          {"disguised", counts.disguised},
+          {"bytes_while_booting", counts.while_booting},
           {"lost_bytes", firmware.buffer().lost()},
           {"flushed_bytes", firmware.buffer().flushed()},
           {"too_long", firmware.assembler().too_long()},
@@ -117,13 +121,17 @@ json chamber(const Machine& machine, const Outcome& outcome) {
 
 }  // namespace
 
-std::string report_json(const Machine& machine, const Firmware& firmware, const Outcome& outcome) {
+std::string report_json(const Machine& machine, const Printer& printer, const Outcome& outcome) {
+  const Firmware& firmware = printer.firmware();
   const FeedLog& feed = outcome.feed;
   const Deposit& deposit = outcome.deposit;
   const Coordinates& coordinates = firmware.coordinates();
   const json report{{"lines", lines(firmware)},
                     {"executed_lines_in_order", firmware.counts().executed_in_order},
                     {"last_line", firmware.last_line()},
+                    {"personality", firmware.personality().name},
+                    {"faults", printer.faults().counts()},
+                    {"resets", firmware.counts().resets},
                     {"printer_seconds", firmware.now()},
                     {"printing_seconds", deposit.last_end() - deposit.first_start()},
                     {"feeders", feeders(machine, firmware.planner())},

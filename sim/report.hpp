@@ -5,10 +5,10 @@
 #include <string>
 
 #include "sim/bed/deposit.hpp"
-#include "sim/firmware/firmware.hpp"
 #include "sim/motion/motion_log.hpp"
 #include "sim/nozzle/feed_log.hpp"
 #include "sim/nozzle/nozzle.hpp"
+#include "sim/printer.hpp"
 
 namespace unicursal::sim {
 
@@ -20,6 +20,6 @@ struct Outcome {
   const MotionLog& motion;
 };
 
-std::string report_json(const Machine& machine, const Firmware& firmware, const Outcome& outcome);
+std::string report_json(const Machine& machine, const Printer& printer, const Outcome& outcome);
 
 }  // namespace unicursal::sim

@@ -12,7 +12,15 @@
 namespace unicursal::sim {
 
 struct SimulatorOptions {
-  std::optional<std::filesystem::path> link;    ///< a symbolic link to make to the pseudo-terminal
+  std::optional<std::filesystem::path> link;  ///< a symbolic link to make to the pseudo-terminal
+  /// A Unix socket to make: the host says how far printer time goes (sim/lockstep.hpp).
+  std::optional<std::filesystem::path> control;
+  std::string personality = "marlin";  ///< sim/firmware/personality.hpp lists them
+  double baud = 250000;                ///< bits/s; counts only where printer time is real or the host's
+  std::string usb = "cdc";             ///< the chip at the cable's end: none, cdc, ftdi
+  std::vector<std::string> faults;     ///< sim/faults/fault.hpp says how they are written
+  std::optional<std::filesystem::path> fault_file;
+  std::optional<std::uint64_t> seed;            ///< of the faults; 1 unless the file has another
   double speed = 0;                             ///< printer seconds per real second; 0: as fast as lines come
   std::optional<std::filesystem::path> report;  ///< JSON, written when the simulation ends
   std::optional<std::filesystem::path> pictures;  ///< folder for deposit-NNNN.png of each layer, part.png, motion.png
@@ -30,6 +38,12 @@ struct SimulatorOptions {
   std::size_t feeders = 3;
   bool once = false;  ///< end when the host closes the line after having used it
 };
+
+/// Throws std::invalid_argument for options that make no printer, std::system_error for an unreadable file.
+void check(const SimulatorOptions& options);
+
+/// What `faults` may hold, one line for each kind.
+std::string fault_help();
 
 /// Runs until SIGINT/SIGTERM (or, with `once`, until the host hangs up) and writes report and pictures.
 /// `ready` is called once with the path of the pseudo-terminal when a host may open it.

@@ -141,7 +141,7 @@ void Planner::advance_to(double now) {
     Block& block = blocks_.front();
     const double end = block.start + block.speed.seconds();
     if (stuck_ || end > now) return;
-    finish(block, 1);
+    tell(block, 1, end);
     last_end_ = end;
     last_alone_ = block.alone;
     blocks_.pop_front();
@@ -172,24 +172,30 @@ Position Planner::place() const {
   return {mm(axis_x), mm(axis_y), mm(axis_z)};
 }
 
-/// `done`: the part of the block that was carried out, 0…1.
-void Planner::finish(Block& block, double done) {
+/// Tells the sink what it has not had yet of the part `done` of the block (0…1), which is over now.
+void Planner::tell(Block& block, double done, double now) {
+  if (done <= block.told) return;
+  const auto part_of = [](std::int64_t steps, double share) {
+    return static_cast<std::int64_t>(std::trunc(static_cast<double>(steps) * share));
+  };
   ExecutedMove move;
   move.from = place();
-  std::int64_t fed = 0;
+  PerAxis<std::int64_t> steps{};
   for (std::size_t i = 0; i < axes; ++i) {
-    const auto steps = static_cast<std::int64_t>(std::trunc(static_cast<double>(block.steps[i]) * done));
-    executed_[i] += steps;
-    if (i == axis_e) fed = steps;
+    steps[i] = part_of(block.steps[i], done) - part_of(block.steps[i], block.told);
+    executed_[i] += steps[i];
   }
   move.to = place();
   move.mix = block.mix;
-  move.filament = block.filament * done;
-  if (fed != 0) move.feeder_steps = split_.split(fed, block.mix.factors);
+  move.filament = block.filament * (done - block.told);
+  if (steps[axis_e] != 0) move.feeder_steps = split_.split(steps[axis_e], block.mix.factors);
   for (std::size_t i = 0; i < max_feeders; ++i) feeder_steps_[i] += move.feeder_steps[i];
-  move.start = block.start;
-  move.end = block.start + block.speed.seconds() * done;
-  move.speed = block.speed;
+  move.start = block.told > 0 ? block.told_at : block.start;
+  move.end = now;
+  const bool whole = block.told == 0 && done == 1;
+  move.speed = whole ? block.speed : block.speed.part(move.start - block.start, now - block.start);
+  block.told = done;
+  block.told_at = now;
   last_laid_ = lays_bead(move);
   sink_.moved(move);
 }
@@ -198,7 +204,7 @@ void Planner::abort(double now) {
   advance_to(now);
   if (!blocks_.empty() && blocks_.front().started && !stuck_) {
     Block& block = blocks_.front();
-    finish(block, block.speed.distance(now - block.start) / block.speed.length);
+    tell(block, block.done_by(now), now);
   }
   if (!blocks_.empty()) sink_.queue_changed(now, 0);
   blocks_.clear();
@@ -206,6 +212,20 @@ void Planner::abort(double now) {
   planned_ = executed_;
   last_end_ = now;
   stop_meant_ = true;
+}
+
+void Planner::reset(double now) {
+  abort(now);
+  stuck_ = false;
+}
+
+void Planner::remix(const Mix& mix, double now) {
+  advance_to(now);
+  if (stuck_) return;
+  for (Block& block : blocks_) {
+    if (block.started) tell(block, block.done_by(now), now);
+    block.mix = mix;
+  }
 }
 
 void Planner::set_position(const PerAxis<std::int64_t>& steps) {

@@ -75,6 +75,11 @@ class Planner {
 
   /// Stops at once: the running move ends where it is, the others never happen.
   void abort(double now);
+  /// The same, and a mixture of zeros is forgotten: the board has been reset.
+  void reset(double now);
+  /// Another mixture for everything that is still to be done, the rest of the running move included, as in
+  /// firmwares whose mixture is not part of a move.
+  void remix(const Mix& mix, double now);
   /// Says where the machine is without moving. Precondition: still(), or only E is changed.
   void set_position(const PerAxis<std::int64_t>& steps);
 
@@ -94,11 +99,15 @@ class Planner {
     Trapezoid speed;
     double max_entry = 0;
     Mix mix;
-    double start = 0;  ///< when it may start; fixed once it has
+    double told = 0;     ///< the part that the sink knows of already
+    double told_at = 0;  ///< when that was done
+    double start = 0;    ///< when it may start; fixed once it has
     bool started = false;
     bool after_meant_stop = false;
     bool alone = false;  ///< nothing was queued behind it when it started, so it ends at a stand
 
+    /// The part of it that is done by `now`, 0…1.
+    double done_by(double now) const { return speed.distance(now - start) / speed.length; }
     MoveShape shape() const { return {direction, speed.nominal, speed.length}; }
   };
 
@@ -112,7 +121,7 @@ class Planner {
   void look_ahead();
   void start_first();
   void note_stop(const Block& block);
-  void finish(Block& block, double done);
+  void tell(Block& block, double done, double now);
   Position place() const;
 
   MotionLimits limits_;

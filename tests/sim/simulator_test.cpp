@@ -166,7 +166,7 @@ TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite o
   {
     Host host(child.path());
     host.expect("start");
-    host.expect("Marlin 2.1.2");
+    host.expect("Marlin 2.1.2.1");
     host.stream(commands, 0, 36);
     host.write("N37 G1 X50*1\n");
     host.expect("Error:checksum mismatch, Last Line: 36");

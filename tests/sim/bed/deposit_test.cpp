@@ -58,7 +58,7 @@ TEST_CASE("what is laid is what was fed") {
   Nozzle nozzle(1.75, Chamber({}, 3), deposit);
   FeedLog feed;
   MoveSinks sinks({&feed, &nozzle});
-  Firmware firmware({}, sinks, [](std::string_view) {});
+  Firmware firmware({}, personality("marlin"), sinks, [](std::string_view) {});
   const auto send = [&](const std::string& line) {
     firmware.receive(line + "\n");
     while (firmware.blocked()) firmware.advance(*firmware.next_event());
