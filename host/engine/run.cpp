@@ -25,11 +25,18 @@ void move(core::Polygon& polygon, const core::Vec2& offset) {
   }
 }
 
+/// What planning took on this computer, which is another time at every run.
+void forget_times(nlohmann::json& figures) {
+  figures.erase("seconds");
+  figures.erase("cpu_seconds");
+}
+
 }  // namespace
 
 Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& outputs)
     : prepared_(prepared),
       command_(std::move(command)),
+      repeatable_(outputs.repeatable),
       zone_materials_(print_settings(prepared).zone_materials),
       encoder_(prepared.job.profile.printer, print_settings(prepared)),
       start_(encoder_.start()) {
@@ -51,7 +58,11 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
   add_layer(totals_.materials, layer, zone_materials_);
   add_prime(totals_.materials, chunk);
   if (check_ != nullptr) check_->expect(target_of(prepared_, planned));
-  if (log_) log_->add(layer_entry(planned, layer, chunk));
+  if (log_) {
+    nlohmann::json entry = layer_entry(planned, layer, chunk);
+    if (repeatable_) forget_times(entry);
+    log_->add(entry);
+  }
   if (pictures_) pictures_->draw(std::move(planned));
   return chunk;
 }
@@ -96,8 +107,12 @@ void Run::write_report(const nlohmann::json& extra) {
       {"extruded_mm3", totals_.volume},
       {"estimated_print_seconds", totals_.print_seconds},
       {"lines", totals_.lines},
-      {"peak_memory_mib", peak_memory()},
   };
+  if (repeatable_) {
+    forget_times(rest["totals"]);
+  } else {
+    rest["peak_memory_mib"] = peak_memory();
+  }
   rest.update(extra);
   log_->finish(rest);
 }

@@ -27,6 +27,7 @@ namespace unicursal::host {
 struct RunOutputs {
   std::optional<std::filesystem::path> report;    ///< JSON
   std::optional<std::filesystem::path> pictures;  ///< folder
+  bool repeatable = false;  ///< leave out of the report what was measured of this computer
 };
 
 class Run {
@@ -53,6 +54,7 @@ class Run {
 
   const PreparedJob& prepared_;
   std::string command_;
+  bool repeatable_;
   std::vector<std::size_t> zone_materials_;
   gcode::Encoder encoder_;
   gcode::Chunk start_;

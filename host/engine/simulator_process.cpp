@@ -56,9 +56,11 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-SimulatorProcess::SimulatorProcess(const std::vector<std::string>& arguments) : folder_(make_folder()) {
+SimulatorProcess::SimulatorProcess(const std::vector<std::string>& arguments, Time time)
+    : folder_(make_folder()) {
   std::vector<std::string> all = {"unicursal", "simulate", "--once", "--report", report_in(folder_).string()};
   all.insert(all.end(), {"--rasters", fmt::format("/dev/fd/{}", raster_descriptor)});
+  if (time == Time::lockstep) all.insert(all.end(), {"--control", control().string()});
   all.insert(all.end(), arguments.begin(), arguments.end());
   try {
     spawn(all);

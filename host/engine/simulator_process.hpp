@@ -19,9 +19,14 @@ class SimulatorError : public std::runtime_error {
 
 class SimulatorProcess {
  public:
+  enum class Time {
+    own,       ///< the simulator keeps it
+    lockstep,  ///< the host does, through control()
+  };
+
   /// Runs this program's own `simulate --once --report …` with `arguments` added, and waits for its terminal.
   /// Call before starting threads. Throws SimulatorError.
-  explicit SimulatorProcess(const std::vector<std::string>& arguments);
+  SimulatorProcess(const std::vector<std::string>& arguments, Time time);
   ~SimulatorProcess();
   SimulatorProcess(const SimulatorProcess&) = delete;
   SimulatorProcess& operator=(const SimulatorProcess&) = delete;
@@ -31,6 +36,8 @@ class SimulatorProcess {
 
   /// The pseudo-terminal that the simulated printer listens on.
   const std::string& port() const { return port_; }
+  /// Where the simulator is told how far time goes.
+  std::filesystem::path control() const { return folder_ / "clock"; }
 
   /// Waits for the simulator to end, which it does when its line is closed, and reads its report.
   /// Throws SimulatorError.

@@ -104,7 +104,7 @@ TEST_CASE("A dry run prints the whole part on the simulator, and its report says
   CHECK(report["motion"]["starvations"] == 0);
   CHECK(report["motion"]["nominal_flow"] == 3.0);
   CHECK(report["motion"]["mean_speed"].get<double>() > 5);
-  CHECK(report["peak_memory_mib"].get<double>() > 1);
+  CHECK_FALSE(report.contains("peak_memory_mib"));  // it would differ from run to run
   for (const char* name : {"curve-0000.png", "curve-0001.png", "deposit-0000.png", "deposit-0001.png",
                            "gaps-0001.png", "mixtures-0000.png", "part.png", "motion.png"}) {
     INFO(name);
@@ -201,7 +201,9 @@ TEST_CASE("Ctrl-C parks and cools, and the simulator goes with its host") {
   const json report = read_json(shop.path("r.json"));
   CHECK(report["ended"] == "stopped");
   CHECK(report["simulator"]["temperatures"]["nozzle"]["target"] == 0);
-  CHECK(report["simulator"]["last_line"] == report["link"]["lines"]);
+  // A stop while it heats is proved by a query of the link's own.
+  CHECK(report["simulator"]["last_line"] >= report["link"]["lines"]);
+  CHECK(report["simulator"]["executed_lines_in_order"] == true);
   CHECK_FALSE(simulator_runs_on(shop.folder.path().string()));
 }
 
