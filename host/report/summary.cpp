@@ -85,10 +85,10 @@ std::string summary(const MotionFindings& m) {
                  counted(m.travels, "travel"), m.travel, counted(m.starvations, "starvation"));
   if (m.hasty_stops > 0) fmt::format_to(out, ", {} for late moves", counted(m.hasty_stops, "stop"));
   fmt::format_to(
-      out, "\nflow:      within 5 % of {:.2f} mm³/s for {:.1f} % of the time ({:.1f} % of the seconds)\n",
-      m.nominal_flow, 100 * m.in_tolerance, 100 * m.seconds_in_tolerance);
-  if (m.in_tolerance < MotionFindings::hold_share && m.holdable_flow > 0) {
-    fmt::format_to(out, "           about {:.2f} mm³/s could be held for {:.0f} % of it\n", m.holdable_flow,
+      out, "\nflow:      within 5 % of {:.2f} mm³/s in {:.1f} % of the seconds ({:.1f} % of the instants)\n",
+      m.nominal_flow, 100 * m.seconds_in_tolerance, 100 * m.instants_in_tolerance);
+  if (m.seconds_in_tolerance < MotionFindings::hold_share && m.holdable_flow > 0) {
+    fmt::format_to(out, "           about {:.2f} mm³/s could be held in {:.0f} % of them\n", m.holdable_flow,
                    100 * MotionFindings::hold_share);
   }
   return text;

@@ -45,9 +45,9 @@ struct Curves {
 };
 
 struct Laying {
-  double speed = 0;  ///< mean, above the first layer, where the prime line lies
-  double instants = 0, seconds = 0,
-         slow = 0;  ///< shares of the time within 5 %; the flow below which 5 % are
+  double speed = 0;                  ///< mean, above the first layer, where the prime line lies
+  double instants = 0, seconds = 0;  ///< shares of them in which the flow is within 5 %
+  double slow = 0;                   ///< mm³/s: the flow below which 5 % of the seconds are
   host::DepositFindings whole, inner;
 };
 
@@ -174,15 +174,15 @@ Laying lay(const host::PreparedJob& job, const Curves& curves, const Options& op
   laying.speed = length / seconds;
   laying.instants = share_near(log.flows(), settings.flow);
   laying.seconds = share_near(log.second_flows(), settings.flow);
-  laying.slow = slowest_of(log.flows(), 1 - host::MotionFindings::hold_share);
+  laying.slow = slowest_of(log.second_flows(), 1 - host::MotionFindings::hold_share);
   return laying;
 }
 
 void print(const char* encoding, const Laying& l) {
   fmt::print(
-      "  {:10} {:6.2f} mm/s  flow within 5 % {:5.1f} % of the time, {:5.1f} % of seconds; 95 % above "
-      "{:.2f}\n",
-      encoding, l.speed, 100 * l.instants, 100 * l.seconds, l.slow);
+      "  {:10} {:6.2f} mm/s; flow within 5 % in {:.1f} % of the seconds ({:.1f} % of the instants), above "
+      "{:.2f} in 95 %\n",
+      encoding, l.speed, 100 * l.seconds, 100 * l.instants, l.slow);
   fmt::print(
       "             gaps {:.2f} mm² ({:.3f} %), inside {:.2f} mm² ({:.3f} %); overfill {:.3f} %, "
       "height deviation {:.3f}\n",
