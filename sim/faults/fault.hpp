@@ -5,7 +5,7 @@
 //   stall:5@t=60          a minute after power-up the firmware stops reading and answering for 5 s
 //   say://action:pause@command=G28
 //
-// A moment is `t=SECONDS` of printer time, `line=NUMBER` when that numbered line is received, or
+// A moment is `t=SECONDS` of printer time, `line=NUMBER` when that numbered line is first received, or
 // `command=WORD` whenever a line with that command is. A kind that has a chance needs that or a moment (it
 // then strikes at its next occasion, once for every time that the moment comes); every other kind needs a
 // moment. A file holds one fault on each line, blank lines, comments from `#` on, and `seed NUMBER`.

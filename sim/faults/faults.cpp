@@ -95,7 +95,7 @@ bool Faults::received(std::string_view line) {
   const auto number = number_of(line);
   for (Armed& armed : armed_) {
     const Fault& fault = armed.fault;
-    const bool by_line = fault.line && number && *number == *fault.line;
+    const bool by_line = fault.line && number && *number == *fault.line && !std::exchange(armed.past, true);
     const bool by_command = fault.command && is_command(line, *fault.command);
     if (by_line || by_command) arm(armed);
   }
@@ -173,7 +173,7 @@ void Faults::arm(Armed& armed) {
 std::optional<double> Faults::next_time() const {
   std::optional<double> next;
   for (const Armed& armed : armed_) {
-    if (!armed.fault.time || armed.timed_out) continue;
+    if (!armed.fault.time || armed.past) continue;
     next = std::min(next.value_or(*armed.fault.time), *armed.fault.time);
   }
   return next;
@@ -181,8 +181,8 @@ std::optional<double> Faults::next_time() const {
 
 std::vector<Fault> Faults::due(double now) {
   for (Armed& armed : armed_) {
-    if (!armed.fault.time || armed.timed_out || *armed.fault.time > now) continue;
-    armed.timed_out = true;
+    if (!armed.fault.time || armed.past || *armed.fault.time > now) continue;
+    armed.past = true;
     arm(armed);
   }
   return std::exchange(events_, {});

@@ -42,7 +42,7 @@ class Faults {
     Fault fault;
     std::mt19937_64 chance;
     std::uint64_t pending = 0;  ///< moments that have come and not struck yet
-    bool timed_out = false;     ///< its time has come
+    bool past = false;          ///< its time has come, or its line
   };
 
   bool strikes(FaultKind kind);
