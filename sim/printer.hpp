@@ -51,6 +51,7 @@ class Printer {
   void run_down();
 
   const Firmware& firmware() const { return *firmware_; }
+  void watch_commands(Firmware::CommandWatch watch) { firmware_->watch_commands(std::move(watch)); }
   const Faults& faults() const { return faults_; }
 
  private:

@@ -80,12 +80,11 @@ Machine machine_for(const SimulatorOptions& options) {
   return machine;
 }
 
-std::ofstream open_report(const std::optional<std::filesystem::path>& file) {
+std::ofstream open_output(const std::optional<std::filesystem::path>& file) {
   if (!file) return {};
   errno = 0;
   std::ofstream report(*file);
-  if (!report)
-    throw std::system_error(errno, std::generic_category(), "cannot write the report " + file->string());
+  if (!report) throw std::system_error(errno, std::generic_category(), "cannot write " + file->string());
   return report;
 }
 
@@ -116,7 +115,7 @@ void run_session(const SimulatorOptions& options, Printer& printer,
 
 int run_simulator(const SimulatorOptions& options, const std::function<void(const std::string&)>& ready) {
   check(options);
-  std::ofstream report = open_report(options.report);
+  std::ofstream report = open_output(options.report), transcript = open_output(options.transcript);
   std::optional<BeadStore> pictures;
   if (options.pictures) {
     clear_pictures(*options.pictures);
@@ -137,6 +136,8 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   MoveSinks sinks({&feed, &nozzle, &motion});
   Printer printer(machine_for(options), personality(options.personality), wire_for(options),
                   plan_for(options), sinks);
+  if (options.transcript)
+    printer.watch_commands([&](const std::string& command) { transcript << command << '\n'; });
   run_session(options, printer, ready);
   deposit.finish();
 

@@ -20,17 +20,19 @@ struct SimulatorOptions {
   std::string usb = "cdc";             ///< the chip at the cable's end: none, cdc, ftdi
   std::vector<std::string> faults;     ///< sim/faults/fault.hpp says how they are written
   std::optional<std::filesystem::path> fault_file;
-  std::optional<std::uint64_t> seed;            ///< of the faults; 1 unless the file has another
-  double speed = 0;                             ///< printer seconds per real second; 0: as fast as lines come
-  std::optional<std::filesystem::path> report;  ///< JSON, written when the simulation ends
-  std::optional<std::filesystem::path> pictures;  ///< folder for deposit-NNNN.png of each layer, part.png, motion.png
-  double pixel = 0.05;                            ///< mm per picture pixel
-  std::optional<std::filesystem::path> rasters;   ///< file or pipe for the layers as laid (sim/raster.hpp)
-  double raster_pixel = 0.05;                     ///< mm; coarser on a bed so big that memory asks for it
-  double dead_volume = 2.1;                       ///< mm³ that pass before the first trace of a new mixture
-  double mixing_volume = 4.0;                     ///< mm³ from there to 95 % of it
-  std::vector<double> bed = {200, 200, 200};      ///< mm, x y z
-  double filament_diameter = 1.75;                ///< mm
+  std::optional<std::uint64_t> seed;  ///< of the faults; 1 unless the file has another
+  double speed = 0;                   ///< printer seconds per real second; 0: as fast as lines come
+  std::optional<std::filesystem::path> transcript;  ///< every command as it is executed, one on each line
+  std::optional<std::filesystem::path> report;      ///< JSON, written when the simulation ends
+  std::optional<std::filesystem::path>
+      pictures;         ///< folder for deposit-NNNN.png of each layer, part.png, motion.png
+  double pixel = 0.05;  ///< mm per picture pixel
+  std::optional<std::filesystem::path> rasters;  ///< file or pipe for the layers as laid (sim/raster.hpp)
+  double raster_pixel = 0.05;                    ///< mm; coarser on a bed so big that memory asks for it
+  double dead_volume = 2.1;                      ///< mm³ that pass before the first trace of a new mixture
+  double mixing_volume = 4.0;                    ///< mm³ from there to 95 % of it
+  std::vector<double> bed = {200, 200, 200};     ///< mm, x y z
+  double filament_diameter = 1.75;               ///< mm
   std::vector<double> steps_per_mm = {80, 80, 400};          ///< x y z
   double feeder_steps_per_mm = 400;                          ///< steps of one feeder for 1 mm of its filament
   std::vector<double> max_acceleration = {1500, 1500, 100};  ///< mm/s², x y z

@@ -215,6 +215,7 @@ class CommandLine {
         app->add_option("--baud", baud_, "bits/s of the line; the default is the profile's, or 250000")
             ->check(finite_number(300, 1e8))
             ->type_name("RATE");
+    app->add_option("--transcript", transcript_, "write every command as it is executed")->type_name("FILE");
     app->add_option("--control", control_,
                     "make a Unix socket on which the host says how far printer time goes (sim/lockstep.hpp)")
         ->type_name("PATH");
@@ -243,6 +244,7 @@ class CommandLine {
     SimulateCommand command;
     printer_.apply(command.options);
     command.options.control = path_if(control_);
+    command.options.transcript = path_if(transcript_);
     if (baud_given_->count() > 0) command.baud = baud_;
     command.profile = path_if(job_.profile);
     command.options.link = path_if(link_);
@@ -263,7 +265,7 @@ class CommandLine {
   CLI::Option* baud_given_ = nullptr;
   double pixel_ = 0.05;
   std::size_t layer_ = 0, island_ = 0;
-  std::string output_, port_, link_, rasters_, control_;
+  std::string output_, port_, link_, rasters_, control_, transcript_;
   std::vector<std::string> outputs_;
   bool once_ = false;
 };

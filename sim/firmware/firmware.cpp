@@ -253,6 +253,7 @@ void Firmware::start_next() {
   answers_ok_ = true;
   busy_at_ = now_ + busy_interval;
   active_at_ = now_;
+  if (command_watch_) command_watch_(queue_.front().body);
   execute(queue_.front().body);
 }
 

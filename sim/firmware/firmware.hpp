@@ -66,6 +66,8 @@ class Firmware {
   using Reply = std::function<void(std::string_view line)>;
   /// Sees every complete line that comes in; true makes the firmware take it for damaged.
   using LineWatch = std::function<bool(std::string_view line)>;
+  /// Sees every command that is executed, without its number and checksum.
+  using CommandWatch = std::function<void(const std::string& command)>;
 
   Firmware(const Machine& machine, const Personality& personality, MoveSink& sink, Reply reply);
   virtual ~Firmware() = default;
@@ -91,6 +93,7 @@ class Firmware {
 
   // What a fault can do to it
   void watch_lines(LineWatch watch) { watch_ = std::move(watch); }
+  void watch_commands(CommandWatch watch) { command_watch_ = std::move(watch); }
   /// Neither reads nor answers for so long; moves go on.
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
   /// Finds fault with a line that was good: the next one is asked for again.
@@ -228,6 +231,7 @@ class Firmware {
   const Personality personality_;
   Reply reply_;
   LineWatch watch_;
+  CommandWatch command_watch_;
   ReceiveBuffer buffer_;
   LineAssembler assembler_;
   LineCheck check_;
