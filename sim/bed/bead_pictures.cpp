@@ -18,7 +18,8 @@ constexpr double margin = 1;           // mm around the print
 constexpr double longest_side = 4096;  // pixels of a layer's picture
 constexpr double part_side = 1600;     // pixels of the part's picture
 constexpr double finest_part = 16;     // pixels for a mm in it
-constexpr Ink wall{0.32, 0.32};        // the side of a layer
+constexpr Ink wall{0.36, 0.36};        // the side of a layer
+constexpr Ink seam{0.2, 0.2};          // and its foot, so that layers can be told apart
 constexpr Ink top{0.6, 1};
 
 std::size_t pixels(double count, double most) {
@@ -124,8 +125,9 @@ void draw_part(BeadStore& store, const std::filesystem::path& folder) {
     if (beads.empty()) return;
     const StoredLayer& layer = store.layers()[current];
     // The walls, pixel by pixel from below, then the top.
-    for (double below = layer.height * view.scale; below >= 1; --below) {
-      Pen pen(image, view.at(layer.z - below / view.scale), wall);
+    const double foot = layer.height * view.scale;
+    for (double below = foot; below >= 1; --below) {
+      Pen pen(image, view.at(layer.z - below / view.scale), below == foot ? seam : wall);
       for (const StoredBead& bead : beads) pen.draw(bead);
     }
     Pen pen(image, view.at(layer.z), top);

@@ -16,6 +16,7 @@
 #include "bench.hpp"
 #include "folder.hpp"
 #include "sim/nozzle/chamber.hpp"
+#include "sim/raster.hpp"
 #include "sim/simulator.hpp"
 
 using namespace unicursal::sim;
@@ -155,12 +156,27 @@ std::vector<std::string> small_print() {
 
 }  // namespace
 
+namespace {
+
+double volume_of(const RasterFrame& frame, RasterReader& reader) {
+  double volume = 0;
+  std::vector<RasterPixel> row(frame.columns);
+  for (std::uint64_t y = 0; y < frame.rows; ++y) {
+    reader.read_row(row);
+    for (const RasterPixel& pixel : row) volume += pixel.fill * frame.pixel_area() * frame.height;
+  }
+  return volume;
+}
+
+}  // namespace
+
 TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite of a damaged one") {
   const Folder folder;
   SimulatorOptions options;
   options.once = true;
   options.report = folder.path() / "report.json";
   options.pictures = folder.path() / "pictures";
+  options.rasters = folder.path() / "rasters";
   const auto commands = small_print();
   Child child(options);
   {
@@ -204,7 +220,19 @@ TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite o
   const double feeder_3 = report["mixtures"][0]["feeder_steps"][2];
   CHECK(feeder_3 == Approx(asked * 400 / 2).margin(2));
   CHECK(report["printing_seconds"].get<double>() > 2 * 20 * 20 / 25.0);
-  CHECK(fs::exists(*options.pictures / "deposit-0000.png"));
+  for (const char* name : {"deposit-0000.png", "part.png", "motion.png"}) {
+    CHECK(fs::exists(*options.pictures / name));
+  }
+  CHECK(report["motion"]["starvations"] == 0);
+  RasterReader reader(::open(options.rasters->c_str(), O_RDONLY));
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    const auto frame = reader.next();
+    REQUIRE(frame);
+    CHECK(frame->height == Approx(report["layers"][layer]["height"].get<double>()));
+    CHECK(volume_of(*frame, reader) ==
+          Approx(report["layers"][layer]["volume_mm3"].get<double>()).epsilon(1e-6));
+  }
+  CHECK_FALSE(reader.next());
   CHECK(fs::exists(*options.pictures / "deposit-0001.png"));
   CHECK_FALSE(fs::exists(*options.pictures / "deposit-0002.png"));
 }
