@@ -111,12 +111,13 @@ std::optional<Lockstep::Wait> Lockstep::next_wait() {
   if (!message) return std::nullopt;
   std::istringstream words(*message);
   std::string word;
-  std::int64_t until = 0;
-  std::uint64_t bytes = 0;
-  if (!(words >> word >> until >> bytes) || word != "wait" || bytes < heard_) {
+  std::int64_t until = 0, bytes = 0;
+  const bool whole = static_cast<bool>(words >> word >> until >> bytes);
+  if (!whole || word != "wait" || bytes < static_cast<std::int64_t>(heard_)) {
     throw std::runtime_error("the host said \"" + *message + "\" on the control socket, which means nothing");
   }
-  return Wait{until < 0 ? std::numeric_limits<double>::infinity() : static_cast<double>(until) * ns, bytes};
+  constexpr double for_ever = std::numeric_limits<double>::infinity();
+  return Wait{until < 0 ? for_ever : static_cast<double>(until) * ns, static_cast<std::uint64_t>(bytes)};
 }
 
 /// Nothing when the host has closed the socket, or when a signal came.
