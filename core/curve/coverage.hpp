@@ -2,8 +2,10 @@
 // island of the squared distance to the curve, mm⁴, and its gradient per vertex, mm³.
 //
 // Departure from the paper: the diagram of segments is sampled, not constructed; each sample pulls the two
-// ends of its nearest segment as (15), (21) and (22) do in the limit. The value is exact for the lattice
-// while owners stay the same, and so is the gradient (owners change where distances are equal).
+// ends of its nearest segment as (15), (21) and (22) do in the limit. A square that the border between two
+// cells cuts is shared by both, in proportion, which makes five squares per bead width as good as twelve
+// that have one owner each. The gradient is that of the continuous objective; against the sampled value it is
+// right but for terms of second order in the size of a square (tests hold it against differences).
 #pragma once
 
 #include <vector>
@@ -16,8 +18,8 @@ namespace unicursal::core {
 
 class Coverage {
  public:
-  /// Keeps a reference to the lattice. `reach` mm: beyond it owners are approximate (lattice_owners.hpp).
-  Coverage(const Lattice& lattice, double reach);
+  /// Keeps references to the lattice and the workers. `slack` mm: see lattice_owners.hpp.
+  explicit Coverage(const Lattice& lattice, double slack = 0, Workers* workers = nullptr);
 
   /// Returns the value and adds its gradient, times `weight`, to `gradient` (one entry per vertex).
   double evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient);
@@ -26,10 +28,7 @@ class Coverage {
   const LatticeOwners& owners() const { return owners_; }
 
  private:
-  const Lattice& lattice_;
-  double reach_;
   LatticeOwners owners_;
-  std::vector<Segment> segments_;
 };
 
 }  // namespace unicursal::core

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <vector>
 
 #include "core/curve/alignment.hpp"
-#include "core/curve/clearance.hpp"
 #include "core/curve/coverage.hpp"
+#include "core/curve/leash.hpp"
+#include "core/curve/orientation.hpp"
 #include "core/curve/resample.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/quasi_newton.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -18,67 +20,12 @@ namespace {
 using Field = std::vector<Vec2>;  ///< one vector per vertex
 
 constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle against the island's axes
-constexpr std::size_t memory = 7;                 ///< L-BFGS pairs, as in the paper
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
-constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
-constexpr double freedom_in_widths = 1.0;  ///< clearances are not looked for beyond it
+constexpr double slack_in_widths = 0.1;    ///< lists of near segments hold for such moves
 constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
-constexpr double border_margin = 0.02;     ///< bead widths; a curve this close counts as touching
-constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
-
-double dot(const Field& a, const Field& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
-void add_scaled(Field& a, double factor, const Field& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
-}
-
-/// The L-BFGS direction from remembered steps and gradient changes (Liu and Nocedal 1989).
-class QuasiNewton {
- public:
-  void forget() { pairs_.clear(); }
-  bool empty() const { return pairs_.empty(); }
-
-  void remember(Field step, Field change) {
-    const double curvature = dot(step, change);
-    if (!(curvature > 1e-12 * dot(change, change))) return;
-    if (pairs_.size() == memory) pairs_.pop_front();
-    pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
-  }
-
-  Field direction(const Field& gradient) const {
-    Field q = gradient;
-    std::vector<double> alpha(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {
-      alpha[k] = pairs_[k].inverse * dot(pairs_[k].step, q);
-      add_scaled(q, -alpha[k], pairs_[k].change);
-    }
-    if (!pairs_.empty()) {
-      const Pair& last = pairs_.back();
-      const double scale = 1 / (last.inverse * dot(last.change, last.change));
-      for (Vec2& v : q) v *= scale;
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double beta = pairs_[k].inverse * dot(pairs_[k].change, q);
-      add_scaled(q, alpha[k] - beta, pairs_[k].step);
-    }
-    for (Vec2& v : q) v = -v;
-    return q;
-  }
-
- private:
-  struct Pair {
-    Field step, change;
-    double inverse;
-  };
-  std::deque<Pair> pairs_;
-};
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -96,40 +43,6 @@ Polygon turned(Polygon polygon, double angle) {
   return polygon;
 }
 
-/// Where each vertex may be, from the last look at the clearances.
-class Leash {
- public:
-  Leash(const BorderIndex& border, double bead_width) : border_(border), width_(bead_width) {}
-
-  void fasten(const Curve& curve) {
-    anchor_ = curve.vertices;
-    free_ =
-        freedom(curve, border_, freedom_in_widths * width_, {border_margin * width_, self_margin * width_});
-  }
-
-  /// Shortens a move to what is free; returns the largest used share of freedom.
-  double limit(Curve& curve) const {
-    double used = 0;
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-      const Vec2 move = curve.vertices[i] - anchor_[i];
-      const double length = move.norm();
-      if (length > free_[i]) {
-        curve.vertices[i] = anchor_[i] + free_[i] * (1 - 1e-12) / length * move;
-        used = 1;
-      } else if (free_[i] > 0) {
-        used = std::max(used, length / free_[i]);
-      }
-    }
-    return used;
-  }
-
- private:
-  const BorderIndex& border_;
-  double width_;
-  std::vector<Vec2> anchor_;
-  std::vector<double> free_;
-};
-
 class Fairer {
  public:
   Fairer(const Polygon& island, const FairingOptions& options)
@@ -138,8 +51,9 @@ class Fairer {
         area_(area(island)),
         border_(island_, options.bead_width),
         lattice_(sample(island_, pitch(options))),
-        coverage_(lattice_, reach_in_widths * options.bead_width),
-        leash_(border_, options.bead_width) {
+        coverage_(lattice_, slack_in_widths * options.bead_width, options.workers),
+        leash_(border_, options.bead_width, options.workers),
+        newton_(options.workers) {
     alignment_weight_ = options.alignment;
     if (options.field != nullptr) alignment_ = Alignment(lattice_, *options.field, irrational_turn);
     const double w = options.bead_width;
@@ -158,7 +72,7 @@ class Fairer {
       alignment_weight_ = options_.fine_alignment;
       curve = descend(std::move(curve), options_.fine_iterations);
     }
-    curve = thinned(curve, border_, final_spacing * options_.bead_width);
+    curve = thinned(curve, border_, final_spacing * options_.bead_width, options_.workers);
     curve.vertices = turned(std::move(curve.vertices), -irrational_turn);
     return curve;
   }
@@ -170,7 +84,9 @@ class Fairer {
     return options.bead_width / options.samples_per_width;
   }
 
-  Curve spread(const Curve& curve) const { return respaced(curve, border_, 0.75 * options_.bead_width); }
+  Curve spread(const Curve& curve) const {
+    return respaced(curve, border_, 0.75 * options_.bead_width, options_.workers);
+  }
 
   double evaluate(const Curve& curve, Field& gradient) {
     gradient.assign(curve.size(), Vec2(0, 0));
@@ -185,9 +101,36 @@ class Fairer {
       const double weight = alignment_weight_ * options_.bead_width * options_.bead_width;
       value += weight * alignment_.evaluate(curve, coverage_.owners(), weight, gradient);
     }
+    value += orientation(curve, gradient);
     const double excess = curve.length() - options_.target_length;
     length_with_gradient(curve, multiplier_ + 2 * stiffness_ * excess, gradient);
     return value + multiplier_ * excess + stiffness_ * excess * excess;
+  }
+
+  double orientation(const Curve& curve, Field& gradient) const {
+    double value = 0;
+    for (std::size_t z = 0; z < members_.size(); ++z) {
+      double length = 0;
+      for (std::size_t i = 0; i < curve.size(); ++i) {
+        if (members_[z][i]) length += (curve.vertices[curve.after(i)] - curve.vertices[i]).norm();
+      }
+      const double w = options_.bead_width;
+      const double weight =
+          (options_.zones[z].even ? options_.evenness : -options_.likeness) * length * w * w * w;
+      value += weight * isotropy_with_gradient(curve, members_[z], weight, gradient);
+    }
+    return value;
+  }
+
+  /// A segment belongs to the zone that its middle lies in, and stays with it until the next look.
+  void look_up_zones(const Curve& curve) {
+    members_.assign(options_.zones.size(), std::vector<char>(curve.size(), 0));
+    for (std::size_t z = 0; z < members_.size(); ++z) {
+      for (std::size_t i = 0; i < curve.size(); ++i) {
+        const Vec2 middle = (curve.vertices[i] + curve.vertices[curve.after(i)]) / 2;
+        members_[z][i] = options_.zones[z].contains(turned(middle, -irrational_turn));
+      }
+    }
   }
 
   /// One accepted step along a descent direction; false when none was found.
@@ -201,21 +144,21 @@ class Fairer {
     for (int halving = 0; halving < most_halvings; ++halving, scale /= 2) {
       Curve trial = curve;
       for (std::size_t i = 0; i < curve.size(); ++i) trial.vertices[i] += scale * direction[i];
-      const double used = leash_.limit(trial);
+      leash_.limit(trial);
       Field move(curve.size());
       for (std::size_t i = 0; i < curve.size(); ++i) move[i] = trial.vertices[i] - curve.vertices[i];
-      const double slope = dot(gradient, move);
+      const double slope = dot(gradient, move, options_.workers);
       if (slope >= 0) return false;
       Field trial_gradient;
       const double trial_value = evaluate(trial, trial_gradient);
       if (trial_value > value + sufficient_decrease * slope) continue;
       Field change = trial_gradient;
-      add_scaled(change, -1, gradient);
-      newton_.remember(std::move(move), std::move(change));
+      add_scaled(change, -1, gradient, options_.workers);
+      newton_.remember(move, change);
       curve = std::move(trial);
       value = trial_value;
       gradient = std::move(trial_gradient);
-      if (used > 0.5) leash_.fasten(curve);
+      leash_.follow(curve);
       return true;
     }
     return false;
@@ -224,9 +167,11 @@ class Fairer {
   Curve descend(Curve curve, int iterations) {
     newton_.forget();
     leash_.fasten(curve);
+    look_up_zones(curve);
     Field gradient;
     double value = evaluate(curve, gradient);
     for (int i = 0; i < iterations; ++i) {
+      if (options_.another && !options_.another()) break;
       ++iterations_;
       if (i > 0 && i % multiplier_period == 0) {
         multiplier_ += stiffness_ * (curve.length() - options_.target_length);
@@ -251,6 +196,7 @@ class Fairer {
   Alignment alignment_;
   Leash leash_;
   QuasiNewton newton_;
+  std::vector<std::vector<char>> members_;  ///< per orientation zone and segment
   double multiplier_ = 0, stiffness_ = 0;
   double alignment_weight_ = 0;
   int iterations_ = 0;
@@ -258,9 +204,9 @@ class Fairer {
 
 }  // namespace
 
-Curve smoothed(const Curve& curve, const Polygon& island, double bead_width) {
+Curve smoothed(const Curve& curve, const Polygon& island, double bead_width, Workers* workers) {
   const BorderIndex border(island, bead_width);
-  Leash leash(border, bead_width);
+  Leash leash(border, bead_width, workers);
   Curve result = curve;
   for (int pass = 0; pass < 5; ++pass) {
     leash.fasten(result);

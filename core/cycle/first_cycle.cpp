@@ -321,24 +321,54 @@ class CycleCover {
     stops_[static_cast<std::size_t>(b)].links[1] = {a, PlanarGraph::twin(h)};
   }
 
-  bool trace(Cycle& cycle) const {
+  /// Follows the links round; false when that does not visit every stop.
+  bool trace(Cycle& cycle) {
     const auto start =
         std::find_if(stops_.begin(), stops_.end(), [](const Stop& s) { return s.links[1].stop >= 0; });
     if (start == stops_.end()) return false;
     const int first = static_cast<int>(start - stops_.begin());
+    std::vector<int> way;
+    std::vector<HalfEdgeIndex> by;
     int here = first;
     EdgeIndex arrived = PlanarGraph::edge(start->links[1].half_edge);
-    std::size_t visited = 0;
     do {
       const Stop& stop = stops_[static_cast<std::size_t>(here)];
-      cycle.curve.vertices.push_back(stop.position);
       const Link& link = stop.links[PlanarGraph::edge(stop.links[0].half_edge) == arrived ? 1 : 0];
-      graph_.append_bends(link.half_edge, cycle.curve.vertices);
+      way.push_back(here);
+      by.push_back(link.half_edge);
       arrived = PlanarGraph::edge(link.half_edge);
       here = link.stop;
-      ++visited;
-    } while (here != first && visited <= cycle.nodes);
-    return visited == cycle.nodes;
+    } while (here != first && way.size() <= cycle.nodes);
+    if (way.size() != cycle.nodes) return false;
+    make_tour(cycle.tour, way, by);
+    return true;
+  }
+
+  /// Counter-clockwise, whichever way it was traced.
+  void make_tour(Tour& tour, std::vector<int>& way, std::vector<HalfEdgeIndex>& by) {
+    double twice_area = 0;
+    const std::size_t n = way.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      Ring line{stops_[static_cast<std::size_t>(way[k])].position};
+      graph_.append_bends(by[k], line);
+      line.push_back(stops_[static_cast<std::size_t>(way[(k + 1) % n])].position);
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) twice_area += cross(line[i], line[i + 1]);
+    }
+    const bool backwards = twice_area < 0;
+    tour.next.assign(stops_.size(), -1);
+    tour.before.assign(stops_.size(), -1);
+    tour.leave.assign(stops_.size(), -1);
+    tour.free.assign(stops_.size(), 0);
+    for (const Stop& stop : stops_) tour.position.push_back(stop.position);
+    for (std::size_t k = 0; k < n; ++k) {
+      const int from = backwards ? way[(k + 1) % n] : way[k], to = backwards ? way[k] : way[(k + 1) % n];
+      const auto f = static_cast<std::size_t>(from);
+      tour.next[f] = to;
+      tour.before[static_cast<std::size_t>(to)] = from;
+      tour.leave[f] = backwards ? PlanarGraph::twin(by[k]) : by[k];
+      tour.free[f] = f < doubled_node_.size() && !doubled_node_[f];
+    }
+    tour.graph = std::move(graph_);
   }
 
   RefinedGraph graph_;

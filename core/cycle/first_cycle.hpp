@@ -3,26 +3,21 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 
-#include "core/curve/curve.hpp"
+#include "core/cycle/tour.hpp"
 #include "core/graph/cell_graph.hpp"
 
 namespace unicursal::core {
 
 /// One closed walk through every node of the cell graph and every centre that could be reached.
 struct Cycle {
-  Curve curve;                          ///< simple; along the border it follows the border's bends
+  Tour tour;
   std::size_t nodes = 0;                ///< visited, doubled ones twice
   std::size_t unreached_centres = 0;    ///< cells whose sides were all spoken for, or that have no kernel
   std::size_t split_and_reconnect = 0;  ///< paper Table 1
   std::size_t doubled_edges = 0;        ///< paper Table 1
 };
-
-/// What it costs a cycle to run straight from one point to another; may be negative. Where a direction is
-/// asked for, strands along it are cheap. Empty: everything costs the same.
-using RunCost = std::function<double(const Vec2&, const Vec2&)>;
 
 /// Departure from the paper, which starts from any perfect matching and leaves directions to a random search:
 /// with a cost the heaviest perfect matching is left out of the cycle, so that the cycles which remain cover

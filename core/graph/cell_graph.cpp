@@ -6,14 +6,16 @@
 #include <numbers>
 
 #include "core/geometry/border_index.hpp"
-#include "core/graph/seeds.hpp"
-#include "core/graph/voronoi.hpp"
+#include "core/graph/needle_diagram.hpp"
+#include "core/graph/needles.hpp"
 
 namespace unicursal::core {
 namespace {
 
 constexpr int tries = 6;
-constexpr double shake = 1e-3;           ///< of d, how far seeds move before another try
+constexpr int needle_tries = 3;          ///< of them, before plain points are taken
+constexpr int needle_iterations = 30;    ///< 100 make 5 % more edges follow the field
+constexpr double shaking = 1e-3;         ///< of d, how far seeds move before another try
 constexpr double area_tolerance = 1e-6;  ///< relative, cells against domain
 
 /// Where a Voronoi edge passes through the border.
@@ -32,8 +34,8 @@ class Clipper {
 
   std::optional<CellGraph> run(std::vector<std::size_t>& untouched_holes) {
     place_inner_nodes();
-    for (const VoronoiEdge& edge : diagram_.edges) {
-      if (!cut(edge)) return std::nullopt;
+    for (std::size_t e = 0; e < diagram_.edges.size(); ++e) {
+      if (!cut(e)) return std::nullopt;
     }
     if (!connect_inner_nodes() || !walk_borders(untouched_holes)) return std::nullopt;
     link_half_edges();
@@ -93,41 +95,57 @@ class Clipper {
     return found;
   }
 
-  /// Keeps the pieces of a Voronoi edge that lie inside. False when ends and crossings contradict each other.
-  bool cut(const VoronoiEdge& edge) {
-    const auto number = static_cast<std::size_t>(&edge - diagram_.edges.data());
-    const Vec2& p = diagram_.vertices[static_cast<std::size_t>(edge.from)].position;
-    const Vec2& q = diagram_.vertices[static_cast<std::size_t>(edge.to)].position;
-    NodeIndex open = node_of_[static_cast<std::size_t>(edge.from)];
-    bool inside = open >= 0, first = true;
-    for (Crossing& crossing : crossings(p, q)) {
-      if (crossing.leaving != inside) return false;
-      const BorderEdge& border = border_.edges()[crossing.border_edge];
-      crossing.node = add_node(border.a + crossing.along_border * (border.b - border.a));
-      crossings_.push_back(crossing);
-      if (inside) {
-        const HalfEdgeIndex h = add_edge(open, crossing.node, {});
-        if (first)
-          half_of_[number][0] = h;
-        else
-          spokes_[static_cast<std::size_t>(open)][1] = h;
-        spokes_[static_cast<std::size_t>(crossing.node)][1] = PlanarGraph::twin(h);
-      } else {
-        open = crossing.node;
-      }
-      inside = !inside;
-      first = false;
-    }
-    const NodeIndex end = node_of_[static_cast<std::size_t>(edge.to)];
-    if (inside != (end >= 0)) return false;
+  /// The stretch of a Voronoi edge inside, from the node where it begins to the one where it ends.
+  struct Stretch {
+    std::size_t voronoi_edge = 0;
+    NodeIndex begin = -1;
+    bool at_start = true;  ///< it begins where the Voronoi edge does
+    Ring bends;
+  };
+
+  HalfEdgeIndex add_stretch(Stretch& stretch, NodeIndex end) {
+    const HalfEdgeIndex h = add_edge(stretch.begin, end, std::move(stretch.bends));
+    if (stretch.at_start)
+      half_of_[stretch.voronoi_edge][0] = h;
+    else
+      spokes_[static_cast<std::size_t>(stretch.begin)][1] = h;
+    return h;
+  }
+
+  /// Follows a Voronoi edge over the border: ends the stretch inside, or begins one. False when the crossing
+  /// contradicts what came before.
+  bool cross_border(Crossing& crossing, Stretch& stretch) {
+    const bool inside = stretch.begin >= 0;
+    if (crossing.leaving != inside) return false;
+    const BorderEdge& border = border_.edges()[crossing.border_edge];
+    crossing.node = add_node(border.a + crossing.along_border * (border.b - border.a));
+    crossings_.push_back(crossing);
     if (inside) {
-      const HalfEdgeIndex h = add_edge(open, end, {});
-      if (first)
-        half_of_[number][0] = h;
-      else
-        spokes_[static_cast<std::size_t>(open)][1] = h;
-      half_of_[number][1] = PlanarGraph::twin(h);
+      const HalfEdgeIndex h = add_stretch(stretch, crossing.node);
+      spokes_[static_cast<std::size_t>(crossing.node)][1] = PlanarGraph::twin(h);
     }
+    stretch = {stretch.voronoi_edge, inside ? -1 : crossing.node, false, {}};
+    return true;
+  }
+
+  /// Keeps the pieces of a Voronoi edge that lie inside. False when ends and crossings contradict each other.
+  bool cut(std::size_t number) {
+    const VoronoiEdge& edge = diagram_.edges[number];
+    const NodeIndex end = node_of_[static_cast<std::size_t>(edge.to)];
+    Stretch stretch{number, node_of_[static_cast<std::size_t>(edge.from)], true, {}};
+    Vec2 here = diagram_.vertices[static_cast<std::size_t>(edge.from)].position;
+    for (std::size_t piece = 0; piece <= edge.via.size(); ++piece) {
+      const bool last = piece == edge.via.size();
+      const Vec2& there =
+          last ? diagram_.vertices[static_cast<std::size_t>(edge.to)].position : edge.via[piece];
+      for (Crossing& crossing : crossings(here, there)) {
+        if (!cross_border(crossing, stretch)) return false;
+      }
+      if (!last && stretch.begin >= 0) stretch.bends.push_back(there);
+      here = there;
+    }
+    if ((stretch.begin >= 0) != (end >= 0)) return false;
+    if (end >= 0) half_of_[number][1] = PlanarGraph::twin(add_stretch(stretch, end));
     return true;
   }
 
@@ -250,27 +268,46 @@ void add_seed_beyond(const Ring& hole, const Polygon& domain, std::vector<Vec2>&
   }
 }
 
+/// Moves every seed a little, out of what may be degenerate.
+void shake(std::vector<Vec2>& seeds, const Polygon& domain, double d, Random& random) {
+  for (Vec2& seed : seeds) {
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
+    const Vec2 moved = seed + shaking * d * random.uniform() * Vec2(std::cos(turn), std::sin(turn));
+    if (contains(domain, moved)) seed = moved;
+  }
+}
+
 }  // namespace
 
-std::optional<CellGraph> clip_to_domain(const std::vector<Vec2>& seeds, const Polygon& domain,
+std::optional<CellGraph> clip_to_domain(const Voronoi& diagram, const Polygon& domain,
                                         std::vector<std::size_t>& untouched_holes) {
   untouched_holes.clear();
-  const Voronoi diagram = voronoi(seeds, bounds(domain));
   return Clipper(diagram, domain).run(untouched_holes);
 }
 
-std::optional<CellGraph> make_cell_graph(const Polygon& domain, double d, Random& random) {
-  std::vector<Vec2> seeds = place_seeds(domain, d, random);
+std::optional<CellGraph> clip_to_domain(const std::vector<Vec2>& seeds, const Polygon& domain,
+                                        std::vector<std::size_t>& untouched_holes) {
+  return clip_to_domain(voronoi(seeds, bounds(domain)), domain, untouched_holes);
+}
+
+std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptions& options, Random& random) {
+  const double d = options.seeds.d;
+  std::vector<Vec2> seeds = place_seeds(domain, options.seeds, random);
+  std::optional<NeedleTessellation> tessellation;
+  if (options.field != nullptr && !options.field->empty()) {
+    tessellation.emplace(domain, *options.field, d, options.needle_length);
+    tessellation->relax(seeds, needle_iterations);
+  }
   for (int attempt = 0; attempt < tries; ++attempt) {
     std::vector<std::size_t> untouched;
-    if (std::optional<CellGraph> graph = clip_to_domain(seeds, domain, untouched)) return graph;
-    if (untouched.empty() && attempt + 2 == tries) seeds = place_seeds(domain, d, random);
+    std::optional<Voronoi> diagram;
+    if (tessellation && attempt < needle_tries)
+      diagram = needle_diagram(tessellation->needles(seeds), bounds(domain));
+    if (!diagram) diagram = voronoi(seeds, bounds(domain));
+    if (std::optional<CellGraph> graph = clip_to_domain(*diagram, domain, untouched)) return graph;
+    if (untouched.empty() && attempt + 2 == tries) seeds = place_seeds(domain, options.seeds, random);
     for (const std::size_t hole : untouched) add_seed_beyond(domain.holes[hole], domain, seeds);
-    for (Vec2& seed : seeds) {
-      const double turn = random.uniform(0, 2 * std::numbers::pi);
-      const Vec2 moved = seed + shake * d * random.uniform() * Vec2(std::cos(turn), std::sin(turn));
-      if (contains(domain, moved)) seed = moved;
-    }
+    shake(seeds, domain, d, random);
   }
   return std::nullopt;
 }

@@ -15,13 +15,16 @@ constexpr double samples_per_distance = 5;      ///< lattice squares per d
 constexpr double farthest_without_seed = 0.75;  ///< of d
 constexpr int relaxation_steps = 12;
 
-std::vector<Vec2> triangular_tiling(const Polygon& domain, double d, Random& random) {
+std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& options, Random& random) {
+  const double d = options.d;
   const Box box = bounds(domain);
-  const double angle = random.uniform(0, std::numbers::pi / 3);
-  const Vec2 u = d * Vec2(std::cos(angle), std::sin(angle));
-  const Vec2 v = d * Vec2(std::cos(angle + std::numbers::pi / 3), std::sin(angle + std::numbers::pi / 3));
+  const double any = random.uniform(0, std::numbers::pi / 3), angle = options.rows.value_or(any);
+  const double along = d * std::sqrt(options.stretch), across = d / std::sqrt(options.stretch);
+  const Vec2 row(std::cos(angle), std::sin(angle));
+  const Vec2 u = along * row, v = along / 2 * row + across * std::sqrt(3) / 2 * perpendicular(row);
   const Vec2 origin = box.center() + random.uniform() * u + random.uniform() * v;
-  const auto reach = static_cast<int>(std::ceil(box.size().norm() / d / std::sqrt(3.0) * 1.2)) + 1;
+  const double closest = std::min(along, across);
+  const auto reach = static_cast<int>(std::ceil(box.size().norm() / closest / std::sqrt(3.0) * 1.2)) + 1;
   const BorderIndex border(domain, d);
   std::vector<Vec2> seeds;
   for (int i = -reach; i <= reach; ++i) {
@@ -35,35 +38,38 @@ std::vector<Vec2> triangular_tiling(const Polygon& domain, double d, Random& ran
   return seeds;
 }
 
-std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
-  std::vector<Segment> points;
-  points.reserve(seeds.size());
-  for (const Vec2& seed : seeds) points.push_back({seed, seed});
-  return points;
-}
-
-Vec2 position(const Lattice& lattice, std::size_t k) {
-  return lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
-}
-
-/// Seeds for what is too far from all others, by visiting the far samples in order of distance.
-void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, double d) {
-  if (seeds.empty()) {
-    const auto heaviest = std::max_element(lattice.weight.begin(), lattice.weight.end());
-    seeds.push_back(position(lattice, static_cast<std::size_t>(heaviest - lattice.weight.begin())));
+/// Of those inside; of all when none is.
+Vec2 heaviest_sample(const Lattice& lattice, const BorderIndex& border) {
+  std::size_t best = 0;
+  bool best_inside = false;
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    const bool inside = lattice.weight(k) > 0 && border.contains(lattice.position(k));
+    if (inside == best_inside ? lattice.weight(k) > lattice.weight(best) : inside) {
+      best = k;
+      best_inside = inside;
+    }
   }
-  owners.assign(as_points(seeds), d);
+  return lattice.position(best);
+}
+
+/// Seeds for what is too far from all others, by visiting the far samples in order of distance. A sample that
+/// stands for the surroundings of a small hole may lie in it, and then makes no seed.
+void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners,
+               const BorderIndex& border, double d) {
+  if (seeds.empty()) seeds.push_back(heaviest_sample(lattice, border));
+  owners.assign(as_points(seeds));
   const double limit2 = std::pow(farthest_without_seed * d, 2);
   std::vector<std::size_t> far;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] > 0 && owners.distance2(k) > limit2) far.push_back(k);
+    if (lattice.weight(k) > 0 && owners.distance2(k) > limit2 && border.contains(lattice.position(k)))
+      far.push_back(k);
   }
   std::sort(far.begin(), far.end(), [&](std::size_t a, std::size_t b) {
     return owners.distance2(a) != owners.distance2(b) ? owners.distance2(a) > owners.distance2(b) : a < b;
   });
   const std::size_t old = seeds.size();
   for (const std::size_t k : far) {
-    const Vec2 p = position(lattice, k);
+    const Vec2 p = lattice.position(k);
     const bool served = std::any_of(seeds.begin() + static_cast<std::ptrdiff_t>(old), seeds.end(),
                                     [&](const Vec2& s) { return (s - p).squaredNorm() < limit2; });
     if (!served) seeds.push_back(p);
@@ -71,16 +77,16 @@ void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& 
 }
 
 /// One step of Lloyd's method: every seed to the centroid of its samples.
-void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, const BorderIndex& border,
-           double d) {
-  owners.assign(as_points(seeds), d);
+void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners,
+           const BorderIndex& border) {
+  owners.assign(as_points(seeds));
   std::vector<double> mass(seeds.size(), 0);
   std::vector<Vec2> moment(seeds.size(), Vec2(0, 0));
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     if (owners.owner(k) < 0) continue;
     const auto s = static_cast<std::size_t>(owners.owner(k));
-    mass[s] += lattice.weight[k];
-    moment[s] += lattice.weight[k] * position(lattice, k);
+    mass[s] += lattice.weight(k);
+    moment[s] += lattice.weight(k) * lattice.position(k);
   }
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (mass[s] <= 0) continue;
@@ -91,15 +97,24 @@ void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owne
 
 }  // namespace
 
-std::vector<Vec2> place_seeds(const Polygon& domain, double d, Random& random) {
+std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
+  std::vector<Segment> points;
+  points.reserve(seeds.size());
+  for (const Vec2& seed : seeds) points.push_back({seed, seed});
+  return points;
+}
+
+std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options, Random& random) {
+  const double d = options.d;
   const Box box = bounds(domain);
   const double finest = std::max(box.size().maxCoeff(), d) / 30000;
   const Lattice lattice = sample(domain, std::max(d / samples_per_distance, finest));
+  if (lattice.size() == 0) return {domain.outer.front()};
   LatticeOwners owners(lattice);
   const BorderIndex border(domain, d);
-  std::vector<Vec2> seeds = triangular_tiling(domain, d, random);
-  fill_gaps(seeds, lattice, owners, d);
-  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border, d);
+  std::vector<Vec2> seeds = triangular_tiling(domain, options, random);
+  fill_gaps(seeds, lattice, owners, border, d);
+  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border);
   return seeds;
 }
 

@@ -4,15 +4,17 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Random.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace unicursal::core {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_2<Kernel>;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
 using Face = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
 
@@ -22,14 +24,16 @@ constexpr double far_away = 5;  ///< box diagonals from the centre
 }  // namespace
 
 Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
-  std::vector<Kernel::Point_2> points;
+  std::vector<std::pair<Kernel::Point_2, int>> points;
   points.reserve(sites.size() + far_sites);
-  for (const Vec2& site : sites) points.emplace_back(site.x(), site.y());
+  const auto add = [&](double x, double y) {
+    points.emplace_back(Kernel::Point_2(x, y), static_cast<int>(points.size()));
+  };
+  for (const Vec2& site : sites) add(site.x(), site.y());
   const double radius = far_away * (box.size().norm() + 1);
   for (int k = 0; k < far_sites; ++k) {
     const double turn = 2 * std::numbers::pi * (k + 0.3) / far_sites;
-    points.emplace_back(box.center().x() + radius * std::cos(turn),
-                        box.center().y() + radius * std::sin(turn));
+    add(box.center().x() + radius * std::cos(turn), box.center().y() + radius * std::sin(turn));
   }
   // CGAL shuffles what it inserts; the order must not depend on what was done before.
   CGAL::get_default_random() = CGAL::Random(0);
@@ -47,7 +51,8 @@ Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
       const auto other = face->neighbor(i);
       if (other->info() < face->info()) continue;
       const int edge = static_cast<int>(result.edges.size());
-      result.edges.push_back({face->info(), other->info()});
+      const int left = face->vertex(Delaunay::cw(i))->info(), right = face->vertex(Delaunay::ccw(i))->info();
+      result.edges.push_back({face->info(), other->info(), left, right, {}});
       result.vertices[static_cast<std::size_t>(face->info())].edges[static_cast<std::size_t>(i)] = edge;
       const auto back = static_cast<std::size_t>(other->index(face));
       result.vertices[static_cast<std::size_t>(other->info())].edges[back] = edge;

@@ -1,4 +1,5 @@
-// The Voronoi diagram of points, with the connectivity that a planar graph needs. mm.
+// The Voronoi diagram of points, or of needles (needle_diagram.hpp), with the connectivity that a planar
+// graph needs. mm.
 #pragma once
 
 #include <array>
@@ -9,7 +10,9 @@
 namespace unicursal::core {
 
 struct VoronoiEdge {
-  int from = 0, to = 0;  ///< Voronoi vertices
+  int from = 0, to = 0;     ///< Voronoi vertices
+  int left = 0, right = 0;  ///< the cells on its two sides; numbers beyond the sites' are of far sites
+  Ring via;                 ///< bends on the way; none in a diagram of points
 };
 
 /// A vertex where three cells meet; its edges in counter-clockwise order, −1 for one that runs to infinity.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,17 +14,39 @@
 
 namespace unicursal::core {
 
+/// Weights of the optimisers, by name.
+enum class Preset {
+  best,   ///< what measures best over all example jobs
+  paper,  ///< the paper's weights (31), (54), its acceptance rule and its population, as far as they have a
+          ///< counterpart here
+};
+
+/// The steps that each stage of one island took, in the order in which the stages ran.
+using Effort = std::vector<int>;
+
 struct PlanOptions {
   double bead_width = 0;                ///< mm; the curve's length aims at area ÷ bead_width
   std::optional<double> seed_distance;  ///< mm, the paper's d; follows from the bead width when absent
   double min_bead_width = 0;            ///< mm; what is narrower than this cannot be laid
-  std::uint64_t seed = 0;               ///< of the random jitter; differ it from layer to layer
+  int threads = 1;         ///< that share one island's work; the result is the same for any number
+  std::uint64_t seed = 0;  ///< of the random jitter; differ it from layer to layer
+  Preset preset = Preset::best;
+  double quality = 1;              ///< how long the optimisers run; more is better and slower
+  std::function<bool()> enough;    ///< asked between steps; once true, what there is is finished and returned
+  std::optional<Effort> recorded;  ///< repeat a plan with the effort that it took; `enough` is not asked then
 };
 
 /// Wall and processor time of one stage, s.
 struct StageTime {
   double seconds = 0;
   double cpu_seconds = 0;
+};
+
+/// What the combinatorial optimiser did (paper §3.3.3).
+struct LocalOperations {
+  std::uint64_t looks = 0;     ///< places looked at: attempts
+  std::uint64_t found = 0;     ///< of them, where an operation fits
+  std::uint64_t accepted = 0;  ///< of those, carried out
 };
 
 /// Values of the objectives at the end, all from the exact diagram (paper §3.1 and Appendix A).
@@ -34,6 +57,9 @@ struct CurveObjectives {
   double smoothness = 0;           ///< E_Lap (29), mm²
   double alignment =
       0;  ///< mean squared angle to the asked directions, rad²; 0.82 is none, 0 also if none is asked
+  double isotropy = 0;         ///< E_iso (50), rad², of the worst isotropic zone; 0 is even, 0.82 all alike
+  double anisotropy = 0;       ///< E_aniso (52), rad², of the worst anisotropic zone; 0 is all alike
+  double width_variation = 0;  ///< standard deviation ÷ mean of area ÷ length over windows of one bead width
 };
 
 /// One closed curve and how it came about.
@@ -58,6 +84,8 @@ struct IslandPlan {
   double far_area =
       0;  ///< mm², of the island opened by a disc of one bead width, over 1.2 widths from the curve
   StageTime graph, cycle, fairing, widths;
+  LocalOperations operations;
+  Effort effort;  ///< to be recorded; the same again gives the same bytes
 };
 
 /// Plans the islands of one part. Keeps what its zones ask for: direction files are read once.

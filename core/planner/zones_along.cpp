@@ -2,62 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "core/geometry/border_index.hpp"
+#include "core/planner/zone_map.hpp"
 
 namespace unicursal::core {
 namespace {
 
 constexpr double least_piece = 1e-3;  ///< mm; a shorter piece stays with its neighbour
-
-class ZoneMap {
- public:
-  ZoneMap(const Island& island, double pitch) {
-    for (const ZoneRegion& region : island.zones) {
-      for (const Polygon& polygon : region.polygons)
-        pieces_.push_back({region.zone, polygon, BorderIndex(polygon, pitch)});
-    }
-  }
-
-  /// Parameters in (0, 1) where the segment meets a zone's border, ascending.
-  std::vector<double> crossings(const Vec2& a, const Vec2& b) const {
-    std::vector<double> found;
-    for (const Piece& piece : pieces_) {
-      piece.border.near({a.cwiseMin(b), a.cwiseMax(b)}, [&](std::size_t e) {
-        const BorderEdge& edge = piece.border.edges()[e];
-        const double slope = cross(b - a, edge.b - edge.a);
-        if (slope == 0) return;
-        const double s = cross(edge.a - a, edge.b - edge.a) / slope, t = cross(edge.a - a, b - a) / slope;
-        if (s > 0 && s < 1 && t >= 0 && t <= 1) found.push_back(s);
-      });
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
-  /// The zone at a point; between zones (welded borders are exact to 0.01 mm only) the nearest one's.
-  std::size_t zone_at(const Vec2& p) const {
-    double best = std::numeric_limits<double>::infinity();
-    std::size_t zone = pieces_.front().zone;
-    for (const Piece& piece : pieces_) {
-      if (piece.border.contains(p)) return piece.zone;
-    }
-    for (const Piece& piece : pieces_) {
-      const double d = distance_to_border(piece.polygon, p);
-      if (d < best) best = d, zone = piece.zone;
-    }
-    return zone;
-  }
-
- private:
-  struct Piece {
-    std::size_t zone;
-    Polygon polygon;
-    BorderIndex border;
-  };
-  std::vector<Piece> pieces_;
-};
 
 }  // namespace
 

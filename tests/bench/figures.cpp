@@ -23,7 +23,8 @@ struct Worst {
   std::size_t layers = 0, islands = 0, curves = 0, empty = 0, broken = 0, reconnected = 0, doubled = 0,
               vertices = 0;
   double farthest = 0, far_area = 0, unfilled = 0, spacing = 0, small_spacing = 0, coverage = 0,
-         area_error = 0;
+         area_error = 0, alignment = 0, isotropy = 0, anisotropy = 0, variation = 0;
+  std::size_t crossings = 0;
   double area = 0, length = 0;
   core::StageTime graph, cycle, fairing, widths;
 };
@@ -48,6 +49,11 @@ void add(Worst& w, const core::Island& island, const core::IslandPlan& plan, dou
     length += curve.path.total_length();
     if (curve.area > small_island * bead_width * bead_width) {
       w.coverage = std::max(w.coverage, curve.objectives.normalised_coverage);
+      w.alignment = std::max(w.alignment, curve.objectives.alignment);
+      w.isotropy = std::max(w.isotropy, curve.objectives.isotropy);
+      w.anisotropy = std::max(w.anisotropy, curve.objectives.anisotropy);
+      w.variation = std::max(w.variation, curve.objectives.width_variation);
+      w.crossings = std::max(w.crossings, curve.zone_crossings);
     }
   }
   const double whole = area(island.outline);
@@ -78,6 +84,8 @@ void print(const std::string& name, const Worst& w, double bead_width, const hos
   fmt::print("    worst island / worst small island               {:.2f} % / {:.0f} %\n", 100 * w.spacing,
              100 * w.small_spacing);
   fmt::print("  worst E = E_CVT ÷ (A·w²)                          {:.4f}\n", w.coverage);
+  fmt::print("  worst ali, W (E_iso), E_aniso, CV, crossings      {:.4f}, {:.1e}, {:.3f}, {:.4f}, {}\n",
+             w.alignment, w.isotropy, w.anisotropy, w.variation, w.crossings);
   fmt::print("  segment areas and unfilled area against the island {:.1e}\n", w.area_error);
   fmt::print("  split-and-reconnect / doubled edges               {} / {}\n", w.reconnected, w.doubled);
   fmt::print(

@@ -21,7 +21,7 @@ void measure(double ratio, double side, double w) {
     const auto graph = make_cell_graph(domain.front(), ratio * w, random);
     const auto cycle = graph ? first_cycle(*graph) : std::nullopt;
     if (!cycle) continue;
-    const Curve smooth = smoothed(cycle->curve, square, w);
+    const Curve smooth = smoothed(drawn(cycle->tour), square, w);
     FairingOptions options;
     options.bead_width = w;
     options.target_length = area(square) / w;

@@ -65,7 +65,7 @@ TEST_CASE("the gradient of the alignment is exact while cells stay") {
   for (std::size_t i = 0; i < curve.size(); ++i)
     segments.push_back({curve.vertices[i], curve.vertices[curve.after(i)]});
   LatticeOwners owners(lattice);
-  owners.assign(segments, 6);
+  owners.assign(segments);
   std::vector<Vec2> gradient(curve.size(), Vec2(0, 0)), ignored = gradient;
   REQUIRE(alignment.evaluate(curve, owners, 1, gradient) > 0);
   Random random(4);
@@ -118,11 +118,13 @@ TEST_CASE("the heaviest perfect matching is that of trying them all") {
 }
 
 TEST_CASE("curves follow the direction that a zone asks for") {
-  const Polygon island = GENERATE(rectangle(15, 15), square_with_hole());
+  const bool pierced = GENERATE(false, true);
+  const Polygon island = pierced ? square_with_hole() : rectangle(15, 15);
   const double angle = GENERATE(0.0, 0.6, 1.4);
   const PlannedCurve curve = planned(island, PatternKind::angle, angle);
-  CHECK(curve.objectives.alignment < 0.25);             // 0.82 without
-  CHECK(curve.objectives.normalised_coverage < 0.105);  // strands held straight cover less evenly
+  // 0.82 without. Around the hole strands are some ten beads long, with a hairpin at either end.
+  CHECK(curve.objectives.alignment < (pierced ? 0.36 : 0.22));
+  CHECK(curve.objectives.normalised_coverage < 0.089);
   CHECK(curve.faired);
   CHECK(curve.farthest < 1.2 * 0.6);
 }

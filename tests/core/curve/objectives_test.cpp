@@ -63,7 +63,7 @@ TEST_CASE("the gradient of the smoothness is exact") {
 TEST_CASE("the gradient of the coverage is that of the lattice") {
   Random random(3);
   const Lattice lattice = sample(rectangle(10, 10), 0.11);
-  Coverage coverage(lattice, 3.0);
+  Coverage coverage(lattice);
   const Objective cover = [&](const Curve& c, std::vector<Vec2>& g) { return coverage.evaluate(c, 1, g); };
   // Owners are found in float precision; the value is summed in double.
   CHECK(worst_error(cover, wavy(random), random, 1e-4) < 2e-3);
@@ -72,7 +72,7 @@ TEST_CASE("the gradient of the coverage is that of the lattice") {
 TEST_CASE("coverage of a straight strand in a strip is the second moment of its width") {
   // A long thin loop in the middle of a 40 × 1 strip, ends at the borders: ∫ y² = length · w³/12.
   const Lattice lattice = sample(rectangle(40, 1), 0.02);
-  Coverage coverage(lattice, 2.0);
+  Coverage coverage(lattice);
   const Curve strand{{{0, 0.5}, {20, 0.5}, {40, 0.5}, {20, 0.5}}};
   std::vector<Vec2> gradient(4, Vec2(0, 0));
   CHECK(coverage.evaluate(strand, 1, gradient) == Approx(40.0 / 12).epsilon(1e-3));

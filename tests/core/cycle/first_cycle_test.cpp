@@ -22,10 +22,10 @@ std::set<std::pair<double, double>> positions(const std::vector<Vec2>& points) {
 void check_cycle(const Cycle& cycle, const CellGraph& graph) {
   REQUIRE(cycle.nodes ==
           graph.node_count() + graph.face_count() - cycle.unreached_centres + 2 * cycle.doubled_edges);
-  REQUIRE(self_intersections(cycle.curve) == 0);
+  REQUIRE(self_intersections(drawn(cycle.tour)) == 0);
   if (cycle.doubled_edges > 0) return;  // doubled nodes are moved aside
-  const auto visited = positions(cycle.curve.vertices);
-  REQUIRE(visited.size() == cycle.curve.size());
+  const auto visited = positions(drawn(cycle.tour).vertices);
+  REQUIRE(visited.size() == drawn(cycle.tour).size());
   for (const Vec2& node : graph.position) REQUIRE(visited.count({node.x(), node.y()}) == 1);
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("a graph of two cells is one cycle through both centres") {
   const auto cycle = first_cycle(*graph);
   REQUIRE(cycle);
   CHECK(cycle->nodes == 4);
-  CHECK(self_intersections(cycle->curve) == 0);
+  CHECK(self_intersections(drawn(cycle->tour)) == 0);
 }
 
 TEST_CASE("random domains: one cycle, always simple") {

@@ -8,36 +8,13 @@
 #include "core/graph/matching.hpp"
 #include "core/graph/refined_graph.hpp"
 #include "core/graph/seeds.hpp"
+#include "tests/core/support/cell_graph_check.hpp"
 #include "tests/core/support/shapes.hpp"
 
 using namespace unicursal::core;
 using namespace unicursal::core::test;
 
 namespace {
-
-/// Every node has three edges, every face is a disc to the left of its half-edges, and Euler's formula holds.
-void check_cell_graph(const CellGraph& graph, const Polygon& domain) {
-  std::vector<int> degree(graph.node_count(), 0);
-  for (const HalfEdge& half : graph.half_edges) ++degree[static_cast<std::size_t>(half.origin)];
-  for (const int d : degree) REQUIRE(d == 3);
-  const auto nodes = static_cast<long>(graph.node_count()), edges = static_cast<long>(graph.edge_count());
-  const auto faces = static_cast<long>(graph.face_count());
-  // Connected, and the outside of each border ring counts as one face.
-  REQUIRE(nodes - edges + faces + 1 + static_cast<long>(domain.holes.size()) == 2);
-  double covered = 0;
-  for (FaceIndex f = 0; f < static_cast<FaceIndex>(graph.face_count()); ++f) {
-    const double piece = signed_area(graph.outline(f));
-    REQUIRE(piece > 0);
-    covered += piece;
-  }
-  REQUIRE(covered == Approx(area(domain)).epsilon(1e-9));
-  for (std::size_t h = 0; h < graph.half_edges.size(); ++h) {
-    const auto half = static_cast<HalfEdgeIndex>(h);
-    REQUIRE(graph.face(graph.next(half)) == graph.face(half));
-    // No bridge: the two sides of an edge are different cells.
-    REQUIRE(graph.face(half) != graph.face(PlanarGraph::twin(half)));
-  }
-}
 
 std::vector<std::pair<int, int>> edges_of(const PlanarGraph& graph) {
   std::vector<std::pair<int, int>> edges;
@@ -66,6 +43,54 @@ TEST_CASE("seeds lie inside, about d apart, and leave no place without one") {
     for (const Vec2& seed : seeds) nearest = std::min(nearest, (seed - p).norm());
     REQUIRE(nearest < 1.1 * d);
   }
+}
+
+TEST_CASE("no seed falls into a hole, however small") {
+  Random random(15);
+  for (int k = 0; k < 200; ++k) {
+    Polygon strip = rectangle(12, 0.5);
+    for (double x = 0.3; x < 11.7; x += random.uniform(0.2, 0.5))
+      strip.holes.push_back(circle({x, random.uniform(0.15, 0.35)}, 0.07, 12, false));
+    for (const Vec2& seed : place_seeds(strip, 0.9, random)) REQUIRE(contains(strip, seed));
+  }
+}
+
+TEST_CASE("rows of seeds run where they are asked to") {
+  const double rows = GENERATE(0.0, 0.4, 0.9);
+  Random random(5);
+  const std::vector<Vec2> seeds = place_seeds(rectangle(20, 20), {1.0, rows, 1}, random);
+  double order = 0, pairs = 0;
+  for (const Vec2& p : seeds) {
+    for (const Vec2& q : seeds) {
+      const Vec2 apart = q - p;
+      if (apart.norm() == 0 || apart.norm() > 1.3) continue;
+      order += std::cos(6 * (std::atan2(apart.y(), apart.x()) - rows));
+      ++pairs;
+    }
+  }
+  CHECK(order / pairs > 0.7);  // 1 for a perfect tiling, 0 at random, −1 turned by 30°
+}
+
+TEST_CASE("a stretched tiling has as many seeds, farther apart along its rows") {
+  Random random(6);
+  const Polygon domain = rectangle(30, 20);
+  const std::vector<Vec2> plain = place_seeds(domain, {1.0, 0.0, 1}, random);
+  const std::vector<Vec2> stretched = place_seeds(domain, {1.0, 0.0, 1.5}, random);
+  CHECK(static_cast<double>(stretched.size()) == Approx(static_cast<double>(plain.size())).epsilon(0.05));
+  // The relaxation rounds the stretched cells somewhat, so no more than the order is asked for.
+  const auto neighbours_along = [](const std::vector<Vec2>& seeds) {
+    double spacing = 0, pairs = 0;
+    for (const Vec2& p : seeds) {
+      for (const Vec2& q : seeds) {
+        const Vec2 apart = q - p;
+        if (apart.x() <= 0 || apart.x() > 1.6 || std::abs(apart.y()) > 0.3) continue;
+        spacing += apart.x();
+        ++pairs;
+      }
+    }
+    return spacing / pairs;
+  };
+  CHECK(neighbours_along(stretched) > 1.1 * neighbours_along(plain));
 }
 
 TEST_CASE("cell graphs are cubic, bridgeless, connected and made of discs") {

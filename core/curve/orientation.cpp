@@ -1,0 +1,102 @@
+#include "core/curve/orientation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace unicursal::core {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// In [0, π).
+double modulo_pi(double angle) {
+  const double wrapped = angle - pi * std::floor(angle / pi);
+  return wrapped < pi ? wrapped : 0.0;
+}
+
+/// The strokes in order of angle and the map that carries them to the even spread (Figure 30).
+struct Transport {
+  std::vector<Stroke> sorted;
+  double length = 0;
+  double shift = 0;  ///< π α₀ (47)
+
+  explicit Transport(std::vector<Stroke> strokes) : sorted(std::move(strokes)) {
+    double mean = 0;
+    for (const Stroke& s : sorted) length += s.length, mean += s.length * s.angle;
+    shift = length > 0 ? mean / length - pi / 2 : 0;
+  }
+
+  /// E_iso (50); `visit(k, from, to)` receives Θ⁰ − θ and Θ¹ − θ of stroke k.
+  template <typename Visit>
+  double walk(Visit visit) const {
+    double value = 0, done = 0;
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+      const double from = pi * done / length + shift - sorted[k].angle;
+      done += sorted[k].length;
+      const double to = pi * done / length + shift - sorted[k].angle;
+      value += (to - from) * (to * to + to * from + from * from) / (3 * pi);
+      visit(k, from, to);
+    }
+    return value;
+  }
+};
+
+}  // namespace
+
+double isotropy_distance(std::vector<Stroke> strokes) {
+  for (Stroke& s : strokes) s.angle = modulo_pi(s.angle);
+  std::sort(strokes.begin(), strokes.end(),
+            [](const Stroke& a, const Stroke& b) { return a.angle < b.angle; });
+  const Transport transport(std::move(strokes));
+  return transport.length > 0 ? transport.walk([](std::size_t, double, double) {}) : 0.0;
+}
+
+double isotropy_with_gradient(const Curve& curve, const std::vector<char>& counts, double weight,
+                              std::vector<Vec2>& gradient) {
+  std::vector<std::size_t> order;
+  std::vector<Stroke> strokes(curve.size());
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vec2 u = curve.vertices[curve.after(i)] - curve.vertices[i];
+    strokes[i] = {modulo_pi(std::atan2(u.y(), u.x())), u.norm()};
+    if (counts[i] && strokes[i].length > 0) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return strokes[a].angle != strokes[b].angle ? strokes[a].angle < strokes[b].angle : a < b;
+  });
+  std::vector<Stroke> sorted;
+  for (const std::size_t i : order) sorted.push_back(strokes[i]);
+  const Transport transport(std::move(sorted));
+  if (!(transport.length > 0)) return 0;
+
+  // ∂E/∂θ from each stroke's own share; ∂E/∂l through the ends T (46) of all shares after it.
+  const std::size_t n = order.size();
+  std::vector<double> turn(n), first(n), last(n);
+  const double value = transport.walk([&](std::size_t k, double from, double to) {
+    turn[k] = -(to * to - from * from) / pi;
+    first[k] = from;
+    last[k] = to;
+  });
+  double weighted = 0, done = 0;
+  std::vector<double> jump(n, 0.0);
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    done += transport.sorted[k].length;
+    jump[k] = last[k] * last[k] - first[k + 1] * first[k + 1];
+    weighted += jump[k] * done / transport.length;
+  }
+  double after = 0;
+  for (std::size_t k = n; k-- > 0;) {
+    after += jump[k];
+    const double stretch = (after - weighted) / transport.length;
+    const std::size_t i = order[k], j = curve.after(i);
+    const Vec2 u = curve.vertices[j] - curve.vertices[i];
+    const double l = transport.sorted[k].length;
+    const Vec2 pull = weight * (turn[k] / (l * l) * perpendicular(u) + stretch / l * u);
+    gradient[i] -= pull;
+    gradient[j] += pull;
+  }
+  return value;
+}
+
+}  // namespace unicursal::core

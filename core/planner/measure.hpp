@@ -1,0 +1,33 @@
+// What a finished curve is like: the areas of its segments, the objectives, and what it leaves out.
+#pragma once
+
+#include "core/curve/curve.hpp"
+#include "core/field/direction_field.hpp"
+#include "core/geometry/segment_diagram.hpp"
+#include "core/planner/plan_island.hpp"
+
+namespace unicursal::core {
+
+/// Segment areas, mm²: each segment's own cell and its share of the cells of vertices. The paper (§3.4) gives
+/// half of a vertex's cell to either neighbour, which makes a blob of a short segment at the tip of a
+/// hairpin; here all segments within half a bead width share by length.
+std::vector<double> segment_areas(const SegmentDiagram& diagram, const Curve& curve, double bead_width);
+
+/// The objectives of a curve that fills `region_area` mm², all but those of zones.
+CurveObjectives objectives(const SegmentDiagram& diagram, const Curve& curve, double region_area,
+                           double bead_width, const DirectionField& field);
+
+/// Adds the objectives of zones and the evenness of the beads.
+void measure_path(const BeadPath& path, const std::vector<Zone>& zones, double bead_width,
+                  CurveObjectives& result);
+
+/// The farthest that a point of the region, opened by a disc of one bead width, is from the curve, and the
+/// area that is too far.
+struct Holes {
+  double farthest = 0;  ///< mm
+  double area = 0;      ///< mm²
+};
+Holes look_for_holes(const Curve& curve, const Polygon& region, double bead_width,
+                     Workers* workers = nullptr);
+
+}  // namespace unicursal::core
