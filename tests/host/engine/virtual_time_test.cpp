@@ -14,7 +14,7 @@ using test::Outcome;
 
 constexpr const char* barely_warm = R"(
 [temperature]
-nozzle = 30
+nozzle = 175
 bed = 0
 )";
 
@@ -74,7 +74,7 @@ TEST_CASE("Planning that is charged for makes the print wait in printer time") {
   runs.write_profile(std::string(test::sample_profile) + barely_warm);  // or it would be done while that heats
   REQUIRE(runs.run({}).code == 0);
   const json free = runs.seen();
-  REQUIRE(runs.run({"--charge-planning", "2000"}).code == 0);
+  REQUIRE(runs.run({"--charge-planning", "4000"}).code == 0);
   const json charged = runs.seen();
   CHECK(free["planning"]["waited_seconds"] == 0);
   const double waited = charged["planning"]["waited_seconds"];
