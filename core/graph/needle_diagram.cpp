@@ -141,6 +141,7 @@ class Straightener {
   /// A simple polygon that runs counter-clockwise. When all cells are, the drawing is plane: the winding
   /// numbers of all cells about a point add up to one.
   bool sound(std::size_t cell) const {
+    if (sides_[cell].empty()) return true;  // two needles in one place share the other's cell
     std::vector<std::array<Vec2, 2>> pieces;
     const Vec2 about = start(sides_[cell].front());
     double twice = 0;

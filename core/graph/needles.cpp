@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/geometry/segment_grid.hpp"
+#include "core/graph/seeds.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -16,13 +17,6 @@ constexpr double longest_step = 0.3;          ///< of d, that a seed moves in on
 constexpr double sufficient_decrease = 1e-4;  ///< Armijo
 constexpr int most_halvings = 5;
 constexpr int renewal = 5;  ///< iterations between new needles
-
-std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
-  std::vector<Segment> points;
-  points.reserve(seeds.size());
-  for (const Vec2& seed : seeds) points.push_back({seed, seed});
-  return points;
-}
 
 /// How far the line through `seed` along `u` (unit) can be followed both ways within the seed's cell: up to
 /// the bisectors with other seeds and up to the domain's border; `most` when that is farther.
@@ -55,9 +49,10 @@ NeedleTessellation::NeedleTessellation(const Polygon& domain, const DirectionFie
       owners_(lattice_),
       border_(domain, d),
       area_(area(domain)),
-      asked_(lattice_.size(), Vec2(0, 0)) {
+      asked_(lattice_.size(), Eigen::Vector2f(0, 0)) {
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
-    if (lattice_.weight(k) > 0) asked_[k] = lattice_.weight(k) * field.at(lattice_.position(k));
+    if (lattice_.weight(k) > 0)
+      asked_[k] = (lattice_.weight(k) * field.at(lattice_.position(k))).cast<float>();
   }
 }
 
@@ -69,7 +64,7 @@ std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds)
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     if (owners_.owner(k) < 0) continue;
     const auto owner = static_cast<std::size_t>(owners_.owner(k));
-    asked[owner] += asked_[k];
+    asked[owner] += asked_[k].cast<double>();
     cell_area[owner] += lattice_.weight(k);
   }
   const SegmentGrid grid(result, d_);

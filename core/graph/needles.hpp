@@ -27,6 +27,8 @@ class NeedleTessellation {
  public:
   /// `d` mm is the distance between seeds; `length` that of the needles, in lengths of the paper's.
   NeedleTessellation(const Polygon& domain, const DirectionField& field, double d, double length);
+  NeedleTessellation(const NeedleTessellation&) = delete;  // the owners know where the lattice is
+  NeedleTessellation& operator=(const NeedleTessellation&) = delete;
 
   /// The needle of every seed. Precondition: seeds lie inside the domain.
   std::vector<Segment> needles(const std::vector<Vec2>& seeds);
@@ -53,7 +55,7 @@ class NeedleTessellation {
   LatticeOwners owners_;
   BorderIndex border_;
   double area_;
-  std::vector<Vec2> asked_;  ///< per sample: ∫ V over its piece of the domain, mm²
+  std::vector<Eigen::Vector2f> asked_;  ///< per sample: ∫ V over its piece of the domain, mm²
 };
 
 }  // namespace unicursal::core

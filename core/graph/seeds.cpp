@@ -38,13 +38,6 @@ std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& op
   return seeds;
 }
 
-std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
-  std::vector<Segment> points;
-  points.reserve(seeds.size());
-  for (const Vec2& seed : seeds) points.push_back({seed, seed});
-  return points;
-}
-
 /// Of those inside; of all when none is.
 Vec2 heaviest_sample(const Lattice& lattice, const BorderIndex& border) {
   std::size_t best = 0;
@@ -103,6 +96,13 @@ void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owne
 }
 
 }  // namespace
+
+std::vector<Segment> as_points(const std::vector<Vec2>& seeds) {
+  std::vector<Segment> points;
+  points.reserve(seeds.size());
+  for (const Vec2& seed : seeds) points.push_back({seed, seed});
+  return points;
+}
 
 std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options, Random& random) {
   const double d = options.d;

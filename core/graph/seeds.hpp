@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/lattice_owners.hpp"
 #include "core/geometry/polygon.hpp"
 #include "core/geometry/random.hpp"
 
@@ -25,5 +26,8 @@ std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options,
 inline std::vector<Vec2> place_seeds(const Polygon& domain, double d, Random& random) {
   return place_seeds(domain, SeedOptions{d, {}, 1}, random);
 }
+
+/// Seeds as segments without length.
+std::vector<Segment> as_points(const std::vector<Vec2>& seeds);
 
 }  // namespace unicursal::core

@@ -103,6 +103,17 @@ TEST_CASE("needles without length are points") {
     REQUIRE(diagram->vertices[v].position == plain.vertices[v].position);
 }
 
+TEST_CASE("of two needles in one place one has the cell") {
+  const std::vector<Segment> needles{
+      {{1, 1}, {1, 1}}, {{3, 1}, {3, 1}}, {{3, 1}, {3, 1}}, {{2, 3}, {2, 3.5}}};
+  const auto diagram = needle_diagram(needles, {{0, 0}, {4, 4}});
+  REQUIRE(diagram);
+  std::vector<std::size_t> untouched;
+  const auto graph = clip_to_domain(*diagram, rectangle(4, 4), untouched);
+  REQUIRE(graph);
+  CHECK(graph->face_count() == 3);
+}
+
 TEST_CASE("a cell between two others keeps the bends that hold its sides apart") {
   // The middle one of 7 × 7 sites; what is left of it is one group, what is right of it another.
   std::vector<int> group;

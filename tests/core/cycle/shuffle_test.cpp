@@ -1,0 +1,116 @@
+#include "core/cycle/shuffle.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "core/curve/clearance.hpp"
+#include "core/cycle/first_cycle.hpp"
+#include "core/cycle/population.hpp"
+#include "tests/core/support/shapes.hpp"
+
+using namespace unicursal::core;
+using namespace unicursal::core::test;
+
+namespace {
+
+Tour first_tour(std::uint64_t seed) {
+  Random random(seed);
+  auto cycle = first_cycle(*make_cell_graph(rectangle(12, 12), 0.9, random));
+  return std::move(cycle->tour);
+}
+
+Demand upwards(const Vec2&) {
+  Demand demand;
+  demand.direction = doubled(1.3);
+  return demand;
+}
+
+ShuffleOptions quick() {
+  ShuffleOptions options;
+  options.sweeps = 60;
+  return options;
+}
+
+/// Share of the tour's edges within 0.55 rad of the asked direction.
+double along(const Tour& tour) {
+  const Curve curve = drawn(tour);
+  double good = 0, all = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vec2 u = curve.vertices[curve.after(i)] - curve.vertices[i];
+    const double off = std::remainder(std::atan2(u.y(), u.x()) - 1.3, 3.14159265358979);
+    all += u.norm();
+    if (std::abs(off) < 0.55) good += u.norm();
+  }
+  return good / all;
+}
+
+}  // namespace
+
+TEST_CASE("annealing and the paper's rule both turn a cycle into the asked direction") {
+  ShuffleOptions options = quick();
+  options.sweeps = 200;
+  options.rule = GENERATE(ShuffleOptions::Rule::annealing, ShuffleOptions::Rule::algorithm_1);
+  Tour tour = first_tour(4);
+  const auto stops = std::count(tour.next.begin(), tour.next.end(), -1);
+  const double before = along(tour);
+  Random random(1);
+  const ShuffleReport report = shuffle(tour, upwards, {}, options, random);
+  CHECK(report.after < report.before);
+  CHECK(report.accepted > 0);
+  CHECK(report.found <= report.looks);
+  CHECK(along(tour) > before + 0.15);
+  CHECK(std::count(tour.next.begin(), tour.next.end(), -1) == stops);
+  CHECK(self_intersections(drawn(tour)) == 0);
+}
+
+TEST_CASE("a stop at any sweep gives a cycle that is no worse, and the same one again") {
+  const int most = GENERATE(0, 1, 7, 30);
+  const auto run = [&] {
+    ShuffleOptions options = quick();
+    int left = most;
+    options.another = [&left] { return left-- > 0; };
+    Tour tour = first_tour(4);
+    Random random(1);
+    const ShuffleReport report = shuffle(tour, upwards, {}, options, random);
+    CHECK(report.after <= report.before);
+    return tour.next;
+  };
+  CHECK(run() == run());
+}
+
+TEST_CASE("a population does not depend on threads and beats its first cycle") {
+  ShuffleOptions options = quick();
+  options.sweeps = 10;
+  options.champions = 3;
+  options.candidates = 2;
+  options.generations = 3;
+  const auto run = [&](unsigned threads) {
+    options.threads = threads;
+    Tour tour = first_tour(4);
+    Random random(1);
+    const ShuffleReport report = shuffle(tour, upwards, {}, options, random);
+    CHECK(report.after < report.before);
+    // K · C clones in each round.
+    CHECK(report.looks >= 3 * 6 * 10 * tour.stop_count());
+    return tour.next;
+  };
+  const auto one = run(1);
+  CHECK(run(2) == one);
+  CHECK(run(5) == one);
+}
+
+TEST_CASE("champions are the best cycle and those farthest from it") {
+  std::vector<Tour> tours(4, first_tour(4));
+  const auto shift = [](Tour& tour, std::size_t count) {
+    for (std::size_t s = 0; s < count; ++s) tour.leave[s] ^= 1;
+  };
+  shift(tours[1], 3);
+  shift(tours[2], 10);
+  CHECK(distance(tours[0], tours[1]) == 3);
+  CHECK(distance(tours[1], tours[2]) == 7);
+  CHECK(diverse(tours, {5, 4, 6, 7}, 2) == std::vector<std::size_t>{1, 2});
+  CHECK(diverse(tours, {1, 4, 6, 7}, 3) == std::vector<std::size_t>{0, 2, 1});
+  // The last is equal to the first: no more than three differ.
+  CHECK(diverse(tours, {1, 4, 6, 7}, 4).size() == 3);
+}
