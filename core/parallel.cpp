@@ -1,11 +1,8 @@
 #include "core/parallel.hpp"
 
-#include <pthread.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -38,19 +35,6 @@ class Workers::Helpers {
     take_pieces();
     for (int left = busy_; left > 0; left = busy_) busy_.wait(left);
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-  }
-
-  double cpu() const {
-    double sum = 0;
-    for (const std::thread& thread : threads_) {
-      clockid_t clock{};
-      timespec time{};
-      auto& handle = const_cast<std::thread&>(thread);
-      if (pthread_getcpuclockid(handle.native_handle(), &clock) != 0) continue;
-      if (clock_gettime(clock, &time) != 0) continue;
-      sum += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    }
-    return sum;
   }
 
  private:
@@ -101,10 +85,6 @@ void Workers::ranges(std::size_t count, std::size_t size,
                      const std::function<void(std::size_t, std::size_t)>& job) {
   each((count + size - 1) / size,
        [&](std::size_t piece) { job(piece * size, std::min((piece + 1) * size, count)); });
-}
-
-double Workers::helpers_cpu() const {
-  return helpers_ ? helpers_->cpu() : 0;
 }
 
 }  // namespace unicursal::core

@@ -24,9 +24,6 @@ class Workers {
   /// The same for ranges of `size` numbers: job(first, last).
   void ranges(std::size_t count, std::size_t size, const std::function<void(std::size_t, std::size_t)>& job);
 
-  /// Processor time that all threads but the calling one have used so far, s.
-  double helpers_cpu() const;
-
  private:
   class Helpers;
   std::unique_ptr<Helpers> helpers_;

@@ -17,6 +17,8 @@
 
 #include "core/geometry/border_index.hpp"
 #include "core/geometry/clip.hpp"
+#include "core/geometry/diagram_arc.hpp"
+#include "core/geometry/diagram_frame.hpp"
 #include "core/geometry/random.hpp"
 #include "core/geometry/segment_grid.hpp"
 
@@ -68,59 +70,6 @@ Boundary ordered(const Boundary& b) {
   return b.left < b.right ? b : Boundary{b.right, b.left, b.to, b.from};
 }
 
-/// A stretch of a cell's border: a straight line, or a parabola over a directrix.
-struct Arc {
-  Vec2 from{0, 0}, to{0, 0};
-  bool parabola = false;
-  Vec2 base{0, 0}, along{0, 0}, focus{0, 0};  ///< parabola: a point and the unit direction of the directrix
-
-  Vec2 at(double s) const { return parabola ? on_parabola(x_at(s)) : Vec2(from + s * (to - from)); }
-  Vec2 derivative(double s) const {
-    if (!parabola) return to - from;
-    const Vec2 f = local(focus);
-    const double slope = (x_at(s) - f.x()) / f.y();
-    return (x_at(1) - x_at(0)) * (along + slope * perpendicular(along));
-  }
-  Vec2 local(const Vec2& p) const { return {(p - base).dot(along), (p - base).dot(perpendicular(along))}; }
-  double x_at(double s) const {
-    const double x0 = local(from).x(), x1 = local(to).x();
-    return x0 + s * (x1 - x0);
-  }
-  Vec2 on_parabola(double x) const {
-    const Vec2 f = local(focus);
-    const double y = ((x - f.x()) * (x - f.x()) + f.y() * f.y()) / (2 * f.y());
-    return base + x * along + y * perpendicular(along);
-  }
-};
-
-/// Parameters in (0, 1) where an arc passes through a straight edge.
-std::vector<double> crossings(const Arc& arc, const Vec2& a, const Vec2& b) {
-  std::vector<double> found;
-  const auto keep = [&](double s) {
-    if (!(s > 0 && s < 1)) return;
-    const Vec2 p = arc.at(s);
-    const double tau = (p - a).dot(b - a) / (b - a).squaredNorm();
-    if (tau >= 0 && tau < 1) found.push_back(s);
-  };
-  if (!arc.parabola) {
-    const double slope = cross(arc.to - arc.from, b - a);
-    if (slope != 0) keep(cross(a - arc.from, b - a) / slope);
-    return found;
-  }
-  // n·(point − a) = 0 along the parabola is a quadratic in x.
-  const Vec2 f = arc.local(arc.focus), la = arc.local(a), lb = arc.local(b);
-  const Vec2 n = perpendicular(lb - la);
-  const double q2 = n.y() / (2 * f.y()), q1 = n.x() - n.y() * f.x() / f.y();
-  const double q0 = n.y() * (f.squaredNorm() / (2 * f.y())) - n.dot(la);
-  const double x0 = arc.x_at(0), x1 = arc.x_at(1);
-  const double discriminant = q1 * q1 - 4 * q2 * q0;
-  if (discriminant < 0 || x0 == x1) return found;
-  const double q = -0.5 * (q1 + std::copysign(std::sqrt(discriminant), q1));
-  if (q2 != 0) keep((q / q2 - x0) / (x1 - x0));
-  if (q != 0) keep((q0 / q - x0) / (x1 - x0));
-  return found;
-}
-
 /// Gauss–Legendre on [0, 1], four points: exact for polynomials of degree 7.
 constexpr std::array<double, 4> gauss_point{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                             0.93056815579702629};
@@ -161,25 +110,6 @@ struct PieceCells {
       vertices;  ///< ascending; those whose cells, or whose segments' cells, may be there
   std::vector<CellIntegrals> points, segments;
   double missing = 0;  ///< mm, by which segments should have been looked for farther away
-};
-
-/// How a piece was cut out of the island.
-struct Frame {
-  const BorderIndex* island = nullptr;
-  Box lines;     ///< the piece lies between them; infinite where nothing was cut off
-  Box searched;  ///< holds all segments that were looked for
-
-  static bool level(const Vec2& a, const Vec2& b, Eigen::Index k, double line) {
-    return a[k] == line && b[k] == line;
-  }
-  bool on_line(const Vec2& a, const Vec2& b) const {
-    return level(a, b, 0, lines.min.x()) || level(a, b, 0, lines.max.x()) || level(a, b, 1, lines.min.y()) ||
-           level(a, b, 1, lines.max.y());
-  }
-  /// Is `p` on the same line as the edge a b?
-  bool on_line(const Vec2& a, const Vec2& b, const Vec2& p) const {
-    return on_line(a, b) && (a.x() == b.x() ? p.x() == a.x() : p.y() == a.y());
-  }
 };
 
 /// The diagram of all segments in a box, inside one piece of the island. It is that of the whole curve if for
@@ -481,7 +411,7 @@ class Judge {
     const Arc arc = arc_between(left, right, from, to);
     std::vector<double> cuts{0, 1};
     std::vector<std::size_t> near;
-    border_.near(box_of(arc), [&](std::size_t e) { near.push_back(e); });
+    border_.near(bounds(arc), [&](std::size_t e) { near.push_back(e); });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::size_t e : near) {
@@ -498,17 +428,6 @@ class Judge {
       integrate(left, arc, cuts[k], cuts[k + 1], 1);
       integrate(right, arc, cuts[k], cuts[k + 1], -1);
     }
-  }
-
-  Box box_of(const Arc& arc) const {
-    Box box{arc.from.cwiseMin(arc.to), arc.from.cwiseMax(arc.to)};
-    if (arc.parabola) {
-      // A parabola stays within the triangle of its ends and the meeting point of their tangents.
-      const Vec2 apex = arc.from + arc.derivative(0) / 2;
-      box.min = box.min.cwiseMin(apex);
-      box.max = box.max.cwiseMax(apex);
-    }
-    return box;
   }
 
   Site nearest(const Vec2& p) const {

@@ -51,7 +51,8 @@ NeedleTessellation::NeedleTessellation(const Polygon& domain, const DirectionFie
       area_(area(domain)),
       asked_(lattice_.size(), Eigen::Vector2f(0, 0)) {
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
-    if (lattice_.weight(k) > 0) asked_[k] = lattice_.weight(k) * field.at(lattice_.position(k)).cast<float>();
+    if (lattice_.weight(k) > 0)
+      asked_[k] = (lattice_.weight(k) * field.at(lattice_.position(k))).cast<float>();
   }
 }
 

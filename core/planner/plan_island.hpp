@@ -29,7 +29,8 @@ struct PlanOptions {
   std::optional<double> seed_distance;  ///< mm, the paper's d; follows from the bead width when absent
   double min_bead_width = 0;            ///< mm; what is narrower than this cannot be laid
   int perimeters = 0;                   ///< contours around the fill, in the same closed curve
-  int threads = 1;         ///< that share one island's work; the result is the same for any number
+  int threads = 1;  ///< that share one island's work; the result is the same for any number, and the stages'
+                    ///< processor time is that of the calling one
   std::uint64_t seed = 0;  ///< of the random jitter; differ it from layer to layer
   Preset preset = Preset::best;
   double quality = 1;              ///< how long the optimisers run; more is better and slower
