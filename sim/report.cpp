@@ -24,6 +24,10 @@ json lines(const Firmware& firmware) {
           {"number_errors", counts.number_errors},
           {"resends", counts.resends},
           {"repeated", counts.repeated},
+          {"skipped", counts.skipped},
+          {"unseen_damage", counts.unseen_damage},
+          {"disguised", counts.disguised},
+          {"bytes_while_booting", counts.while_booting},
           {"lost_bytes", firmware.buffer().lost()},
           {"flushed_bytes", firmware.buffer().flushed()},
           {"too_long", firmware.assembler().too_long()},
@@ -57,8 +61,9 @@ json layers(const Deposit& deposit) {
   for (const DepositedLayer& layer : deposit.layers()) {
     all.push_back({{"z", layer.z},
                    {"height", layer.height},
-                   {"moves", layer.beads},
+                   {"beads", layer.beads},
                    {"length_mm", layer.length},
+                   {"seconds", layer.seconds},
                    {"volume_mm3", layer.volume},
                    {"travel_mm", layer.travel},
                    {"travels", layer.travels}});
@@ -83,14 +88,50 @@ json warnings(const Firmware& firmware) {
   return all;
 }
 
+json flows(const std::map<double, double>& seconds_by_flow) {
+  json all = json::array();
+  for (const auto& [flow, seconds] : seconds_by_flow) all.push_back({flow, seconds});
+  return all;
+}
+
+json motion(const MotionLog& log) {
+  json starvations = json::array();
+  for (const Starvation& s : log.starvations()) {
+    starvations.push_back({{"time", s.time},
+                           {"place", {s.place.x, s.place.y, s.place.z}},
+                           {"seconds", s.seconds},
+                           {"dry", s.dry}});
+  }
+  return {{"bead_seconds", log.seconds()},
+          {"mean_speed", log.mean_speed()},
+          {"starvations", log.dry()},
+          {"hasty_stops", log.hasty()},
+          {"stopped_seconds", log.dry_seconds()},
+          {"stops", starvations},
+          {"queue_seconds", log.fill()},
+          {"flow_seconds", flows(log.flows())},
+          {"flow_by_second", flows(log.second_flows())}};
+}
+
+json chamber(const Machine& machine, const Outcome& outcome) {
+  return {{"fed_mm3", first_of(outcome.nozzle.fed(), machine.feeders)},
+          {"deposited_mm3", first_of(outcome.deposit.by_feeder(), machine.feeders)},
+          {"content_mm3", first_of(outcome.nozzle.chamber().content(), machine.feeders)}};
+}
+
 }  // namespace
 
-std::string report_json(const Machine& machine, const Firmware& firmware, const FeedLog& feed,
-                        const Deposit& deposit) {
+std::string report_json(const Machine& machine, const Printer& printer, const Outcome& outcome) {
+  const Firmware& firmware = printer.firmware();
+  const FeedLog& feed = outcome.feed;
+  const Deposit& deposit = outcome.deposit;
   const Coordinates& coordinates = firmware.coordinates();
   const json report{{"lines", lines(firmware)},
                     {"executed_lines_in_order", firmware.counts().executed_in_order},
                     {"last_line", firmware.last_line()},
+                    {"personality", firmware.personality().name},
+                    {"faults", printer.faults().counts()},
+                    {"resets", firmware.counts().resets},
                     {"printer_seconds", firmware.now()},
                     {"printing_seconds", deposit.last_end() - deposit.first_start()},
                     {"feeders", feeders(machine, firmware.planner())},
@@ -100,7 +141,10 @@ std::string report_json(const Machine& machine, const Firmware& firmware, const 
                      {{"fed_mm", feed.fed_in_place()},
                       {"retracted_mm", feed.retracted()},
                       {"feeder_steps", first_of(feed.idle_steps(), machine.feeders)}}},
+                    {"motion", motion(outcome.motion)},
+                    {"chamber", chamber(machine, outcome)},
                     {"deposited_mm3", deposit.volume()},
+                    {"dropped_mm3", deposit.dropped()},
                     {"deposited_length_mm", deposit.length()},
                     {"layers", layers(deposit)},
                     {"extents", extents(deposit.extents())},

@@ -1,16 +1,25 @@
-// What a simulation came to, as JSON: lines, time, filament by feeder and by mixture, the deposit by layer.
-// Facts only; what the job wanted is not known here. mm, mm³, °C, printer seconds.
+// What a simulation came to, as JSON: lines, time, motion, filament by feeder and by mixture, the chamber,
+// the deposit by layer. Facts only; what the job wanted is not known here. mm, mm³, °C, printer seconds.
 #pragma once
 
 #include <string>
 
 #include "sim/bed/deposit.hpp"
-#include "sim/firmware/firmware.hpp"
+#include "sim/motion/motion_log.hpp"
 #include "sim/nozzle/feed_log.hpp"
+#include "sim/nozzle/nozzle.hpp"
+#include "sim/printer.hpp"
 
 namespace unicursal::sim {
 
-std::string report_json(const Machine& machine, const Firmware& firmware, const FeedLog& feed,
-                        const Deposit& deposit);
+/// What came of the moves.
+struct Outcome {
+  const FeedLog& feed;
+  const Nozzle& nozzle;
+  const Deposit& deposit;
+  const MotionLog& motion;
+};
+
+std::string report_json(const Machine& machine, const Printer& printer, const Outcome& outcome);
 
 }  // namespace unicursal::sim

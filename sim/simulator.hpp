@@ -12,13 +12,27 @@
 namespace unicursal::sim {
 
 struct SimulatorOptions {
-  std::optional<std::filesystem::path> link;    ///< a symbolic link to make to the pseudo-terminal
-  double speed = 0;                             ///< printer seconds per real second; 0: as fast as lines come
-  std::optional<std::filesystem::path> report;  ///< JSON, written when the simulation ends
-  std::optional<std::filesystem::path> pictures;  ///< folder for deposit-NNNN.png, one for each printed layer
-  double pixel = 0.1;                             ///< mm per picture pixel
-  std::vector<double> bed = {200, 200, 200};      ///< mm, x y z
-  double filament_diameter = 1.75;                ///< mm
+  std::optional<std::filesystem::path> link;  ///< a symbolic link to make to the pseudo-terminal
+  /// A Unix socket to make: the host says how far printer time goes (sim/lockstep.hpp).
+  std::optional<std::filesystem::path> control;
+  std::string personality = "marlin";  ///< sim/firmware/personality.hpp lists them
+  double baud = 250000;                ///< bits/s; counts only where printer time is real or the host's
+  std::string usb = "cdc";             ///< the chip at the cable's end: none, cdc, ftdi
+  std::vector<std::string> faults;     ///< sim/faults/fault.hpp says how they are written
+  std::optional<std::filesystem::path> fault_file;
+  std::optional<std::uint64_t> seed;  ///< of the faults; 1 unless the file has another
+  double speed = 0;                   ///< printer seconds per real second; 0: as fast as lines come
+  std::optional<std::filesystem::path> transcript;  ///< every command as it is executed, one on each line
+  std::optional<std::filesystem::path> report;      ///< JSON, written when the simulation ends
+  std::optional<std::filesystem::path>
+      pictures;         ///< folder for deposit-NNNN.png of each layer, part.png, motion.png
+  double pixel = 0.05;  ///< mm per picture pixel
+  std::optional<std::filesystem::path> rasters;  ///< file or pipe for the layers as laid (sim/raster.hpp)
+  double raster_pixel = 0.05;                    ///< mm; coarser on a bed so big that memory asks for it
+  double dead_volume = 2.1;                      ///< mm³ that pass before the first trace of a new mixture
+  double mixing_volume = 4.0;                    ///< mm³ from there to 95 % of it
+  std::vector<double> bed = {200, 200, 200};     ///< mm, x y z
+  double filament_diameter = 1.75;               ///< mm
   std::vector<double> steps_per_mm = {80, 80, 400};          ///< x y z
   double feeder_steps_per_mm = 400;                          ///< steps of one feeder for 1 mm of its filament
   std::vector<double> max_acceleration = {1500, 1500, 100};  ///< mm/s², x y z
@@ -26,6 +40,12 @@ struct SimulatorOptions {
   std::size_t feeders = 3;
   bool once = false;  ///< end when the host closes the line after having used it
 };
+
+/// Throws std::invalid_argument for options that make no printer, std::system_error for an unreadable file.
+void check(const SimulatorOptions& options);
+
+/// What `faults` may hold, one line for each kind.
+std::string fault_help();
 
 /// Runs until SIGINT/SIGTERM (or, with `once`, until the host hangs up) and writes report and pictures.
 /// `ready` is called once with the path of the pseudo-terminal when a host may open it.

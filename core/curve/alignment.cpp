@@ -18,23 +18,22 @@ double angle_between(const Vec2& u, const Vec2& v) {
 
 Alignment::Alignment(const Lattice& lattice, const DirectionField& field, double turn) {
   if (field.empty()) return;
-  values_.resize(lattice.size(), Vec2(0, 0));
+  values_.resize(lattice.size(), {0, 0});
   const double c = std::cos(turn), s = std::sin(turn);
   const double c2 = std::cos(2 * turn), s2 = std::sin(2 * turn);
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] <= 0) continue;
-    const Vec2 p = lattice.origin + Vec2(lattice.x[k], lattice.y[k]);
+    const double mass = lattice.weight(k);
+    if (mass <= 0) continue;
+    const Vec2 p = lattice.position(k);
     const Vec2 v = field.at({c * p.x() + s * p.y(), c * p.y() - s * p.x()});
-    values_[k] = lattice.weight[k] * Vec2(c2 * v.x() - s2 * v.y(), s2 * v.x() + c2 * v.y());
+    values_[k] = {static_cast<float>(mass * (c2 * v.x() - s2 * v.y())),
+                  static_cast<float>(mass * (s2 * v.x() + c2 * v.y()))};
   }
 }
 
 double Alignment::evaluate(const Curve& curve, const LatticeOwners& owners, double weight,
                            std::vector<Vec2>& gradient) const {
-  std::vector<Vec2> sums(curve.size(), Vec2(0, 0));
-  for (std::size_t k = 0; k < values_.size(); ++k) {
-    if (owners.owner(k) >= 0) sums[static_cast<std::size_t>(owners.owner(k))] += values_[k];
-  }
+  const std::vector<Vec2> sums = owners.sums(values_);
   double value = 0;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const std::size_t j = curve.after(i);

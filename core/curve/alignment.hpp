@@ -6,6 +6,7 @@
 // differences with cells kept).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/curve/curve.hpp"
@@ -30,7 +31,7 @@ class Alignment {
                   std::vector<Vec2>& gradient) const;
 
  private:
-  std::vector<Vec2> values_;  ///< per sample: ∫ V over its piece of the island, mm²
+  std::vector<std::array<float, 2>> values_;  ///< per sample: ∫ V over its piece of the island, mm²
 };
 
 /// Mean squared angle between the curve and the field where the field asks for a direction, by length, rad².

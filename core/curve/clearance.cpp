@@ -1,14 +1,19 @@
 #include "core/curve/clearance.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/geometry/nearest_kernel.hpp"
 #include "core/geometry/segment_grid.hpp"
+#include "core/geometry/segment_rows.hpp"
 #include "core/graph/voronoi.hpp"
 
 namespace unicursal::core {
 namespace {
 
 constexpr double safe_share = 0.45;  ///< of a clearance that either side may use up; below one half
+constexpr double rounding = 1e-14;   ///< of the largest coordinate, a distance that may be none at all
+constexpr std::size_t range = 1024;  ///< segments that are looked around in one piece
 
 std::vector<Segment> segments_of(const Curve& curve) {
   std::vector<Segment> segments(curve.size());
@@ -40,30 +45,118 @@ bool meet(const Segment& s, const Segment& t) {
   return true;
 }
 
+/// The distance, squared, from every segment of a closed curve to the nearest one that has no vertex in
+/// common with it. Since none meet, it is that of a vertex of one from the other.
+class Strands {
+ public:
+  Strands(const Curve& curve, const std::vector<Segment>& segments, double reach)
+      : curve_(curve), segments_(segments), rows_(segments), reach_(reach) {
+    const std::size_t padded = rows_.order().size() + 3;
+    for (auto* array : {&ax_, &ay_, &ux_, &uy_, &inverse_}) array->resize(padded);
+    for (std::size_t k = 0; k < rows_.order().size(); ++k) {
+      const Segment& s = segments[static_cast<std::size_t>(rows_.order()[k])];
+      const Vec2 u = s.b - s.a;
+      ax_[k] = s.a.x(), ay_[k] = s.a.y();
+      ux_[k] = u.x(), uy_[k] = u.y();
+      inverse_[k] = inverse(u);
+    }
+    from_start_.assign(segments.size(), reach * reach);
+    from_end_ = from_start_;
+  }
+
+  /// Looks around the segments [first, last).
+  void look(std::size_t first, std::size_t last) {
+    std::vector<double> to_segments, to_points;
+    for (std::size_t i = first; i < last; ++i) {
+      const Segment& s = segments_[i];
+      const Vec2 margin = Vec2::Constant(reach_ + rows_.half_length());
+      const Vec2 low = s.a.cwiseMin(s.b) - margin, high = s.a.cwiseMax(s.b) + margin, u = s.b - s.a;
+      Found found{i, reach_ * reach_, reach_ * reach_};
+      const std::ptrdiff_t from = rows_.column(low.x()), to = rows_.column(high.x());
+      for (std::ptrdiff_t row = rows_.row(low.y()); row <= rows_.row(high.y()); ++row) {
+        const std::size_t begin = rows_.begin(row, from), count = rows_.end(row, to) - begin;
+        to_segments.resize(std::max(to_segments.size(), count + 3));
+        to_points.resize(to_segments.size());
+        distances_to_segments(s.a.x(), s.a.y(),
+                              {&ax_[begin], &ay_[begin], &ux_[begin], &uy_[begin], &inverse_[begin]}, count,
+                              to_segments.data());
+        distances_to_points(s.a.x(), s.a.y(), u.x(), u.y(), inverse(u), {&ax_[begin], &ay_[begin]}, count,
+                            to_points.data());
+        for (std::size_t k = 0; k < count; ++k) {
+          add(found, static_cast<std::size_t>(rows_.order()[begin + k]), to_segments[k], to_points[k]);
+        }
+      }
+      look_at_long_ones(found);
+      from_start_[i] = found.own;
+      from_end_[curve_.before(i)] = found.before;
+    }
+  }
+
+  double clearance2(std::size_t segment) const { return std::min(from_start_[segment], from_end_[segment]); }
+
+ private:
+  /// What is known of a segment, and of the one before it, which ends where it starts.
+  struct Found {
+    std::size_t segment;
+    double own, before;
+  };
+
+  static double inverse(const Vec2& u) {
+    const double length2 = u.squaredNorm();
+    return length2 > 0 ? 1 / length2 : 0;
+  }
+
+  /// `to_segment`: from the start to segment j; `to_point`: from the segment to the start of j.
+  void add(Found& found, std::size_t j, double to_segment, double to_point) const {
+    const std::size_t i = found.segment;
+    if (to_point < found.own && j != i && j != curve_.after(i)) found.own = to_point;
+    if (to_segment >= found.own && to_segment >= found.before) return;
+    const std::size_t before = curve_.before(i);
+    if (j == i || j == before) return;
+    if (j != curve_.after(i)) found.own = std::min(found.own, to_segment);
+    if (j != curve_.before(before)) found.before = std::min(found.before, to_segment);
+  }
+
+  void look_at_long_ones(Found& found) const {
+    const Segment& s = segments_[found.segment];
+    for (const std::int32_t other : rows_.longer()) {
+      const auto j = static_cast<std::size_t>(other);
+      const Segment& t = segments_[j];
+      add(found, j, std::pow(distance_to_segment(s.a, t.a, t.b), 2),
+          std::pow(distance_to_segment(t.a, s.a, s.b), 2));
+    }
+  }
+
+  const Curve& curve_;
+  const std::vector<Segment>& segments_;
+  SegmentRows rows_;
+  double reach_;
+  std::vector<double> ax_, ay_, ux_, uy_, inverse_;  ///< in the order of rows
+  std::vector<double> from_start_, from_end_;        ///< per segment, found from its ends
+};
+
 }  // namespace
 
 std::vector<double> freedom(const Curve& curve, const BorderIndex& border, double reach,
-                            const Margins& margins) {
+                            const Margins& margins, Workers* workers) {
   const std::vector<Segment> segments = segments_of(curve);
-  const SegmentGrid grid(segments, reach);
-  std::vector<double> clear(segments.size(), reach);
-  const Vec2 margin = (reach + margins.self) * Vec2(1, 1);
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const Segment& s = segments[i];
-    const Vec2 low = s.a.cwiseMin(s.b), high = s.a.cwiseMax(s.b);
-    grid.near({low - margin, high + margin}, [&](std::size_t j) {
-      if (j <= i || neighbours(curve, i, j)) return;
-      const Segment& t = segments[j];
-      const double limit = std::max(clear[i], clear[j]);
-      const Vec2 gap = (low - t.a.cwiseMax(t.b)).cwiseMax(t.a.cwiseMin(t.b) - high);
-      if (gap.maxCoeff() >= limit + margins.self) return;
-      const double d = std::max(distance_between_segments(s.a, s.b, t.a, t.b) - margins.self, 0.0);
-      clear[i] = std::min(clear[i], d);
-      clear[j] = std::min(clear[j], d);
-    });
-    const double to_border = border.distance(s.a, s.b, clear[i] + margins.border) - margins.border;
-    clear[i] = std::clamp(to_border, 0.0, clear[i]);
-  }
+  Workers serial(1);
+  Workers& all = workers != nullptr ? *workers : serial;
+  Strands strands(curve, segments, reach + margins.self);
+  all.ranges(segments.size(), range, [&](std::size_t first, std::size_t last) { strands.look(first, last); });
+  double largest = 0;
+  for (const Vec2& v : curve.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  const double self_margin = margins.self + rounding * largest;
+  const double border_margin = margins.border + rounding * largest;
+  std::vector<double> clear(segments.size());
+  all.ranges(segments.size(), range, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      clear[i] = std::clamp(std::sqrt(strands.clearance2(i)) - self_margin, 0.0, reach);
+      const double to_border =
+          border.distance(segments[i].a, segments[i].b, clear[i] + border_margin) - border_margin;
+      clear[i] = std::clamp(to_border, 0.0, clear[i]);
+    }
+  });
   std::vector<double> result(curve.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {
     result[i] = safe_share * std::min(clear[i], clear[curve.before(i)]);

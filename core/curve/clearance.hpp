@@ -10,6 +10,7 @@
 
 #include "core/curve/curve.hpp"
 #include "core/geometry/border_index.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 
@@ -22,7 +23,7 @@ struct Margins {
 
 /// Per vertex, at most 0.45 · `reach`. Precondition: at least 5 vertices, curve simple and inside.
 std::vector<double> freedom(const Curve& curve, const BorderIndex& border, double reach,
-                            const Margins& margins = {});
+                            const Margins& margins = {}, Workers* workers = nullptr);
 
 /// Pairs of segments without a common vertex that meet, decided with exact signs; 0 for a simple curve.
 std::size_t self_intersections(const Curve& curve);

@@ -8,7 +8,6 @@
 // right but for terms of second order in the size of a square (tests hold it against differences).
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/curve/curve.hpp"
@@ -19,8 +18,8 @@ namespace unicursal::core {
 
 class Coverage {
  public:
-  /// Keeps a reference to the lattice. `reach` mm: beyond it owners are approximate (lattice_owners.hpp).
-  Coverage(const Lattice& lattice, double reach);
+  /// Keeps references to the lattice and the workers. `slack` mm: see lattice_owners.hpp.
+  explicit Coverage(const Lattice& lattice, double slack = 0, Workers* workers = nullptr);
 
   /// Returns the value and adds its gradient, times `weight`, to `gradient` (one entry per vertex).
   double evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient);
@@ -29,24 +28,7 @@ class Coverage {
   const LatticeOwners& owners() const { return owners_; }
 
  private:
-  /// Where a sample's perpendicular meets a segment.
-  struct Foot {
-    std::size_t segment = 0;
-    double along = 0;  ///< 0 at the segment's start, 1 at its end
-    Vec2 off{0, 0};    ///< from the sample to the foot, mm
-  };
-  Foot foot_on(const Vec2& p, std::size_t segment) const;
-  std::optional<Foot> competitor(std::size_t k, const Vec2& p, const Foot& own) const;
-  /// What of a square belongs to the other segment, and by how much that lowers the mean squared distance.
-  struct Split {
-    double share = 0, gain = 0;  ///< 0 to ½; mm²
-  };
-  Split split_between(const Foot& own, const Foot& other) const;
-
-  const Lattice& lattice_;
-  double reach_;
   LatticeOwners owners_;
-  std::vector<Segment> segments_;
 };
 
 }  // namespace unicursal::core

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "core/curve/alignment.hpp"
-#include "core/curve/clearance.hpp"
 #include "core/curve/coverage.hpp"
+#include "core/curve/leash.hpp"
 #include "core/curve/orientation.hpp"
 #include "core/curve/resample.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
 #include "core/geometry/quasi_newton.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -21,11 +22,8 @@ using Field = std::vector<Vec2>;  ///< one vector per vertex
 constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle against the island's axes
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
-constexpr double reach_in_widths = 1.0;    ///< beyond it lattice owners are approximate
-constexpr double freedom_in_widths = 1.0;  ///< clearances are not looked for beyond it
+constexpr double slack_in_widths = 0.1;    ///< lists of near segments hold for such moves
 constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
-constexpr double border_margin = 0.02;     ///< bead widths; a curve this close counts as touching
-constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
 
@@ -45,40 +43,6 @@ Polygon turned(Polygon polygon, double angle) {
   return polygon;
 }
 
-/// Where each vertex may be, from the last look at the clearances.
-class Leash {
- public:
-  Leash(const BorderIndex& border, double bead_width) : border_(border), width_(bead_width) {}
-
-  void fasten(const Curve& curve) {
-    anchor_ = curve.vertices;
-    free_ =
-        freedom(curve, border_, freedom_in_widths * width_, {border_margin * width_, self_margin * width_});
-  }
-
-  /// Shortens a move to what is free; returns the largest used share of freedom.
-  double limit(Curve& curve) const {
-    double used = 0;
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-      const Vec2 move = curve.vertices[i] - anchor_[i];
-      const double length = move.norm();
-      if (length > free_[i]) {
-        curve.vertices[i] = anchor_[i] + free_[i] * (1 - 1e-12) / length * move;
-        used = 1;
-      } else if (free_[i] > 0) {
-        used = std::max(used, length / free_[i]);
-      }
-    }
-    return used;
-  }
-
- private:
-  const BorderIndex& border_;
-  double width_;
-  std::vector<Vec2> anchor_;
-  std::vector<double> free_;
-};
-
 class Fairer {
  public:
   Fairer(const Polygon& island, const FairingOptions& options)
@@ -87,8 +51,9 @@ class Fairer {
         area_(area(island)),
         border_(island_, options.bead_width),
         lattice_(sample(island_, pitch(options))),
-        coverage_(lattice_, reach_in_widths * options.bead_width),
-        leash_(border_, options.bead_width) {
+        coverage_(lattice_, slack_in_widths * options.bead_width, options.workers),
+        leash_(border_, options.bead_width, options.workers),
+        newton_(options.workers) {
     alignment_weight_ = options.alignment;
     if (options.field != nullptr) alignment_ = Alignment(lattice_, *options.field, irrational_turn);
     const double w = options.bead_width;
@@ -107,7 +72,7 @@ class Fairer {
       alignment_weight_ = options_.fine_alignment;
       curve = descend(std::move(curve), options_.fine_iterations);
     }
-    curve = thinned(curve, border_, final_spacing * options_.bead_width);
+    curve = thinned(curve, border_, final_spacing * options_.bead_width, options_.workers);
     curve.vertices = turned(std::move(curve.vertices), -irrational_turn);
     return curve;
   }
@@ -119,7 +84,9 @@ class Fairer {
     return options.bead_width / options.samples_per_width;
   }
 
-  Curve spread(const Curve& curve) const { return respaced(curve, border_, 0.75 * options_.bead_width); }
+  Curve spread(const Curve& curve) const {
+    return respaced(curve, border_, 0.75 * options_.bead_width, options_.workers);
+  }
 
   double evaluate(const Curve& curve, Field& gradient) {
     gradient.assign(curve.size(), Vec2(0, 0));
@@ -177,21 +144,21 @@ class Fairer {
     for (int halving = 0; halving < most_halvings; ++halving, scale /= 2) {
       Curve trial = curve;
       for (std::size_t i = 0; i < curve.size(); ++i) trial.vertices[i] += scale * direction[i];
-      const double used = leash_.limit(trial);
+      leash_.limit(trial);
       Field move(curve.size());
       for (std::size_t i = 0; i < curve.size(); ++i) move[i] = trial.vertices[i] - curve.vertices[i];
-      const double slope = dot(gradient, move);
+      const double slope = dot(gradient, move, options_.workers);
       if (slope >= 0) return false;
       Field trial_gradient;
       const double trial_value = evaluate(trial, trial_gradient);
       if (trial_value > value + sufficient_decrease * slope) continue;
       Field change = trial_gradient;
-      add_scaled(change, -1, gradient);
-      newton_.remember(std::move(move), std::move(change));
+      add_scaled(change, -1, gradient, options_.workers);
+      newton_.remember(move, change);
       curve = std::move(trial);
       value = trial_value;
       gradient = std::move(trial_gradient);
-      if (used > 0.5) leash_.fasten(curve);
+      leash_.follow(curve);
       return true;
     }
     return false;
@@ -237,9 +204,9 @@ class Fairer {
 
 }  // namespace
 
-Curve smoothed(const Curve& curve, const Polygon& island, double bead_width) {
+Curve smoothed(const Curve& curve, const Polygon& island, double bead_width, Workers* workers) {
   const BorderIndex border(island, bead_width);
-  Leash leash(border, bead_width);
+  Leash leash(border, bead_width, workers);
   Curve result = curve;
   for (int pass = 0; pass < 5; ++pass) {
     leash.fasten(result);

@@ -18,6 +18,7 @@
 #include "core/field/direction_field.hpp"
 #include "core/geometry/polygon.hpp"
 #include "core/pace.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 
@@ -38,12 +39,13 @@ struct FairingOptions {
   double alignment =
       0.05;  ///< weight of (33) on the curve as it comes, square bead widths; compare γ_Obj (54)
   double fine_alignment =
-      0.005;  ///< on the subdivided curve: what is aligned stays so, and coverage evens out
+      0.002;  ///< on the subdivided curve: what is aligned stays so, and coverage evens out
   std::vector<OrientationZone> zones;  ///< of the orientation objectives
-  double evenness = 1;       ///< weight of (53) in isotropic zones, square bead widths; compare γ_Obj (54)
-  double likeness = 0.006;   ///< the same in anisotropic zones
-  Another another;           ///< asked before each iteration
-  double smoothness = 0.04;  ///< γ_Lap in units of area ÷ vertices (31)
+  double evenness = 1;         ///< weight of (53) in isotropic zones, square bead widths; compare γ_Obj (54)
+  double likeness = 0.006;     ///< the same in anisotropic zones
+  Another another;             ///< asked before each iteration
+  double smoothness = 0.04;    ///< γ_Lap in units of area ÷ vertices (31)
+  Workers* workers = nullptr;  ///< that share the work; the result is the same for any number of them
 };
 
 struct FairingResult {
@@ -52,7 +54,7 @@ struct FairingResult {
 };
 
 /// Five steps of (5), each cut short where it would use up a vertex's freedom. Precondition as for fair().
-Curve smoothed(const Curve& curve, const Polygon& island, double bead_width);
+Curve smoothed(const Curve& curve, const Polygon& island, double bead_width, Workers* workers = nullptr);
 
 /// Precondition: `curve` is simple, strictly inside `island` and has at least 5 vertices. So is the result.
 FairingResult fair(const Curve& curve, const Polygon& island, const FairingOptions& options);

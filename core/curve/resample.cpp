@@ -12,8 +12,8 @@ constexpr std::size_t fewest_vertices = 8;
 constexpr int most_sweeps = 6;
 
 /// One sweep; a dropped vertex's neighbours stay, so that every move is measured against its own clearance.
-Curve thinned_once(const Curve& curve, const BorderIndex& border, double spacing) {
-  const std::vector<double> free = freedom(curve, border, spacing);
+Curve thinned_once(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers) {
+  const std::vector<double> free = freedom(curve, border, spacing, {}, workers);
   Curve result;
   bool dropped = true;  // the first vertex stays
   std::size_t left = curve.size();
@@ -35,18 +35,18 @@ Curve thinned_once(const Curve& curve, const BorderIndex& border, double spacing
 
 }  // namespace
 
-Curve thinned(const Curve& curve, const BorderIndex& border, double spacing) {
+Curve thinned(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers) {
   Curve thin = curve;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     const std::size_t size = thin.size();
-    thin = thinned_once(thin, border, spacing);
+    thin = thinned_once(thin, border, spacing, workers);
     if (thin.size() == size) break;
   }
   return thin;
 }
 
-Curve respaced(const Curve& curve, const BorderIndex& border, double spacing) {
-  const Curve thin = thinned(curve, border, spacing);
+Curve respaced(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers) {
+  const Curve thin = thinned(curve, border, spacing, workers);
   Curve result;
   for (std::size_t i = 0; i < thin.size(); ++i) {
     const Vec2 &a = thin.vertices[i], &b = thin.vertices[thin.after(i)];

@@ -3,15 +3,16 @@
 
 #include "core/curve/curve.hpp"
 #include "core/geometry/border_index.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 
 /// Drops vertices that stand closer than half of `spacing` to their neighbours, where the curve moves by less
 /// than its clearance (so it stays simple and inside).
-Curve thinned(const Curve& curve, const BorderIndex& border, double spacing);
+Curve thinned(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers = nullptr);
 
 /// The same, and cuts segments longer than 1.5 `spacing` in equal pieces.
-Curve respaced(const Curve& curve, const BorderIndex& border, double spacing);
+Curve respaced(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers = nullptr);
 
 /// Every segment halved.
 Curve subdivided(const Curve& curve);

@@ -1,143 +1,147 @@
 #include "core/geometry/lattice_owners.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <numbers>
+#include <utility>
 
-// The inner loop is compiled twice and chosen at run time. Neither version fuses multiplications, so both
-// give the same bytes.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define UNICURSAL_VECTORISED __attribute__((target_clones("avx2", "default")))
-#else
-#define UNICURSAL_VECTORISED
-#endif
+#include "core/geometry/nearest_kernel.hpp"
+#include "core/geometry/segment_rows.hpp"
 
 namespace unicursal::core {
 namespace {
 
-struct Scan {
-  float ax, ay, ux, uy, inverse;  ///< start, direction, 1 ÷ length² (0 for a point)
-};
-
-UNICURSAL_VECTORISED
-void scan_row(const float* __restrict x, const float* __restrict y, float* __restrict best,
-              std::int32_t* __restrict owner, std::size_t count, Scan s, std::int32_t index) {
-  for (std::size_t k = 0; k < count; ++k) {
-    const float px = x[k] - s.ax, py = y[k] - s.ay;
-    float t = (px * s.ux + py * s.uy) * s.inverse;
-    t = t < 0.0F ? 0.0F : t;
-    t = t > 1.0F ? 1.0F : t;
-    const float qx = px - t * s.ux, qy = py - t * s.uy;
-    const float d = qx * qx + qy * qy;
-    const bool nearer = d < best[k];
-    best[k] = nearer ? d : best[k];
-    owner[k] = nearer ? index : owner[k];
-  }
-}
-
-/// The x range of the points of a row that lie within `reach` of a segment; empty when low > high.
-struct Span {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double from, double to) {
-    low = std::min(low, from);
-    high = std::max(high, to);
-  }
-};
-
-Span span_of_row(const Vec2& a, const Vec2& b, double reach, double y) {
-  Span span;
-  for (const Vec2& p : {a, b}) {
-    const double h = y - p.y();
-    if (std::abs(h) <= reach) {
-      const double half = std::sqrt(reach * reach - h * h);
-      span.add(p.x() - half, p.x() + half);
-    }
-  }
-  const Vec2 u = b - a;
-  const double length = u.norm();
-  if (length > 0) {
-    for (const double side : {-reach, reach}) {
-      const Vec2 p = a + side / length * perpendicular(u);
-      if (u.y() == 0) continue;
-      const double t = (y - p.y()) / u.y();
-      if (t >= 0 && t <= 1) span.add(p.x() + t * u.x(), p.x() + t * u.x());
-    }
-  }
-  return span;
-}
+constexpr std::size_t range = 4096;  ///< segments whose sums are gathered in one piece
 
 }  // namespace
 
-LatticeOwners::LatticeOwners(const Lattice& lattice)
-    : lattice_(lattice), distance2_(lattice.size()), owner_(lattice.size()) {}
+LatticeOwners::LatticeOwners(const Lattice& lattice, const OwnerOptions& options)
+    : lattice_(lattice),
+      slack_(options.slack),
+      split_(options.split),
+      workers_(options.workers != nullptr ? *options.workers : serial_) {}
 
-void LatticeOwners::splat(const Segment& segment, std::int32_t index, double reach) {
-  const Vec2 a = segment.a - lattice_.origin, b = segment.b - lattice_.origin;
-  const double pitch = lattice_.pitch;
-  // A border sample sits up to half a pitch away from its square's centre: reach that much farther.
-  const double wide = reach + 0.71 * pitch;
-  const auto row_at = [&](double y) { return static_cast<std::ptrdiff_t>(std::floor(y / pitch)); };
-  const std::ptrdiff_t first = std::max<std::ptrdiff_t>(row_at(std::min(a.y(), b.y()) - wide), 0);
-  const std::ptrdiff_t last = std::min<std::ptrdiff_t>(row_at(std::max(a.y(), b.y()) + wide),
-                                                       static_cast<std::ptrdiff_t>(lattice_.rows) - 1);
-  const Vec2 u = b - a;
-  const double length2 = u.squaredNorm();
-  const Scan scan{static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(u.x()),
-                  static_cast<float>(u.y()), length2 > 0 ? static_cast<float>(1 / length2) : 0.0F};
-  for (std::ptrdiff_t row = first; row <= last; ++row) {
-    const Span span = span_of_row(a, b, wide, (static_cast<double>(row) + 0.5) * pitch);
-    const double low = std::max(std::ceil(span.low / pitch - 0.5), 0.0);
-    const double high =
-        std::min(std::floor(span.high / pitch - 0.5), static_cast<double>(lattice_.columns) - 1);
-    if (!(low <= high)) continue;
-    const std::size_t from = static_cast<std::size_t>(row) * lattice_.columns + static_cast<std::size_t>(low);
-    const auto count = static_cast<std::size_t>(high - low) + 1;
-    scan_row(&lattice_.x[from], &lattice_.y[from], &distance2_[from], &owner_[from], count, scan, index);
-  }
+void LatticeOwners::assign(std::vector<Segment> segments) {
+  const bool lists_good = lists_hold(segments);
+  current_ = std::move(segments);
+  owner_.resize(lattice_.size());
+  if (!lists_good) make_lists();
+  workers_.each(lattice_.tiles.size(), [this](std::size_t tile) { scan(tile); });
+  second_moment_ = 0;
+  for (const double moment : tile_moments_) second_moment_ += moment;
+  pulls_.assign(current_.size(), {});
+  gather([this](std::size_t segment, std::size_t sum) {
+    const std::array<float, 4>& s = tile_sums_[sum];
+    pulls_[segment].all += Vec2(s[0], s[1]);
+    pulls_[segment].end += Vec2(s[2], s[3]);
+  });
 }
 
-void LatticeOwners::assign(const std::vector<Segment>& segments, double reach) {
-  std::fill(distance2_.begin(), distance2_.end(), std::numeric_limits<float>::infinity());
-  std::fill(owner_.begin(), owner_.end(), -1);
-  for (std::size_t s = 0; s < segments.size(); ++s) splat(segments[s], static_cast<std::int32_t>(s), reach);
-  propagate(segments);
+bool LatticeOwners::lists_hold(const std::vector<Segment>& segments) const {
+  if (lists_.empty() || listed_.size() != segments.size()) return false;
+  const double most = slack_ * slack_;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (!((segments[i].a - listed_[i].a).squaredNorm() <= most)) return false;
+    if (!((segments[i].b - listed_[i].b).squaredNorm() <= most)) return false;
+  }
+  return true;
 }
 
-void LatticeOwners::propagate(const std::vector<Segment>& segments) {
-  std::vector<std::size_t> open;
-  for (std::size_t k = 0; k < owner_.size(); ++k) {
-    if (lattice_.weight[k] > 0 && owner_[k] < 0) open.push_back(k);
-  }
-  while (!open.empty()) {
-    std::vector<std::pair<std::size_t, std::int32_t>> found;
-    std::vector<std::size_t> still_open;
-    for (const std::size_t k : open) {
-      const std::size_t row = k / lattice_.columns, column = k % lattice_.columns;
-      const Vec2 p = lattice_.origin + Vec2(lattice_.x[k], lattice_.y[k]);
-      double best = std::numeric_limits<double>::infinity();
-      std::int32_t owner = -1;
-      for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, lattice_.rows - 1); ++r) {
-        for (std::size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, lattice_.columns - 1);
-             ++c) {
-          const std::int32_t other = owner_[r * lattice_.columns + c];
-          if (other < 0) continue;
-          const Segment& s = segments[static_cast<std::size_t>(other)];
-          const double d = distance_to_segment(p, s.a, s.b);
-          if (d < best) best = d, owner = other;
-        }
-      }
-      if (owner < 0) {
-        still_open.push_back(k);
-      } else {
-        distance2_[k] = static_cast<float>(best * best);
-        found.emplace_back(k, owner);
-      }
+void LatticeOwners::make_lists() {
+  listed_ = current_;
+  lists_.resize(lattice_.tiles.size());
+  tile_moments_.assign(lattice_.tiles.size(), 0);
+  if (listed_.empty()) {
+    for (std::size_t t = 0; t < lists_.size(); ++t) {
+      const Lattice::Tile& tile = lattice_.tiles[t];
+      lists_[t].start.assign(lattice_.last_block(tile) - lattice_.first_block(tile) + 1, 0);
     }
-    for (const auto& [k, owner] : found) owner_[k] = owner;
-    if (found.empty()) return;
-    open.swap(still_open);
+  } else {
+    const SegmentRows rows(listed_);
+    workers_.each(lists_.size(), [&](std::size_t tile) {
+      // The other owner of a split square is no farther than the nearest by more than its half diagonals.
+      const double farther = split_ ? std::numbers::sqrt2 * lattice_.pitch : 0;
+      make_near_lists(lattice_, lattice_.tiles[tile], listed_, rows, slack_ + farther / 2, lists_[tile]);
+    });
   }
+  number_sums();
+}
+
+/// A tile's samples add to sums of the tile's own; a segment finds its sums in order of tiles.
+void LatticeOwners::number_sums() {
+  first_sum_.assign(1, 0);
+  for (const NearLists& lists : lists_) first_sum_.push_back(first_sum_.back() + lists.segments.size());
+  tile_sums_.resize(first_sum_.back());
+  sum_start_.assign(listed_.size() + 1, 0);
+  for (const NearLists& lists : lists_) {
+    for (const std::int32_t segment : lists.segments) ++sum_start_[static_cast<std::size_t>(segment) + 1];
+  }
+  for (std::size_t s = 1; s < sum_start_.size(); ++s) sum_start_[s] += sum_start_[s - 1];
+  sum_of_.resize(first_sum_.back());
+  std::vector<std::uint32_t> next(sum_start_.begin(), sum_start_.end() - 1);
+  std::uint32_t sum = 0;
+  for (const NearLists& lists : lists_) {
+    for (const std::int32_t segment : lists.segments)
+      sum_of_[next[static_cast<std::size_t>(segment)]++] = sum++;
+  }
+}
+
+void LatticeOwners::scan(std::size_t number) {
+  const Lattice::Tile& tile = lattice_.tiles[number];
+  const NearLists& lists = lists_[number];
+  std::vector<TileSegment> segments;
+  segments.reserve(lists.segments.size());
+  for (const std::int32_t s : lists.segments) {
+    segments.push_back(in_tile(current_[static_cast<std::size_t>(s)], tile.corner));
+  }
+  std::array<float, 4>* sums = tile_sums_.data() + first_sum_[number];
+  std::fill_n(sums, segments.size(), std::array<float, 4>{});
+  const std::size_t first = lattice_.first_block(tile);
+  tile_moments_[number] =
+      scan_blocks({lattice_.blocks.data() + first, lattice_.last_block(tile) - first, lattice_.borders.data(),
+                   static_cast<float>(lattice_.pitch), segments.data(), lists.start.data(),
+                   lists.entries.data(), owner_.data() + Lattice::lanes * first, sums,
+                   split_ ? lists.segments.data() : nullptr, static_cast<std::int32_t>(current_.size())});
+}
+
+/// Calls add(segment, sum) for all sums of all segments, those of one segment in order.
+template <typename Add>
+void LatticeOwners::gather(Add add) const {
+  workers_.ranges(current_.size(), range, [&](std::size_t first, std::size_t last) {
+    for (std::size_t segment = first; segment < last; ++segment) {
+      for (std::uint32_t k = sum_start_[segment]; k < sum_start_[segment + 1]; ++k) add(segment, sum_of_[k]);
+    }
+  });
+}
+
+std::int32_t LatticeOwners::owner(std::size_t sample) const {
+  const std::int32_t local = owner_[sample];
+  if (local < 0) return -1;
+  const auto tile = static_cast<std::size_t>(lattice_.blocks[sample / Lattice::lanes].tile);
+  return lists_[tile].segments[static_cast<std::size_t>(local)];
+}
+
+double LatticeOwners::distance2(std::size_t sample) const {
+  const Segment& nearest = current_[static_cast<std::size_t>(owner(sample))];
+  const double distance = distance_to_segment(lattice_.position(sample), nearest.a, nearest.b);
+  return distance * distance;
+}
+
+std::vector<Vec2> LatticeOwners::sums(const std::vector<std::array<float, 2>>& values) const {
+  std::vector<std::array<float, 2>> parts(tile_sums_.size(), {0, 0});
+  workers_.each(lattice_.tiles.size(), [&](std::size_t number) {
+    const Lattice::Tile& tile = lattice_.tiles[number];
+    const std::size_t last = Lattice::lanes * lattice_.last_block(tile);
+    for (std::size_t k = Lattice::lanes * lattice_.first_block(tile); k < last; ++k) {
+      if (owner_[k] < 0) continue;
+      std::array<float, 2>& part = parts[first_sum_[number] + static_cast<std::size_t>(owner_[k])];
+      part[0] += values[k][0];
+      part[1] += values[k][1];
+    }
+  });
+  std::vector<Vec2> result(current_.size(), Vec2(0, 0));
+  gather(
+      [&](std::size_t segment, std::size_t sum) { result[segment] += Vec2(parts[sum][0], parts[sum][1]); });
+  return result;
 }
 
 }  // namespace unicursal::core

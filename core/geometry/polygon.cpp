@@ -28,8 +28,9 @@ double area(const std::vector<Polygon>& polygons) {
 }
 
 double perimeter(const Ring& ring) {
-  double sum = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) sum += (ring[(i + 1) % ring.size()] - ring[i]).norm();
+  if (ring.empty()) return 0;
+  double sum = (ring.front() - ring.back()).norm();
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) sum += (ring[i + 1] - ring[i]).norm();
   return sum;
 }
 

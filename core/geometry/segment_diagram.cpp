@@ -17,6 +17,9 @@
 #include <unordered_map>
 
 #include "core/geometry/border_index.hpp"
+#include "core/geometry/clip.hpp"
+#include "core/geometry/diagram_arc.hpp"
+#include "core/geometry/diagram_frame.hpp"
 #include "core/geometry/segment_grid.hpp"
 
 namespace unicursal::core {
@@ -35,11 +38,16 @@ constexpr double vertex_tolerance =
 constexpr double least_turn =
     1e-12;  ///< sine between two borders below which their meeting point is left as it is
 constexpr double least_mean =
-    0.99;                       ///< squared, of two directions' sum, for neighbours that do not turn back
-constexpr double slack = 1e-9;  ///< mm, between things that rounding may make touch or not
+    0.99;  ///< squared, of two directions' sum, for neighbours that do not turn back
 constexpr double off_lines =
     1e-11;  ///< mm, by which the diagram is taken to lie beside the border: beyond rounding, no area
-constexpr double far_away = 20;  ///< island diagonals to the sites that close the diagram
+constexpr double far_away = 20;       ///< diagonals of a piece to the sites that close its diagram
+constexpr double piece_size = 1500;   ///< segments in a piece of the island
+constexpr double small_curve = 2.0;   ///< pieces; below it the island is not divided
+constexpr double off_round = 0.0137;  ///< of a piece, where the first line runs: off any round number
+constexpr double first_halo = 0.9;    ///< mean spacings around a piece where segments are looked for first
+constexpr double headroom = 1.1;      ///< of a look that has to reach farther
+constexpr std::size_t pieces_in_memory = 64;
 
 /// A vertex of the curve, or the open segment that leaves it. Points far away that close the diagram count on
 /// from the last vertex.
@@ -63,54 +71,6 @@ Boundary ordered(const Boundary& b) {
   return b.left < b.right ? b : Boundary{b.right, b.left, b.to, b.from};
 }
 
-/// A stretch of a cell's border as a quadratic Bézier curve, which a straight line and a parabola both are.
-/// It starts and ends exactly where its neighbours do, however badly rounded these points are: cells close,
-/// and what one loses the next one gains.
-struct Arc {
-  Vec2 from{0, 0}, control{0, 0}, to{0, 0};
-
-  Vec2 at(double s) const {
-    return (1 - s) * ((1 - s) * from + s * control) + s * ((1 - s) * control + s * to);
-  }
-  Vec2 derivative(double s) const { return 2 * ((1 - s) * (control - from) + s * (to - control)); }
-};
-
-Arc line(const Vec2& from, const Vec2& to) {
-  return {from, (from + to) / 2, to};
-}
-
-/// The parabola of the points as far from `focus` as from the line through `base` along the unit vector
-/// `along`; its tangents meet where `focus` and the feet of both ends are equally far.
-Arc parabola(const Vec2& from, const Vec2& to, const Vec2& focus, const Vec2& base, const Vec2& along) {
-  const Vec2 up = perpendicular(along);
-  const double height = (focus - base).dot(up);
-  const double x0 = (from - focus).dot(along), x1 = (to - focus).dot(along);
-  const double y = (height + x0 * x1 / height) / 2;
-  return {from, focus + (x0 + x1) / 2 * along + (y - height) * up, to};
-}
-
-/// Parameters in (0, 1) where an arc passes through a straight edge. What passes an end of the edge
-/// within rounding counts: a cut too many does no harm.
-std::vector<double> crossings(const Arc& arc, const Vec2& a, const Vec2& b) {
-  std::vector<double> found;
-  const double length = (b - a).norm();
-  const auto keep = [&](double s) {
-    if (!(s > 0 && s < 1)) return;
-    const double along = (arc.at(s) - a).dot(b - a) / length;
-    if (along > -slack && along < length + slack) found.push_back(s);
-  };
-  // n·(point − a) = 0 along the arc is a quadratic in s.
-  const Vec2 n = perpendicular(b - a);
-  const double h0 = n.dot(arc.from - a), h1 = n.dot(arc.control - a), h2 = n.dot(arc.to - a);
-  const double q2 = h0 - 2 * h1 + h2, q1 = 2 * (h1 - h0);
-  const double discriminant = q1 * q1 - 4 * q2 * h0;
-  if (discriminant < 0) return found;
-  const double q = -0.5 * (q1 + std::copysign(std::sqrt(discriminant), q1));
-  if (q2 != 0) keep(q / q2);
-  if (q != 0) keep(h0 / q);
-  return found;
-}
-
 /// Gauss–Legendre on [0, 1], four points: exact for polynomials of degree 7.
 constexpr std::array<double, 4> gauss_point{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                             0.93056815579702629};
@@ -125,19 +85,59 @@ std::uint64_t key_of(double x, double y) {
   return (a * 0x9E3779B97F4A7C15ULL) ^ (b + 0x7F4A7C15F39CC060ULL + (a << 6));
 }
 
-class Judge {
- public:
-  Judge(const Ring& curve, const Polygon& island)
-      : curve_(curve),
-        border_(island, pitch(curve)),
-        segments_(segments_of(curve)),
-        grid_(segments_, pitch(curve)),
-        pieces_(border_.edges().size()) {
-    result_.points.resize(curve.size());
-    result_.segments.resize(curve.size());
+/// The whole curve, for all pieces of its diagram.
+struct CurveIndex {
+  explicit CurveIndex(const Ring& ring)
+      : curve(ring),
+        pitch(1.5 * perimeter(ring) / static_cast<double>(ring.size())),
+        segments(segments_of(ring)),
+        grid(segments, pitch) {}
+
+  static std::vector<Segment> segments_of(const Ring& ring) {
+    std::vector<Segment> result(ring.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) result[i] = {ring[i], ring[(i + 1) % ring.size()]};
+    return result;
   }
 
-  SegmentDiagram run() {
+  const Ring& curve;
+  double pitch;
+  std::vector<Segment> segments;
+  SegmentGrid grid;
+};
+
+/// What the cells inside one piece of the island add up to.
+struct PieceCells {
+  std::vector<std::size_t>
+      vertices;  ///< ascending; those whose cells, or whose segments' cells, may be there
+  std::vector<CellIntegrals> points, segments;
+  double missing = 0;  ///< mm, by which segments should have been looked for farther away
+};
+
+/// The diagram of all segments in a box, inside one piece of the island. It is that of the whole curve if for
+/// every point of the piece the circle that reaches to the nearest of them stays in the box.
+class Judge {
+ public:
+  Judge(const CurveIndex& all, const std::vector<std::size_t>& near, const Frame& frame, const Polygon& piece)
+      : curve_(all.curve),
+        pitch_(all.pitch),
+        segments_(all.segments),
+        grid_(all.grid),
+        near_(near),
+        frame_(frame),
+        border_(piece, all.pitch),
+        pieces_(border_.edges().size()) {
+    for (const std::size_t i : near) {
+      result_.vertices.push_back(i);
+      result_.vertices.push_back((i + 1) % curve_.size());
+    }
+    std::sort(result_.vertices.begin(), result_.vertices.end());
+    result_.vertices.erase(std::unique(result_.vertices.begin(), result_.vertices.end()),
+                           result_.vertices.end());
+    result_.points.resize(result_.vertices.size());
+    result_.segments.resize(result_.vertices.size());
+  }
+
+  PieceCells run() {
     // CGAL shuffles what it inserts; the order must not depend on what was done before.
     CGAL::get_default_random() = CGAL::Random(0);
     Graph graph;
@@ -165,26 +165,18 @@ class Judge {
   }
 
  private:
-  static double pitch(const Ring& curve) {
-    return 1.5 * perimeter(curve) / static_cast<double>(curve.size());
-  }
-
-  static std::vector<Segment> segments_of(const Ring& curve) {
-    std::vector<Segment> segments(curve.size());
-    for (std::size_t i = 0; i < curve.size(); ++i) segments[i] = {curve[i], curve[(i + 1) % curve.size()]};
-    return segments;
-  }
-
   void insert(Graph& graph) {
     std::vector<Kernel::Point_2> points;
     std::vector<std::pair<std::size_t, std::size_t>> ends;
-    for (std::size_t i = 0; i < curve_.size(); ++i) {
+    Box box{curve_[near_[0]], curve_[near_[0]]};
+    for (const std::size_t i : result_.vertices) {
       points.emplace_back(curve_[i].x(), curve_[i].y());
-      ends.emplace_back(i, (i + 1) % curve_.size());
       vertex_at_.emplace(key_of(curve_[i].x(), curve_[i].y()), i);
+      box.min = box.min.cwiseMin(curve_[i]);
+      box.max = box.max.cwiseMax(curve_[i]);
     }
+    for (const std::size_t i : near_) ends.emplace_back(place(i), place((i + 1) % curve_.size()));
     graph.insert_segments(points.begin(), points.end(), ends.begin(), ends.end());
-    const Box box = bounds(curve_);
     const double far = far_away * (box.size().norm() + 1);
     for (const Vec2& way : {Vec2(1, 0.1), Vec2(-0.1, 1), Vec2(-1, -0.1), Vec2(0.1, -1)}) {
       const Vec2 p = box.center() + far * way;
@@ -212,8 +204,31 @@ class Judge {
     return {(a + 1) % curve_.size() == b ? a : b, true};
   }
 
+  /// Of a vertex, among those of the piece.
+  std::size_t place(std::size_t vertex) const {
+    const auto found = std::lower_bound(result_.vertices.begin(), result_.vertices.end(), vertex);
+    return static_cast<std::size_t>(found - result_.vertices.begin());
+  }
+
   CellIntegrals& cell(const Site& site) {
-    return (site.segment ? result_.segments : result_.points)[site.index];
+    return (site.segment ? result_.segments : result_.points)[place(site.index)];
+  }
+
+  /// False where segments had to be looked for farther away.
+  bool has(const Site& site) const {
+    const std::size_t k = place(site.index);
+    return k < result_.vertices.size() && result_.vertices[k] == site.index;
+  }
+
+  /// What is missing is a convex function of the place in each cell: greatest where stretches of its border
+  /// end.
+  void note_ends(const Site& site, const Arc& arc, double s0, double s1) {
+    for (const double s : {s0, s1}) {
+      const Vec2 p = arc.at(s);
+      const double inside =
+          std::min((p - frame_.searched.min).minCoeff(), (frame_.searched.max - p).minCoeff());
+      result_.missing = std::max(result_.missing, (nearest_point(site, p) - p).norm() - inside);
+    }
   }
 
   /// Adds a stretch that has the site's cell on its left.
@@ -390,8 +405,7 @@ class Judge {
     const Site& segment = l.segment ? l : r;
     if (ends_in(segment.index, point.index)) return line(from, to);
     const Segment& s = segments_[segment.index];
-    const Arc arc = parabola(from, to, curve_[point.index], s.a, direction(segment.index));
-    return arc.control.allFinite() ? arc : line(from, to);
+    return parabola(from, to, curve_[point.index], s.a, direction(segment.index));
   }
 
   /// Both cells' share of the border between them, clipped by the island.
@@ -401,7 +415,7 @@ class Judge {
     const Arc arc = arc_between(left, right, from, to);
     std::vector<double> cuts{0, 1};
     std::vector<std::size_t> near;
-    border_.near(box_of(arc), [&](std::size_t e) { near.push_back(e); });
+    border_.near(bounds(arc), [&](std::size_t e) { near.push_back(e); });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::size_t e : near) {
@@ -412,13 +426,14 @@ class Judge {
       }
       // Whether it reaches the border is a matter of rounding, and not the same for edges that coincide.
       for (const Vec2& end : {arc.from, arc.to}) {
-        if (distance_to_segment(end, edge.a, edge.b) < slack) cut_border(e, end);
+        if (distance_to_segment(end, edge.a, edge.b) < rounding_slack) cut_border(e, end);
       }
     }
     std::sort(cuts.begin(), cuts.end());
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const int winding = border_.winding(arc.at((cuts[k] + cuts[k + 1]) / 2) + aside());
       if (winding == 0) continue;
+      note_ends(left, arc, cuts[k], cuts[k + 1]);
       integrate(left, arc, cuts[k], cuts[k + 1], winding);
       integrate(right, arc, cuts[k], cuts[k + 1], -winding);
     }
@@ -435,16 +450,10 @@ class Judge {
     pieces_[e].push_back(std::clamp((p - edge.a).dot(along) / along.squaredNorm(), 0.0, 1.0));
   }
 
-  static Box box_of(const Arc& arc) {
-    const Vec2 margin(slack, slack);
-    return {arc.from.cwiseMin(arc.to).cwiseMin(arc.control) - margin,
-            arc.from.cwiseMax(arc.to).cwiseMax(arc.control) + margin};
-  }
-
   Site nearest(const Vec2& p) const {
     double best = std::numeric_limits<double>::infinity();
     std::size_t index = 0;
-    for (double reach = pitch(curve_), searched = 0; !(best <= searched); searched = reach, reach *= 2) {
+    for (double reach = pitch_, searched = 0; !(best <= searched); searched = reach, reach *= 2) {
       const Vec2 margin(reach, reach);
       grid_.near({p - margin, p + margin}, [&](std::size_t i) {
         const double d = distance_to_segment(p, segments_[i].a, segments_[i].b);
@@ -462,32 +471,155 @@ class Judge {
     for (std::size_t e = 0; e < pieces_.size(); ++e) {
       const BorderEdge& edge = border_.edges()[e];
       if (edge.a == edge.b) continue;
+      const bool cut_off = frame_.on_line(edge.a, edge.b);
       std::vector<double>& cuts = pieces_[e];
+      if (cut_off) add_corners(edge, cuts);
       cuts.push_back(0);
       cuts.push_back(1);
       std::sort(cuts.begin(), cuts.end());
       const Arc arc = line(edge.a, edge.b);
       for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
         if (cuts[k + 1] <= cuts[k]) continue;
-        integrate(nearest(arc.at((cuts[k] + cuts[k + 1]) / 2) - aside()), arc, cuts[k], cuts[k + 1], 1);
+        const Vec2 middle = arc.at((cuts[k] + cuts[k + 1]) / 2);
+        // Along the lines between pieces, edges outside the island run back and forth.
+        if (cut_off && frame_.island->winding(middle) == 0) continue;
+        const Site site = nearest(middle - aside());
+        note_ends(site, arc, cuts[k], cuts[k + 1]);
+        if (has(site)) integrate(site, arc, cuts[k], cuts[k + 1], 1);
       }
     }
   }
 
+  /// Where other edges meet one that runs along a line between pieces.
+  void add_corners(const BorderEdge& edge, std::vector<double>& cuts) const {
+    for (const BorderEdge& other : border_.edges()) {
+      if (!frame_.on_line(edge.a, edge.b, other.a)) continue;
+      const double s = (other.a - edge.a).dot(edge.b - edge.a) / (edge.b - edge.a).squaredNorm();
+      if (s > 0 && s < 1) cuts.push_back(s);
+    }
+  }
+
   const Ring& curve_;
+  double pitch_;
+  const std::vector<Segment>& segments_;
+  const SegmentGrid& grid_;
+  const std::vector<std::size_t>& near_;  ///< segments, ascending
+  Frame frame_;
   BorderIndex border_;
-  std::vector<Segment> segments_;
-  SegmentGrid grid_;
   std::vector<std::vector<double>> pieces_;  ///< per border edge, where cells' borders meet it
   std::unordered_multimap<std::uint64_t, std::size_t> vertex_at_;
   std::vector<Vec2> far_;  ///< the points that close the diagram
-  SegmentDiagram result_;
+  PieceCells result_;
 };
+
+/// The island, divided along lines into rectangles of about `piece_size` segments.
+class Pieces {
+ public:
+  Pieces(const CurveIndex& all, const Polygon& island)
+      : all_(all), island_(island), border_(island, all.pitch), box_(bounds(island)) {
+    const auto count = static_cast<double>(all.curve.size());
+    spacing_ = area(island) / perimeter(all.curve);
+    if (count <= small_curve * piece_size) return;
+    const double side = std::sqrt(area(island) * piece_size / count);
+    columns_ = static_cast<std::size_t>(std::ceil(box_.size().x() / side));
+    rows_ = static_cast<std::size_t>(std::ceil(box_.size().y() / side));
+  }
+
+  std::size_t count() const { return columns_ * rows_; }
+
+  /// Cells inside piece `number`; none when nothing of the island lies there.
+  PieceCells cells(std::size_t number) const {
+    Frame frame{&border_, lines(number), {}};
+    const Polygon piece = polygon(frame.lines);
+    if (piece.outer.size() < 3) return {};
+    const double everywhere = std::numeric_limits<double>::infinity();
+    const Box box = bounds(piece);
+    for (double halo = count() > 1 ? first_halo * spacing_ : everywhere;;) {
+      frame.searched = {box.min.array() - halo, box.max.array() + halo};
+      const std::vector<std::size_t> found = near(frame.searched);
+      PieceCells cells;
+      if (!found.empty()) cells = Judge(all_, found, frame, piece).run();
+      if (!found.empty() && cells.missing <= 0) return cells;
+      halo = found.empty() ? 2 * halo : headroom * (halo + cells.missing);
+    }
+  }
+
+ private:
+  static double line(double low, double size, std::size_t number, std::size_t count) {
+    if (number == 0) return -std::numeric_limits<double>::infinity();
+    if (number == count) return std::numeric_limits<double>::infinity();
+    return low + size * (static_cast<double>(number) + off_round) / static_cast<double>(count);
+  }
+
+  Box lines(std::size_t number) const {
+    const std::size_t column = number % columns_, row = number / columns_;
+    const Vec2 low = box_.min, size = box_.size();
+    return {{line(low.x(), size.x(), column, columns_), line(low.y(), size.y(), row, rows_)},
+            {line(low.x(), size.x(), column + 1, columns_), line(low.y(), size.y(), row + 1, rows_)}};
+  }
+
+  Polygon polygon(const Box& between) const {
+    Polygon piece = island_;
+    const auto clip = [&](Side side, double at) {
+      if (!std::isfinite(at)) return;
+      piece.outer = clipped(piece.outer, side, at);
+      piece.holes = clipped(piece.holes, side, at);
+    };
+    clip(Side::right, between.min.x());
+    clip(Side::left, between.max.x());
+    clip(Side::above, between.min.y());
+    clip(Side::below, between.max.y());
+    return piece;
+  }
+
+  /// Segments whose boxes meet a box, ascending.
+  std::vector<std::size_t> near(const Box& box) const {
+    std::vector<std::size_t> found;
+    all_.grid.near(box, [&](std::size_t i) {
+      const Segment& s = all_.segments[i];
+      if ((s.a.cwiseMin(s.b).array() <= box.max.array()).all() &&
+          (s.a.cwiseMax(s.b).array() >= box.min.array()).all())
+        found.push_back(i);
+    });
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+  const CurveIndex& all_;
+  const Polygon& island_;
+  BorderIndex border_;
+  Box box_;
+  double spacing_ = 0;  ///< mm, mean, of the curve
+  std::size_t columns_ = 1, rows_ = 1;
+};
+
+void add(CellIntegrals& sum, const CellIntegrals& more) {
+  sum.area += more.area;
+  sum.second_moment += more.second_moment;
+}
 
 }  // namespace
 
-SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island) {
-  return Judge(curve, island).run();
+SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island, Workers* workers) {
+  const CurveIndex all(curve);
+  const Pieces pieces(all, island);
+  Workers serial(1);
+  SegmentDiagram diagram{std::vector<CellIntegrals>(curve.size()), std::vector<CellIntegrals>(curve.size())};
+  std::vector<PieceCells> cells;
+  for (std::size_t first = 0; first < pieces.count(); first += pieces_in_memory) {
+    cells.assign(std::min(pieces_in_memory, pieces.count() - first), {});
+    (workers != nullptr ? *workers : serial).each(cells.size(), [&](std::size_t k) {
+      cells[k] = pieces.cells(first + k);
+    });
+    for (const PieceCells& piece : cells) {
+      for (std::size_t k = 0; k < piece.vertices.size(); ++k) {
+        add(diagram.points[piece.vertices[k]], piece.points[k]);
+        add(diagram.segments[piece.vertices[k]], piece.segments[k]);
+      }
+    }
+  }
+  return diagram;
 }
 
 }  // namespace unicursal::core

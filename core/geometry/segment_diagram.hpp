@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.hpp"
+#include "core/parallel.hpp"
 
 namespace unicursal::core {
 
@@ -26,7 +27,9 @@ struct SegmentDiagram {
   std::vector<CellIntegrals> segments;  ///< cell of the open segment from vertex i to its successor
 };
 
-/// `curve` is a closed ring: simple, strictly inside `island`, with at least three vertices.
-SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island);
+/// `curve` is a closed ring: simple, strictly inside `island`, with at least three vertices. Large islands
+/// are divided along lines, and each piece's part of the diagram comes from the segments within reach of it:
+/// time is linear, memory bounded, and the result the same for any number of workers.
+SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island, Workers* workers = nullptr);
 
 }  // namespace unicursal::core

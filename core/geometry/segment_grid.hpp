@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/geometry/lattice_owners.hpp"
+#include "core/geometry/segment.hpp"
 
 namespace unicursal::core {
 

@@ -16,8 +16,7 @@ constexpr double least_needle = 0.02;         ///< of d; what is shorter is a po
 constexpr double longest_step = 0.3;          ///< of d, that a seed moves in one iteration
 constexpr double sufficient_decrease = 1e-4;  ///< Armijo
 constexpr int most_halvings = 5;
-constexpr int renewal = 5;     ///< iterations between new needles
-constexpr double reach = 0.8;  ///< of d; beyond it owners are approximate (lattice_owners.hpp)
+constexpr int renewal = 5;  ///< iterations between new needles
 
 /// How far the line through `seed` along `u` (unit) can be followed both ways within the seed's cell: up to
 /// the bisectors with other seeds and up to the domain's border; `most` when that is farther.
@@ -52,20 +51,21 @@ NeedleTessellation::NeedleTessellation(const Polygon& domain, const DirectionFie
       area_(area(domain)),
       asked_(lattice_.size(), Eigen::Vector2f(0, 0)) {
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
-    if (lattice_.weight[k] > 0) asked_[k] = lattice_.weight[k] * field.at(lattice_.position(k)).cast<float>();
+    if (lattice_.weight(k) > 0)
+      asked_[k] = (lattice_.weight(k) * field.at(lattice_.position(k))).cast<float>();
   }
 }
 
 std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds) {
   std::vector<Segment> result = as_points(seeds);
-  owners_.assign(result, reach * d_);
+  owners_.assign(result);
   std::vector<Vec2> asked(seeds.size(), Vec2(0, 0));
   std::vector<double> cell_area(seeds.size(), 0);
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     if (owners_.owner(k) < 0) continue;
     const auto owner = static_cast<std::size_t>(owners_.owner(k));
     asked[owner] += asked_[k].cast<double>();
-    cell_area[owner] += lattice_.weight[k];
+    cell_area[owner] += lattice_.weight(k);
   }
   const SegmentGrid grid(result, d_);
   const double unit = length_ * std::sqrt(area_ / (std::numbers::pi * static_cast<double>(seeds.size())));
@@ -82,21 +82,11 @@ std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds)
 }
 
 double NeedleTessellation::coverage(const std::vector<Segment>& needles, std::vector<Vec2>& gradient) {
-  owners_.assign(needles, reach * d_);
-  gradient.assign(needles.size(), Vec2(0, 0));
-  double value = 0;
-  for (std::size_t k = 0; k < lattice_.size(); ++k) {
-    if (owners_.owner(k) < 0) continue;
-    const auto owner = static_cast<std::size_t>(owners_.owner(k));
-    const Vec2 u = needles[owner].b - needles[owner].a, p = lattice_.position(k) - needles[owner].a;
-    const double length2 = u.squaredNorm();
-    const double t = length2 > 0 ? std::clamp(p.dot(u) / length2, 0.0, 1.0) : 0.0;
-    // The pulls (15), (21), (22) on the two ends add up to the pull on the seed between them.
-    const Vec2 off = t * u - p;
-    value += lattice_.weight[k] * off.squaredNorm();
-    gradient[owner] += 2 * lattice_.weight[k] * off;
-  }
-  return value;
+  owners_.assign(needles);
+  gradient.resize(needles.size());
+  // The pulls (15), (21), (22) on the two ends add up to the pull on the seed between them.
+  for (std::size_t i = 0; i < needles.size(); ++i) gradient[i] = 2 * owners_.pulls()[i].all;
+  return owners_.second_moment();
 }
 
 /// One accepted step along a descent direction, all needles moving without turning; false when none was

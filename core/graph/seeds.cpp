@@ -43,8 +43,8 @@ Vec2 heaviest_sample(const Lattice& lattice, const BorderIndex& border) {
   std::size_t best = 0;
   bool best_inside = false;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    const bool inside = lattice.weight[k] > 0 && border.contains(lattice.position(k));
-    if (inside == best_inside ? lattice.weight[k] > lattice.weight[best] : inside) {
+    const bool inside = lattice.weight(k) > 0 && border.contains(lattice.position(k));
+    if (inside == best_inside ? lattice.weight(k) > lattice.weight(best) : inside) {
       best = k;
       best_inside = inside;
     }
@@ -57,11 +57,11 @@ Vec2 heaviest_sample(const Lattice& lattice, const BorderIndex& border) {
 void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners,
                const BorderIndex& border, double d) {
   if (seeds.empty()) seeds.push_back(heaviest_sample(lattice, border));
-  owners.assign(as_points(seeds), d);
+  owners.assign(as_points(seeds));
   const double limit2 = std::pow(farthest_without_seed * d, 2);
   std::vector<std::size_t> far;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] > 0 && owners.distance2(k) > limit2 && border.contains(lattice.position(k)))
+    if (lattice.weight(k) > 0 && owners.distance2(k) > limit2 && border.contains(lattice.position(k)))
       far.push_back(k);
   }
   std::sort(far.begin(), far.end(), [&](std::size_t a, std::size_t b) {
@@ -77,16 +77,16 @@ void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& 
 }
 
 /// One step of Lloyd's method: every seed to the centroid of its samples.
-void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners, const BorderIndex& border,
-           double d) {
-  owners.assign(as_points(seeds), d);
+void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners,
+           const BorderIndex& border) {
+  owners.assign(as_points(seeds));
   std::vector<double> mass(seeds.size(), 0);
   std::vector<Vec2> moment(seeds.size(), Vec2(0, 0));
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     if (owners.owner(k) < 0) continue;
     const auto s = static_cast<std::size_t>(owners.owner(k));
-    mass[s] += lattice.weight[k];
-    moment[s] += lattice.weight[k] * lattice.position(k);
+    mass[s] += lattice.weight(k);
+    moment[s] += lattice.weight(k) * lattice.position(k);
   }
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (mass[s] <= 0) continue;
@@ -109,11 +109,12 @@ std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options,
   const Box box = bounds(domain);
   const double finest = std::max(box.size().maxCoeff(), d) / 30000;
   const Lattice lattice = sample(domain, std::max(d / samples_per_distance, finest));
+  if (lattice.size() == 0) return {domain.outer.front()};
   LatticeOwners owners(lattice);
   const BorderIndex border(domain, d);
   std::vector<Vec2> seeds = triangular_tiling(domain, options, random);
   fill_gaps(seeds, lattice, owners, border, d);
-  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border, d);
+  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border);
   return seeds;
 }
 

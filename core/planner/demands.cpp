@@ -118,11 +118,11 @@ Vec2 Demands::mean_direction(const Polygon& piece, double& aligned_share) const 
   const Lattice lattice =
       sample(piece, std::max(bead_width_, bounds(piece).size().maxCoeff() / samples_across));
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] <= 0) continue;
-    const Vec2 v = field_.at(lattice.origin + Vec2(lattice.x[k], lattice.y[k]));
-    sum += lattice.weight[k] * v;
-    aligned += lattice.weight[k] * v.norm();
-    total += lattice.weight[k];
+    if (lattice.weight(k) <= 0) continue;
+    const Vec2 v = field_.at(lattice.position(k));
+    sum += lattice.weight(k) * v;
+    aligned += lattice.weight(k) * v.norm();
+    total += lattice.weight(k);
   }
   aligned_share = aligned / total;
   return sum / total;
@@ -150,8 +150,8 @@ double principal_axis(const ZoneRegion& region) {
   for (const Polygon& polygon : region.polygons) {
     const Lattice lattice = sample(polygon, std::max(bounds(polygon).size().maxCoeff() / 50, 1e-6));
     for (std::size_t k = 0; k < lattice.size(); ++k) {
-      if (lattice.weight[k] <= 0) continue;
-      samples.emplace_back(lattice.origin + Vec2(lattice.x[k], lattice.y[k]), lattice.weight[k]);
+      if (lattice.weight(k) <= 0) continue;
+      samples.emplace_back(lattice.position(k), lattice.weight(k));
       center += samples.back().second * samples.back().first;
       total += samples.back().second;
     }

@@ -86,7 +86,7 @@ void measure_path(const BeadPath& path, const std::vector<Zone>& zones, double b
   result.width_variation = width_variation(path, bead_width);
 }
 
-Holes look_for_holes(const Curve& curve, const Polygon& region, double bead_width) {
+Holes look_for_holes(const Curve& curve, const Polygon& region, double bead_width, Workers* workers) {
   const double w = bead_width;
   std::vector<Segment> segments(curve.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -96,13 +96,13 @@ Holes look_for_holes(const Curve& curve, const Polygon& region, double bead_widt
   for (const Polygon& piece : opened({region}, w / 2, 0.005 * w)) {
     const double extent = bounds(piece).size().maxCoeff();
     const Lattice lattice = sample(piece, std::max(w / far_samples, extent / 30000));
-    LatticeOwners owners(lattice);
-    owners.assign(segments, 1.25 * far * w);
+    LatticeOwners owners(lattice, {0, false, workers});
+    owners.assign(segments);
     for (std::size_t k = 0; k < lattice.size(); ++k) {
-      if (lattice.weight[k] <= 0 || owners.owner(k) < 0) continue;
-      const double distance = std::sqrt(static_cast<double>(owners.distance2(k)));
+      if (lattice.weight(k) <= 0 || owners.owner(k) < 0) continue;
+      const double distance = std::sqrt(owners.distance2(k));
       holes.farthest = std::max(holes.farthest, distance);
-      if (distance > far * w) holes.area += lattice.weight[k];
+      if (distance > far * w) holes.area += lattice.weight(k);
     }
   }
   return holes;

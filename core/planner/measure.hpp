@@ -27,6 +27,7 @@ struct Holes {
   double farthest = 0;  ///< mm
   double area = 0;      ///< mm²
 };
-Holes look_for_holes(const Curve& curve, const Polygon& region, double bead_width);
+Holes look_for_holes(const Curve& curve, const Polygon& region, double bead_width,
+                     Workers* workers = nullptr);
 
 }  // namespace unicursal::core

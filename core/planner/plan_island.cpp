@@ -16,7 +16,7 @@ namespace {
 PlannedCurve finish(const Draft& draft, const FillableRegion& part, IslandWork& work) {
   const Stopwatch watch(work.plan.widths);
   const double w = work.width();
-  const SegmentDiagram diagram = segment_diagram(draft.curve.vertices, part.region);
+  const SegmentDiagram diagram = segment_diagram(draft.curve.vertices, part.region, &work.workers);
   PlannedCurve planned;
   planned.area = area(part.region);
   planned.path = along_zones(draft.curve, segment_areas(diagram, draft.curve, w), work.island);
@@ -26,9 +26,10 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, IslandWork& 
   planned.self_intersections = self_intersections(draft.curve);
   planned.outside_segments = segments_outside(draft.curve, BorderIndex(part.region, w));
   planned.faired = draft.faired;
+  planned.perimeters = draft.perimeters;
   planned.split_and_reconnect = draft.split_and_reconnect;
   planned.doubled_edges = draft.doubled_edges;
-  const Holes holes = look_for_holes(draft.curve, part.region, w);
+  const Holes holes = look_for_holes(draft.curve, part.region, w, &work.workers);
   planned.farthest = holes.farthest;
   work.plan.far_area += holes.area;
   return planned;
@@ -62,7 +63,8 @@ IslandPlan IslandPlanner::plan(const Island& island, double z, const PlanOptions
                   settings(options.preset, options.quality),
                   Random(options.seed),
                   Pace(options.enough, recorded),
-                  std::move(times)};
+                  std::move(times),
+                  Workers(options.threads)};
   work.plan.unfilled_area = parts.too_thin;
   for (const FillableRegion& part : parts.regions) {
     const std::optional<Draft> curve = draft(part, parts.regions.size() == 1, work);

@@ -54,6 +54,48 @@ struct JobArguments {
   }
 };
 
+/// Which printer is simulated, and what goes wrong with it.
+struct PrinterArguments {
+  std::string personality = "marlin", usb = "cdc", fault_file;
+  std::vector<std::string> faults;
+  std::uint64_t seed = 0;
+  CLI::Option* seed_given[2] = {nullptr, nullptr};
+
+  void declare(CLI::App& app) {
+    app.add_option("--personality", personality,
+                   "its firmware: marlin, marlin-8bit, marlin-advanced-ok, repetier")
+        ->type_name("NAME");
+    app.add_option("--usb", usb, "the chip in its cable: none, cdc (1 ms) or ftdi (16 ms)")
+        ->type_name("CHIP");
+    app.add_option("--fault", faults, "what shall go wrong, see below; may be given several times")
+        ->type_name("FAULT")
+        ->take_all()
+        ->expected(1);
+    app.add_option("--faults", fault_file, "a file with one fault on each line, and perhaps `seed NUMBER`")
+        ->type_name("FILE");
+    (seed_given[0] ? seed_given[1] : seed_given[0]) =
+        app.add_option("--seed", seed, "of the faults' chance; the same seed gives the same faults")
+            ->type_name("NUMBER");
+  }
+
+  void apply(sim::SimulatorOptions& options) const {
+    options.personality = personality;
+    options.usb = usb;
+    options.faults = faults;
+    options.fault_file = path_if(fault_file);
+    for (const CLI::Option* given : seed_given) {
+      if (given && given->count() > 0) options.seed = seed;
+    }
+  }
+};
+
+std::string fault_footer() {
+  return "A fault is KIND[:VALUE][@MOMENT]. A CHANCE is for each byte or line that passes, as in "
+         "bitflip:1e-4;\n"
+         "a MOMENT is t=SECONDS, line=NUMBER or command=WORD, as in stall:5@t=60. The kinds:\n" +
+         sim::fault_help();
+}
+
 /// The options of every command, and which one was given.
 class CommandLine {
  public:
@@ -73,7 +115,7 @@ class CommandLine {
     check_command(argc, argv);
     app_.parse(argc, argv);
     const std::string name = app_.get_subcommands().front()->get_name();
-    if (name == "dry-run") return dry_run({job_.options(), speed_});
+    if (name == "dry-run") return dry_run(dry_run_command());
     if (name == "plan") return plan({job_.options(), output_});
     if (name == "print") return print({job_.options(), port_.empty() ? std::nullopt : std::optional(port_)});
     if (name == "curve") return curve(curve_command());
@@ -109,8 +151,19 @@ class CommandLine {
     CLI::App* app = command("dry-run", "print on a simulated printer, and see what would come out",
                             "unicursal dry-run heart.toml --report heart.json --picture pictures");
     job_.declare(*app);
-    app->add_option("--speed", speed_, "printer seconds per second; 0, the default, is as fast as possible")
+    app->add_option(
+           "--speed", speed_,
+           "printer seconds per second; 0, the default, is virtual time: as fast as this computer can, "
+           "and the same report every time")
         ->check(finite_number(0, std::numeric_limits<double>::max()));
+    app->add_option(
+           "--charge-planning", charge_,
+           "in virtual time, let planning take as long as on a computer so many times slower than this "
+           "one; 0, the default, lets it take none, since what this computer needs differs each time")
+        ->check(finite_number(0, 1e6))
+        ->type_name("K");
+    printer_.declare(*app);
+    app->footer(app->get_footer() + "\n\n" + fault_footer());
   }
 
   void declare_plan() {
@@ -149,12 +202,29 @@ class CommandLine {
     app->add_option("--profile", job_.profile, "bed, filament and accelerations of this printer")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was seen as JSON at the end")->type_name("FILE");
-    app->add_option("--picture", job_.pictures, "write a picture of each layer's deposit into this folder")
+    app->add_option("--picture", job_.pictures,
+                    "write pictures of each layer, the part and the motion into this folder")
         ->type_name("DIR");
     app->add_option("--pixel", pixel_, "mm per picture pixel")
         ->check(finite_number(0.01, 10))
         ->type_name("MM");
+    app->add_option("--rasters", rasters_, "write every layer as laid to this file or pipe (sim/raster.hpp)")
+        ->type_name("FILE");
     app->add_flag("--once", once_, "end when a host has used the line and closed it");
+    baud_given_ =
+        app->add_option("--baud", baud_, "bits/s of the line; the default is the profile's, or 250000")
+            ->check(finite_number(300, 1e8))
+            ->type_name("RATE");
+    app->add_option("--transcript", transcript_, "write every command as it is executed")->type_name("FILE");
+    app->add_option("--control", control_,
+                    "make a Unix socket on which the host says how far printer time goes (sim/lockstep.hpp)")
+        ->type_name("PATH");
+    printer_.declare(*app);
+    app->footer(
+        app->get_footer() +
+        "\n  pronterface, OctoPrint or any other host then connects to ./printer\n\nWith speed 0 bytes "
+        "take no time, and what takes time is over at once.\n\n" +
+        fault_footer());
   }
 
   CurveCommand curve_command() const {
@@ -163,14 +233,26 @@ class CommandLine {
     return command;
   }
 
+  DryRunCommand dry_run_command() const {
+    DryRunCommand command{job_.options(), {}, charge_};
+    printer_.apply(command.printer);
+    command.printer.speed = speed_;
+    return command;
+  }
+
   SimulateCommand simulate_command() const {
     SimulateCommand command;
+    printer_.apply(command.options);
+    command.options.control = path_if(control_);
+    command.options.transcript = path_if(transcript_);
+    if (baud_given_->count() > 0) command.baud = baud_;
     command.profile = path_if(job_.profile);
     command.options.link = path_if(link_);
     command.options.speed = speed_;
     command.options.report = path_if(job_.report);
     command.options.pictures = path_if(job_.pictures);
     command.options.pixel = pixel_;
+    command.options.rasters = path_if(rasters_);
     command.options.once = once_;
     return command;
   }
@@ -178,10 +260,12 @@ class CommandLine {
   CLI::App app_{"One closed space-filling curve per layer, for printers with three feeders and one nozzle.",
                 "unicursal"};
   JobArguments job_;
-  double speed_ = 0;
-  double pixel_ = 0.1;
+  PrinterArguments printer_;
+  double speed_ = 0, charge_ = 0, baud_ = 250000;
+  CLI::Option* baud_given_ = nullptr;
+  double pixel_ = 0.05;
   std::size_t layer_ = 0, island_ = 0;
-  std::string output_, port_, link_;
+  std::string output_, port_, link_, rasters_, control_, transcript_;
   std::vector<std::string> outputs_;
   bool once_ = false;
 };

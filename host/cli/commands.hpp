@@ -30,7 +30,8 @@ struct PlanCommand {
 
 struct DryRunCommand {
   JobOptions job;
-  double speed = 0;  ///< printer seconds per real second; 0: as fast as possible
+  sim::SimulatorOptions printer;  ///< its personality, chip, faults; and its speed, 0: virtual time
+  double charge = 0;              ///< printer seconds for each second of planning, in virtual time
 };
 
 struct PrintCommand {
@@ -50,6 +51,7 @@ struct CurveCommand {
 struct SimulateCommand {
   sim::SimulatorOptions options;
   std::optional<std::filesystem::path> profile;  ///< bed, filament, accelerations and feeders of this printer
+  std::optional<double> baud;                    ///< bits/s; absent: the profile's
 };
 
 Exit plan(const PlanCommand& command);
@@ -57,6 +59,8 @@ Exit dry_run(const DryRunCommand& command);
 Exit print(const PrintCommand& command);
 Exit curve(const CurveCommand& command);
 Exit simulate(SimulateCommand command);
+/// Throws core::DataError for a printer that cannot be simulated.
+void check_simulator(const sim::SimulatorOptions& options);
 Exit ports();
 
 /// "3", "3:7", ":7" or "3:"; both ends included. Throws core::DataError.

@@ -5,15 +5,28 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/show.hpp"
 #include "host/cli/words.hpp"
+#include "host/engine/lockstep_clock.hpp"
 #include "host/engine/simulator_process.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
 
+/// Real time is for watching how the host paces; virtual time needs no patience and repeats exactly.
+bool is_virtual(const DryRunCommand& command) {
+  return command.printer.speed == 0;
+}
+
 std::vector<std::string> simulator_arguments(const DryRunCommand& command, const PreparedJob& prepared) {
-  std::vector<std::string> arguments = {"--profile", prepared.job.profile.file.string(), "--speed",
-                                        fmt::format("{}", command.speed)};
+  const sim::SimulatorOptions& printer = command.printer;
+  std::vector<std::string> arguments = {"--profile",     prepared.job.profile.file.string(),
+                                        "--speed",       fmt::format("{}", printer.speed),
+                                        "--baud",        fmt::format("{}", prepared.job.profile.baud),
+                                        "--personality", printer.personality,
+                                        "--usb",         printer.usb};
+  for (const std::string& fault : printer.faults) arguments.insert(arguments.end(), {"--fault", fault});
+  if (printer.fault_file) arguments.insert(arguments.end(), {"--faults", printer.fault_file->string()});
+  if (printer.seed) arguments.insert(arguments.end(), {"--seed", fmt::format("{}", *printer.seed)});
   if (command.job.outputs.pictures) {
     arguments.insert(arguments.end(), {"--picture", command.job.outputs.pictures->string()});
   }
@@ -28,28 +41,74 @@ Comparison compare_with(const nlohmann::json& simulator, const Run& run, const S
   return compare(run.totals().materials, simulator, fed);
 }
 
+StreamSettings settings_for(const DryRunCommand& command, const SimulatorProcess& simulator) {
+  if (!is_virtual(command)) return {real_clock(command.printer.speed), 0};
+  return {std::make_shared<LockstepClock>(simulator.control()), command.charge};
+}
+
+/// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.
+nlohmann::json planning_of(const DryRunCommand& command, const Lookahead& lookahead,
+                           const StreamResult& result) {
+  nlohmann::json planning =
+      is_virtual(command) ? nlohmann::json{{"charge", command.charge}} : planning_json(lookahead);
+  planning["waited_seconds"] = result.waited;
+  return planning;
+}
+
+RunOutputs outputs_of(const DryRunCommand& command) {
+  RunOutputs outputs = command.job.outputs;
+  outputs.repeatable = is_virtual(command);
+  return outputs;
+}
+
+/// A report of a failed print tells what the printer saw of it, if it still can.
+void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
+                     SimulatorProcess& simulator) {
+  try {
+    extra["simulator"] = simulator.finish();
+  } catch (const SimulatorError&) {
+    // What ended the print is told; what ended the simulator would only distract from it.
+  }
+  conclude(run, result, extra);
+}
+
 }  // namespace
 
 Exit dry_run(const DryRunCommand& command) {
+  check_simulator(command.printer);
   const PreparedJob prepared = prepare_and_warn(command.job);
-  Run run(prepared, "dry-run", command.job.outputs);
-  SimulatorProcess simulator(simulator_arguments(command, prepared));
+  Run run(prepared, "dry-run", outputs_of(command));
+  // Outlives the simulator, whose end is that of the stream it waits for.
+  DepositCheck check(intended_mixtures(run), command.job.outputs.pictures);
+  SimulatorProcess simulator(simulator_arguments(command, prepared), is_virtual(command)
+                                                                         ? SimulatorProcess::Time::lockstep
+                                                                         : SimulatorProcess::Time::own);
+  run.tell(check);
+  check.watch(simulator.take_rasters());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   check_beginning(prepared, lookahead);
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  const StreamResult result = stream_with_progress(port, lookahead, run, "dry run");
-  if (result.ending == Ending::failed) conclude(run, result, {{"planning", planning_json(lookahead)}});
+  const StreamResult result =
+      stream_with_progress(port, lookahead, run, "dry run", settings_for(command, simulator));
+  const nlohmann::json planning = planning_of(command, lookahead, result);
+  if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
   const nlohmann::json seen = simulator.finish();
+  check.finish();
+  const MotionFindings motion = motion_findings(seen, prepared.job.flow);
   const Comparison comparison = compare_with(seen, run, result);
-  conclude(
-      run, result,
-      {{"planning", planning_json(lookahead)}, {"simulator", seen}, {"comparison", to_json(comparison)}});
+  conclude(run, result,
+           {{"planning", planning},
+            {"simulator", seen},
+            {"comparison", to_json(comparison)},
+            {"laid", check.to_json()},
+            {"motion", to_json(motion)}});
   show(stdout, "{}", summary(run.totals(), lookahead.effort()));
   if (result.ending == Ending::stopped) {
     show(stdout, "stopped by the user\n");
     return Exit::failed;
   }
-  show(stdout, "{}", summary(comparison));
+  show(stdout, "{}{}{}", summary(comparison), summary(motion), summary(check.total()));
+  if (check.problem()) show(stderr, "warning: {}\n", *check.problem());
   return comparison.lines_whole() ? Exit::success : Exit::failed;
 }
 

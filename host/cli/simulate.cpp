@@ -2,6 +2,10 @@
 
 #include <cstdio>
 
+#include <stdexcept>
+#include <system_error>
+
+#include "core/error.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/show.hpp"
 #include "host/job/profile.hpp"
@@ -9,17 +13,34 @@
 namespace unicursal::host {
 namespace {
 
-void follow(const gcode::Printer& printer, sim::SimulatorOptions& options) {
+void follow(const Profile& profile, sim::SimulatorOptions& options) {
+  const gcode::Printer& printer = profile.printer;
+  options.baud = profile.baud;
   options.bed.assign(printer.bed.begin(), printer.bed.end());
   options.filament_diameter = printer.filament_diameter;
   options.max_acceleration.assign(printer.max_acceleration.begin(), printer.max_acceleration.end());
+  options.dead_volume = printer.dead_volume;
+  options.mixing_volume = printer.mixing_volume;
   options.feeders = static_cast<std::size_t>(printer.feeders);
 }
 
 }  // namespace
 
+void check_simulator(const sim::SimulatorOptions& options) {
+  constexpr auto remedy = "unicursal simulate --help tells what there is";
+  try {
+    sim::check(options);
+  } catch (const std::invalid_argument& error) {
+    throw core::DataError("", "", error.what(), remedy);
+  } catch (const std::system_error& error) {
+    throw core::DataError("", "", error.what(), "check its name and its permissions");
+  }
+}
+
 Exit simulate(SimulateCommand command) {
-  if (command.profile) follow(load_profile(*command.profile).printer, command.options);
+  if (command.profile) follow(load_profile(*command.profile), command.options);
+  if (command.baud) command.options.baud = *command.baud;
+  check_simulator(command.options);
   const int code = sim::run_simulator(command.options, [](const std::string& port) {
     show(stdout, "{}\n", port);
     std::fflush(stdout);

@@ -165,14 +165,15 @@ nlohmann::json link_json(const StreamResult& result) {
           {"acknowledged", s.acknowledged}, {"resends", s.resends}, {"bytes", s.bytes}};
 }
 
-StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const std::string& what) {
+StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const std::string& what,
+                                  const StreamSettings& settings) {
   Progress progress(what, run.prepared().count);
   StreamListeners listeners;
   listeners.progress = [&](std::size_t layers, double fraction) { progress.update(layers, fraction); };
   listeners.message = [&](const std::string& message) {
     if (worth_showing(message)) progress.say(tame(message));
   };
-  return stream(port, lookahead, run, listeners);
+  return stream(port, lookahead, run, listeners, settings);
 }
 
 }  // namespace unicursal::host

@@ -18,11 +18,25 @@ nlohmann::json layer_entry(const PlannedLayer& planned, const gcode::PlacedLayer
   return entry;
 }
 
+void move(core::Polygon& polygon, const core::Vec2& offset) {
+  for (core::Vec2& vertex : polygon.outer) vertex += offset;
+  for (core::Ring& hole : polygon.holes) {
+    for (core::Vec2& vertex : hole) vertex += offset;
+  }
+}
+
+/// What planning took on this computer, which is another time at every run.
+void forget_times(nlohmann::json& figures) {
+  figures.erase("seconds");
+  figures.erase("cpu_seconds");
+}
+
 }  // namespace
 
 Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& outputs)
     : prepared_(prepared),
       command_(std::move(command)),
+      repeatable_(outputs.repeatable),
       zone_materials_(print_settings(prepared).zone_materials),
       encoder_(prepared.job.profile.printer, print_settings(prepared)),
       start_(encoder_.start()) {
@@ -43,7 +57,12 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
   totals_.figures += measure(planned);
   add_layer(totals_.materials, layer, zone_materials_);
   add_prime(totals_.materials, chunk);
-  if (log_) log_->add(layer_entry(planned, layer, chunk));
+  if (check_ != nullptr) check_->expect(target_of(prepared_, planned));
+  if (log_) {
+    nlohmann::json entry = layer_entry(planned, layer, chunk);
+    if (repeatable_) forget_times(entry);
+    log_->add(entry);
+  }
   if (pictures_) pictures_->draw(std::move(planned));
   return chunk;
 }
@@ -88,8 +107,12 @@ void Run::write_report(const nlohmann::json& extra) {
       {"extruded_mm3", totals_.volume},
       {"estimated_print_seconds", totals_.print_seconds},
       {"lines", totals_.lines},
-      {"peak_memory_mib", peak_memory()},
   };
+  if (repeatable_) {
+    forget_times(rest["totals"]);
+  } else {
+    rest["peak_memory_mib"] = peak_memory();
+  }
   rest.update(extra);
   log_->finish(rest);
 }
@@ -107,6 +130,29 @@ double peak_memory() {
     return kib / 1024;
   }
   return 0;
+}
+
+TargetLayer target_of(const PreparedJob& prepared, const PlannedLayer& planned) {
+  TargetLayer target;
+  target.index = planned.layer.index;
+  target.top = planned.layer.top - prepared.lowered;
+  target.height = planned.layer.height;
+  for (const core::Island& island : planned.layer.islands) {
+    for (const core::ZoneRegion& region : island.zones) {
+      const auto label = static_cast<RegionLabel>(prepared.part->zones().at(region.zone).material);
+      for (core::Polygon polygon : region.polygons) {
+        move(polygon, prepared.offset);
+        target.zones.push_back({std::move(polygon), label});
+      }
+    }
+  }
+  return target;
+}
+
+std::vector<gcode::Mixture> intended_mixtures(const Run& run) {
+  std::vector<gcode::Mixture> mixtures;
+  for (const MaterialVolume& material : run.totals().materials) mixtures.push_back(material.intended);
+  return mixtures;
 }
 
 CurveStyle curve_style(const PreparedJob& prepared) {

@@ -17,6 +17,7 @@
 
 #include "firmware_gcode/toolpath/encoder.hpp"
 #include "host/engine/prepared_job.hpp"
+#include "host/report/deposit_check.hpp"
 #include "host/report/layer_log.hpp"
 #include "host/report/picture_writer.hpp"
 #include "host/report/totals.hpp"
@@ -26,6 +27,7 @@ namespace unicursal::host {
 struct RunOutputs {
   std::optional<std::filesystem::path> report;    ///< JSON
   std::optional<std::filesystem::path> pictures;  ///< folder
+  bool repeatable = false;  ///< leave out of the report what was measured of this computer
 };
 
 class Run {
@@ -34,6 +36,8 @@ class Run {
   Run(const PreparedJob& prepared, std::string command, const RunOutputs& outputs);
 
   const gcode::Chunk& start() const { return start_; }
+  /// From now on tells `check` what every layer is to be. It must outlive the last layer.
+  void tell(DepositCheck& check) { check_ = &check; }
   gcode::Chunk layer(PlannedLayer planned);
   gcode::Chunk finish();
 
@@ -50,6 +54,7 @@ class Run {
 
   const PreparedJob& prepared_;
   std::string command_;
+  bool repeatable_;
   std::vector<std::size_t> zone_materials_;
   gcode::Encoder encoder_;
   gcode::Chunk start_;
@@ -57,6 +62,7 @@ class Run {
   std::vector<std::string> encoding_warnings_;
   std::unique_ptr<LayerLog> log_;
   std::unique_ptr<PictureWriter> pictures_;
+  DepositCheck* check_ = nullptr;
 };
 
 /// Whether the firmware gets this line; comments and blank lines belong in files.
@@ -64,6 +70,12 @@ bool is_command(const std::string& line);
 
 /// The greatest memory that this process has held, MiB; 0 where the system does not tell.
 double peak_memory();
+
+/// The layer's zones on the bed, labelled by material.
+TargetLayer target_of(const PreparedJob& prepared, const PlannedLayer& planned);
+
+/// By material: what the firmware will really mix.
+std::vector<gcode::Mixture> intended_mixtures(const Run& run);
 
 /// How the curves of this job are drawn.
 CurveStyle curve_style(const PreparedJob& prepared);

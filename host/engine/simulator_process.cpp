@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace unicursal::host {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 constexpr int start_deadline =
     20000;  // ms, until the simulator names its terminal; generous for a busy machine
 constexpr std::size_t longest_port = 4096;
+constexpr int raster_descriptor = STDERR_FILENO + 1;  // of the child
 
 std::filesystem::path make_folder() {
   std::string name = (std::filesystem::temp_directory_path() / "unicursal-XXXXXX").string();
@@ -33,12 +35,14 @@ std::filesystem::path report_in(const std::filesystem::path& folder) {
 }
 
 /// In the child: only calls that are safe after fork.
-[[noreturn]] void become_simulator(char* const* arguments, int output, pid_t parent) {
+[[noreturn]] void become_simulator(char* const* arguments, int output, int rasters, pid_t parent) {
   setpgid(0, 0);  // Ctrl-C is for the host, which still has to park and cool this printer
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
+  const int copy = fcntl(rasters, F_DUPFD, raster_descriptor + 1);  // the place it goes to may be the other's
   dup2(output, STDOUT_FILENO);
-  close_range(STDERR_FILENO + 1, ~0U, 0);  // the report being written, for example
+  dup2(copy, raster_descriptor);
+  close_range(raster_descriptor + 1, ~0U, 0);  // the report being written, for example
   execv("/proc/self/exe", arguments);
   _exit(127);
 }
@@ -52,8 +56,11 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-SimulatorProcess::SimulatorProcess(const std::vector<std::string>& arguments) : folder_(make_folder()) {
+SimulatorProcess::SimulatorProcess(const std::vector<std::string>& arguments, Time time)
+    : folder_(make_folder()) {
   std::vector<std::string> all = {"unicursal", "simulate", "--once", "--report", report_in(folder_).string()};
+  all.insert(all.end(), {"--rasters", fmt::format("/dev/fd/{}", raster_descriptor)});
+  if (time == Time::lockstep) all.insert(all.end(), {"--control", control().string()});
   all.insert(all.end(), arguments.begin(), arguments.end());
   try {
     spawn(all);
@@ -74,8 +81,10 @@ void SimulatorProcess::clean_up() noexcept {
     wait_for(child_);
     child_ = -1;
   }
-  if (output_ >= 0) close(output_);
-  output_ = -1;
+  for (int* end : {&output_, &rasters_}) {
+    if (*end >= 0) close(*end);
+    *end = -1;
+  }
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
 }
@@ -84,13 +93,19 @@ void SimulatorProcess::spawn(const std::vector<std::string>& arguments) {
   std::vector<char*> pointers;
   for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
   pointers.push_back(nullptr);
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw SimulatorError("the simulator's output cannot be read");
+  std::array<int, 2> words{}, rasters{};
+  if (pipe2(words.data(), O_CLOEXEC) != 0) throw SimulatorError("the simulator's output cannot be read");
+  output_ = words[0];
+  if (pipe2(rasters.data(), O_CLOEXEC) != 0) {
+    close(words[1]);
+    throw SimulatorError("what the simulator lays cannot be read");
+  }
+  rasters_ = rasters[0];
   const pid_t parent = getpid();
   child_ = fork();
-  if (child_ == 0) become_simulator(pointers.data(), ends[1], parent);
-  close(ends[1]);
-  output_ = ends[0];
+  if (child_ == 0) become_simulator(pointers.data(), words[1], rasters[1], parent);
+  close(words[1]);
+  close(rasters[1]);
   if (child_ < 0)
     throw SimulatorError(fmt::format("the simulator cannot be started: {}", std::strerror(errno)));
 }
@@ -107,6 +122,10 @@ void SimulatorProcess::read_port() {
     text.append(buffer.data(), static_cast<std::size_t>(n));
   }
   port_ = text.substr(0, text.find('\n'));
+}
+
+int SimulatorProcess::take_rasters() {
+  return std::exchange(rasters_, -1);
 }
 
 nlohmann::json SimulatorProcess::finish() {

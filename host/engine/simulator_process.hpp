@@ -19,15 +19,25 @@ class SimulatorError : public std::runtime_error {
 
 class SimulatorProcess {
  public:
+  enum class Time {
+    own,       ///< the simulator keeps it
+    lockstep,  ///< the host does, through control()
+  };
+
   /// Runs this program's own `simulate --once --report …` with `arguments` added, and waits for its terminal.
   /// Call before starting threads. Throws SimulatorError.
-  explicit SimulatorProcess(const std::vector<std::string>& arguments);
+  SimulatorProcess(const std::vector<std::string>& arguments, Time time);
   ~SimulatorProcess();
   SimulatorProcess(const SimulatorProcess&) = delete;
   SimulatorProcess& operator=(const SimulatorProcess&) = delete;
 
+  /// The stream of the layers that were laid (sim/raster.hpp). Hands the descriptor over; once.
+  int take_rasters();
+
   /// The pseudo-terminal that the simulated printer listens on.
   const std::string& port() const { return port_; }
+  /// Where the simulator is told how far time goes.
+  std::filesystem::path control() const { return folder_ / "clock"; }
 
   /// Waits for the simulator to end, which it does when its line is closed, and reads its report.
   /// Throws SimulatorError.
@@ -41,7 +51,8 @@ class SimulatorProcess {
   std::filesystem::path folder_;  ///< for the report, removed in the end
   std::string port_;
   pid_t child_ = -1;
-  int output_ = -1;  ///< reading end of its standard output
+  int output_ = -1;   ///< reading end of its standard output
+  int rasters_ = -1;  ///< reading end of its rasters
 };
 
 }  // namespace unicursal::host

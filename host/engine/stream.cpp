@@ -8,6 +8,9 @@
 #include <exception>
 #include <new>
 
+#include "host/engine/slow_computer.hpp"
+#include "host/link/signal.hpp"
+
 namespace unicursal::host {
 namespace {
 
@@ -38,12 +41,16 @@ std::string sentence(const std::exception_ptr& error) {
 
 class Stream {
  public:
-  Stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners)
+  Stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
+         const StreamSettings& settings)
       : lookahead_(lookahead),
         run_(run),
         listeners_(listeners),
+        clock_(settings.clock),
+        computer_(settings.charge, lookahead.threads(), lookahead.ahead()),
         signals_(loop_, SIGINT, SIGTERM),
-        link_(loop_.get_executor(), port, LinkOptions{}) {
+        sleep_(loop_.get_executor(), clock_),
+        link_(loop_.get_executor(), port, options(clock_)) {
     if (!is_ignored(SIGHUP)) signals_.add(SIGHUP);
   }
 
@@ -56,7 +63,7 @@ class Stream {
       loop_.stop();
     });
     try {
-      loop_.run();
+      clock_->run(loop_);
     } catch (...) {
       link_.cool_down();
       error = std::current_exception();
@@ -65,8 +72,14 @@ class Stream {
   }
 
  private:
+  static LinkOptions options(const std::shared_ptr<Clock>& clock) {
+    LinkOptions options;
+    options.clock = clock;
+    return options;
+  }
+
   StreamResult result(const std::exception_ptr& error) const {
-    StreamResult result{Ending::completed, {}, parked_, link_.statistics(), link_.firmware()};
+    StreamResult result{Ending::completed, {}, parked_, link_.statistics(), link_.firmware(), waited_};
     if (stopped_) result.ending = Ending::stopped;
     if (error) result.reason = sentence(error);
     if (aborted_) result.reason = "stopped at once; reset the printer before using it again";
@@ -87,6 +100,7 @@ class Stream {
 
   void stop() {
     stopped_ = true;
+    sleep_.notify();
     lookahead_.cancel();
     if (heating_) link_.cool_down();
     listeners_.message(heating_ ? "stopping: heating ends; once more stops the printer at once"
@@ -140,10 +154,33 @@ class Stream {
 
   asio::awaitable<void> send_layers() {
     for (std::size_t done = 0; !stopped_; ++done) {
-      std::optional<PlannedLayer> layer = co_await lookahead_.next();
+      std::optional<PlannedLayer> layer = co_await next_layer();
       if (!layer) break;
       co_await send(run_.layer(std::move(*layer)), done);
     }
+  }
+
+  /// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile,
+  /// and what is charged for planning passes afterwards.
+  asio::awaitable<std::optional<PlannedLayer>> next_layer() {
+    const TimePoint asked = clock_->now();
+    std::optional<PlannedLayer> layer;
+    {
+      const Clock::Hold hold(*clock_);
+      layer = co_await lookahead_.next();
+    }
+    if (layer) {
+      const double ready = computer_.ready(layer->cpu_seconds, seconds(clock_->now() - started_));
+      const std::function<bool()> stopped = [this] { return stopped_; };
+      co_await sleep_.wait(started_ + duration(ready), stopped);
+    }
+    waited_ += seconds(clock_->now() - asked);
+    co_return layer;
+  }
+
+  static double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
+  static Duration duration(double seconds) {
+    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
   }
 
   asio::awaitable<void> send(gcode::Chunk chunk, std::size_t layers_done) {
@@ -161,19 +198,25 @@ class Stream {
   Lookahead& lookahead_;
   Run& run_;
   const StreamListeners& listeners_;
+  const std::shared_ptr<Clock> clock_;
+  const TimePoint started_ = clock_->now();
+  SlowComputer computer_;
   asio::signal_set signals_;
+  Signal sleep_;
   Link link_;
   bool stopped_ = false;
   bool finishing_ = false;
   bool aborted_ = false;
   bool heating_ = false;  ///< the start is under way
   bool parked_ = false;
+  double waited_ = 0;  ///< s for layers
 };
 
 }  // namespace
 
-StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners) {
-  return Stream(port, lookahead, run, listeners)();
+StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
+                    const StreamSettings& settings) {
+  return Stream(port, lookahead, run, listeners, settings)();
 }
 
 }  // namespace unicursal::host

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -30,6 +31,12 @@ struct StreamResult {
   bool parked = false;  ///< the nozzle was moved away at the end
   LinkStatistics statistics;
   std::string firmware;  ///< as it names itself
+  double waited = 0;     ///< s that the print has waited for a layer to be planned
+};
+
+struct StreamSettings {
+  std::shared_ptr<Clock> clock = real_clock();
+  double charge = 0;  ///< s of the clock that each second of planning is to take
 };
 
 struct StreamListeners {
@@ -42,6 +49,7 @@ struct StreamListeners {
 /// SIGINT or SIGTERM once parks and cools, twice stops at once. SIGHUP, which a closed terminal may send
 /// twice, counts as one of them at most, and not at all where it is ignored (nohup). Whatever goes wrong is
 /// told in the result, since a report is due then as well.
-StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners);
+StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
+                    const StreamSettings& settings = {});
 
 }  // namespace unicursal::host

@@ -23,21 +23,22 @@ constexpr auto finishes_nothing =
 constexpr std::uint32_t probe_distance = 1000;  ///< ahead of any number that could be right
 
 /// Past every queue of this program, since nothing is sent by it any more. The first newline ends what may
-/// be half written; M108 ends a wait for heat.
-void switch_heaters_off(int descriptor) {
+/// be half written; M108 ends a wait for heat. Returns how many bytes were written.
+std::uint64_t switch_heaters_off(int descriptor) {
   constexpr std::string_view lines = "\nM108\nM104 S0\nM140 S0\n";
-  [[maybe_unused]] const auto written = ::write(descriptor, lines.data(), lines.size());
+  const auto written = ::write(descriptor, lines.data(), lines.size());
+  return static_cast<std::uint64_t>(std::max<ssize_t>(written, 0));
 }
 
 }  // namespace
 
 asio::awaitable<void> Link::State::until(const std::function<bool()>& ready) {
   const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
-  co_await signal.wait(Clock::time_point::max(), ready_or_failed);
+  co_await signal.wait(TimePoint::max(), ready_or_failed);
   if (failure) throw LinkError(*failure);
 }
 
-asio::awaitable<bool> Link::State::until(const std::function<bool()>& ready, Clock::time_point deadline) {
+asio::awaitable<bool> Link::State::until(const std::function<bool()>& ready, TimePoint deadline) {
   const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
   const bool woken = co_await signal.wait(deadline, ready_or_failed);
   if (failure) throw LinkError(*failure);
@@ -56,26 +57,26 @@ std::string Link::State::with_heat_warning(const std::string& message) const {
 }
 
 void Link::State::give_up(std::string message) {
-  if (phase == Phase::streaming) switch_heaters_off(port.native_handle());
+  if (phase == Phase::streaming) statistics.bytes += switch_heaters_off(port.native_handle());
   fail(with_heat_warning(message));
   throw LinkError(*failure);
 }
 
-asio::awaitable<void> Link::State::quiet(Clock::duration pause) {
-  const auto limit = Clock::now() + longest_drain + pause;
+asio::awaitable<void> Link::State::quiet(Duration pause) {
+  const auto limit = now() + longest_drain + pause;
   std::uint64_t seen = 0;
   const std::function<bool()> more = [&] { return bytes_heard != seen; };
   do {
     seen = bytes_heard;
-  } while (co_await until(more, Clock::now() + pause) && Clock::now() < limit);
+  } while (co_await until(more, now() + pause) && now() < limit);
 }
 
 // ---- greeting
 
 asio::awaitable<void> Link::State::greet() {
   const std::function<bool()> spoken = [this] { return lines_heard > 0; };
-  if (co_await until(spoken, Clock::now() + options.boot)) {
-    co_await quiet(std::min<Clock::duration>(boot_chatter, options.boot));
+  if (co_await until(spoken, now() + options.boot)) {
+    co_await quiet(std::min<Duration>(boot_chatter, options.boot));
   }
   co_await ask_firmware();
   co_await reset_numbers();
@@ -84,16 +85,16 @@ asio::awaitable<void> Link::State::greet() {
 }
 
 asio::awaitable<void> Link::State::ask_firmware() {
-  const auto started = Clock::now();
+  const auto started = now();
   const auto lines_before = lines_heard;
   const std::function<bool()> told = [this] { return !firmware.empty(); };
   // A newline first: it ends what an earlier program may have left half written.
   for (int asked_times = 1;; ++asked_times) {
     write("\nM115\n");
-    if (co_await until(told, Clock::now() + std::min<Clock::duration>(ask_again, options.silence))) break;
+    if (co_await until(told, now() + std::min<Duration>(ask_again, options.silence))) break;
     if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name to tell
     const auto patient_until = std::max(started, last_life) + options.silence;
-    if (Clock::now() < std::min(patient_until, started + options.no_ok)) continue;
+    if (now() < std::min(patient_until, started + options.no_ok)) continue;
     give_up(lines_heard > lines_before
                 ? "the printer does not answer M115 as a printer would; check the baud rate in its profile"
                 : "the printer does not answer; check that it is on and that port and baud rate are right");
@@ -108,7 +109,7 @@ asio::awaitable<void> Link::State::reset_numbers() {
     const std::function<bool()> answered = [&] { return oks > oks_before || refusals > refusals_before; };
     doubt = false;
     write(framed(0, "M110 N0"));
-    const bool heard = co_await until(answered, Clock::now() + options.silence);
+    const bool heard = co_await until(answered, now() + options.silence);
     co_await quiet(options.quiet);
     if (heard && refusals == refusals_before && !doubt) co_return;
   }
@@ -125,7 +126,7 @@ asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<St
       co_await until(trouble, stall_deadline());
       if (asked)
         co_await answer_resend();
-      else if (stranger || unproven() || Clock::now() >= stall_deadline())
+      else if (stranger || unproven() || now() >= stall_deadline())
         co_await resynchronise();
     }
   } catch (const LinkError&) {
@@ -133,12 +134,12 @@ asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<St
   }
 }
 
-Clock::time_point Link::State::stall_deadline() const {
-  if (!ledger.in_flight()) return Clock::now() + options.silence;
+TimePoint Link::State::stall_deadline() const {
+  if (!ledger.in_flight()) return now() + options.silence;
   return std::min(last_life + options.silence, ok_deadline());
 }
 
-Clock::time_point Link::State::ok_deadline() const {
+TimePoint Link::State::ok_deadline() const {
   return last_ok + (ledger.slow() ? options.slow_ok : options.no_ok);
 }
 
@@ -164,16 +165,16 @@ void Link::State::resume_from(std::uint32_t number, bool with_fence) {
   asked.reset();
   stranger.reset();
   holding = false;
-  last_ok = last_life = Clock::now();
+  last_ok = last_life = now();
   pump();
   signal.notify();
 }
 
 asio::awaitable<void> Link::State::resynchronise() {
-  if (ledger.in_flight() && Clock::now() >= ok_deadline()) {
+  if (ledger.in_flight() && now() >= ok_deadline()) {
     give_up(finishes_nothing);
   }
-  const auto waiting_since = ledger.in_flight() ? last_ok : Clock::now();
+  const auto waiting_since = ledger.in_flight() ? last_ok : now();
   holding = true;
   co_await quiet(options.quiet);
   for (int attempt = 0; attempt < probe_attempts; ++attempt) {
@@ -184,7 +185,7 @@ asio::awaitable<void> Link::State::resynchronise() {
     last_ok = waiting_since;  // a probe's answer is no progress
     co_return;
   }
-  if (Clock::now() >= ok_deadline()) give_up(finishes_nothing);
+  if (now() >= ok_deadline()) give_up(finishes_nothing);
   give_up(stranger
               ? fmt::format("the printer asks for line {}, which was sent long ago: it must have been reset; "
                             "clear the bed and start the print again",
@@ -201,9 +202,9 @@ asio::awaitable<bool> Link::State::probe() {
   // The newline ends a line whose own has been lost.
   write("\n" + framed(ledger.next() + probe_distance, "M105"));
   const std::function<bool()> answered = [this] { return asked || stranger; };
-  last_life = Clock::now();
+  last_life = now();
   // A printer whose command queue is full reads nothing, but says that it is busy.
-  while (!answered() && Clock::now() < std::min(last_life + options.silence, ok_deadline())) {
+  while (!answered() && now() < std::min(last_life + options.silence, ok_deadline())) {
     co_await until(answered, std::min(last_life + options.silence, ok_deadline()));
   }
   co_return asked.has_value();

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "host/link/clock.hpp"
+
 namespace unicursal::host {
 
 /// The printer is not there, does not answer, has reset, or has stopped itself. The message is a sentence
@@ -52,12 +54,13 @@ std::vector<PortInfo> list_ports();
 int open_port(const std::string& path, unsigned baud);
 
 struct LinkOptions {
-  std::size_t receive_buffer = 127;            ///< bytes that may be in flight (firmware's buffer less one)
-  std::chrono::milliseconds boot{3000};        ///< how long to wait for a boot message before asking
-  std::chrono::milliseconds silence{15000};    ///< neither ok nor busy from the printer: probe, then give up
-  std::chrono::milliseconds no_ok{600000};     ///< signs of life but no ok from a quick command: give up
-  std::chrono::milliseconds slow_ok{3600000};  ///< the same while heating, homing or waiting for a person
-  std::chrono::milliseconds quiet{40};         ///< without a byte: all that the printer had to say is said
+  std::shared_ptr<Clock> clock = real_clock();  ///< that the times below are measured by
+  std::size_t receive_buffer = 127;             ///< bytes that may be in flight (firmware's buffer less one)
+  std::chrono::milliseconds boot{3000};         ///< how long to wait for a boot message before asking
+  std::chrono::milliseconds silence{15000};     ///< neither ok nor busy from the printer: probe, then give up
+  std::chrono::milliseconds no_ok{600000};      ///< signs of life but no ok from a quick command: give up
+  std::chrono::milliseconds slow_ok{3600000};   ///< the same while heating, homing or waiting for a person
+  std::chrono::milliseconds quiet{40};          ///< without a byte: all that the printer had to say is said
 };
 
 struct LinkStatistics {

@@ -37,7 +37,7 @@ void Link::State::hear(std::string_view line) {
 
 void Link::State::take(const reply::Ok& ok) {
   ++oks;
-  last_ok = last_life = Clock::now();
+  last_ok = last_life = now();
   if (phase == Phase::greeting || holding) return;
   bool expected;
   if (ok.line)
@@ -86,12 +86,12 @@ void Link::State::take(const reply::Start&) {
 }
 
 void Link::State::take(const reply::Busy&) {
-  last_life = Clock::now();
+  last_life = now();
 }
 
 void Link::State::take(const reply::TemperatureReport& report) {
   if (!report.waiting) return;
-  last_life = Clock::now();
+  last_life = now();
   if (interruptions <= 0 || failure) return;
   --interruptions;
   doubt = true;

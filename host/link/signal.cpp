@@ -5,11 +5,13 @@
 
 namespace unicursal::host {
 
-asio::awaitable<bool> Signal::wait(Clock::time_point deadline, const std::function<bool()>& ready) {
+asio::awaitable<bool> Signal::wait(TimePoint deadline, const std::function<bool()>& ready) {
   if (ready()) co_return true;
-  const auto place = waiters_.insert(waiters_.end(), Waiter{asio::steady_timer(executor_, deadline), ready});
+  const auto place = waiters_.insert(waiters_.end(), Waiter{asio::steady_timer(executor_), ready});
+  clock_->set(place->timer, deadline);
   asio::error_code ended;
   co_await place->timer.async_wait(asio::redirect_error(asio::use_awaitable, ended));
+  clock_->forget(place->timer);
   waiters_.erase(place);
   co_return ready();
 }

@@ -4,20 +4,21 @@
 #include <asio/any_io_executor.hpp>
 #include <asio/awaitable.hpp>
 #include <asio/steady_timer.hpp>
-#include <chrono>
 #include <functional>
 #include <list>
+#include <memory>
+
+#include "host/link/clock.hpp"
 
 namespace unicursal::host {
 
-using Clock = std::chrono::steady_clock;
-
 class Signal {
  public:
-  explicit Signal(asio::any_io_executor executor) : executor_(std::move(executor)) {}
+  Signal(asio::any_io_executor executor, std::shared_ptr<Clock> clock)
+      : executor_(std::move(executor)), clock_(std::move(clock)) {}
 
   /// Returns whether `ready` holds, at the latest at `deadline`. `ready` and the signal must live until then.
-  asio::awaitable<bool> wait(Clock::time_point deadline, const std::function<bool()>& ready);
+  asio::awaitable<bool> wait(TimePoint deadline, const std::function<bool()>& ready);
   /// Wakes those whose condition has come true. To be called after anything they may wait for.
   void notify();
 
@@ -28,6 +29,7 @@ class Signal {
   };
 
   asio::any_io_executor executor_;
+  std::shared_ptr<Clock> clock_;
   std::list<Waiter> waiters_;
 };
 

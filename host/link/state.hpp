@@ -76,15 +76,16 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   asio::awaitable<bool> probe();
   void resume_from(std::uint32_t number, bool with_fence);
   /// Until no byte has come for `pause`, or for about a second at most.
-  asio::awaitable<void> quiet(Clock::duration pause);
-  Clock::time_point stall_deadline() const;
-  Clock::time_point ok_deadline() const;  ///< by when an ok must have come, however busy the printer is
+  asio::awaitable<void> quiet(Duration pause);
+  TimePoint stall_deadline() const;
+  TimePoint ok_deadline() const;  ///< by when an ok must have come, however busy the printer is
+  TimePoint now() const { return options.clock->now(); }
   bool settled() const { return ledger.settled() && !doubt && !holding; }
 
   /// Waits without a deadline of its own; throws LinkError when the link fails meanwhile.
   asio::awaitable<void> until(const std::function<bool()>& ready);
   /// Returns whether `ready` came true by the deadline; throws LinkError when the link fails meanwhile.
-  asio::awaitable<bool> until(const std::function<bool()>& ready, Clock::time_point deadline);
+  asio::awaitable<bool> until(const std::function<bool()>& ready, TimePoint deadline);
   /// The end: everyone who waits gets a LinkError with this message. The first failure counts.
   void fail(const std::string& message);
   /// Fails and throws the LinkError. In mid-print the heaters are switched off first, if it still listens.
@@ -119,8 +120,8 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
 
   std::uint64_t bytes_heard = 0;
   std::uint64_t oks = 0, refusals = 0, lines_heard = 0;
-  Clock::time_point last_ok = Clock::now();
-  Clock::time_point last_life = Clock::now();  ///< of an ok or a busy
+  TimePoint last_ok = now();
+  TimePoint last_life = now();  ///< of an ok or a busy
 };
 
 }  // namespace unicursal::host

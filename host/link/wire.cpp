@@ -2,6 +2,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <asio/buffer.hpp>
 #include <asio/redirect_error.hpp>
@@ -29,9 +30,10 @@ Link::State::State(asio::any_io_executor on, int descriptor, LinkOptions with)
     : executor(std::move(on)),
       port(executor, descriptor),
       options(with),
-      signal(executor),
+      signal(executor, options.clock),
       ledger(options.receive_buffer) {
   port.non_blocking(true);
+  options.clock->attach(port.native_handle(), [this] { return statistics.bytes; });
 }
 
 asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State> self) {
@@ -59,7 +61,7 @@ void Link::State::write(std::string_view text) {
 void Link::State::pump() {
   while (!waiting_for_port && !failure) {
     if (unsent.empty() && phase == Phase::streaming && !holding) {
-      if (!ledger.in_flight()) last_ok = last_life = Clock::now();
+      if (!ledger.in_flight()) last_ok = last_life = now();
       statistics.sent += ledger.fill(unsent);
       if (ledger.next() > last_number) fail("the job has too many lines for one print; split it");
     }
@@ -104,7 +106,8 @@ void Link::State::emergency_stop() noexcept {
     const int descriptor = port.native_handle();
     ::tcflush(descriptor, TCOFLUSH);
     constexpr std::string_view stop = "\nM112\n";  // the newline ends what may be half written
-    [[maybe_unused]] const auto written = ::write(descriptor, stop.data(), stop.size());
+    const auto written = ::write(descriptor, stop.data(), stop.size());
+    statistics.bytes += static_cast<std::uint64_t>(std::max<ssize_t>(written, 0));
     fail("the printer was stopped in an emergency; switch it off and on again before the next print");
   } catch (...) {
     // Nothing more can be done from here; the printer's own switch remains.
@@ -114,6 +117,7 @@ void Link::State::emergency_stop() noexcept {
 void Link::State::close() {
   fail("the link was closed");
   listener = nullptr;  // whatever still comes in, nobody may be there to hear it
+  options.clock->attach(-1, nullptr);
   asio::error_code ignored;
   port.close(ignored);
 }

@@ -147,7 +147,9 @@ struct Lookahead::State {
       error = std::current_exception();
     }
     lock.lock();
-    end_effort(thread_cpu_seconds() - cpu_before);
+    const double spent = thread_cpu_seconds() - cpu_before;
+    layer.result.cpu_seconds += spent;
+    end_effort(spent);
     if (error && !layer.error) layer.error = error;
   }
 
@@ -248,6 +250,10 @@ PlanningEffort Lookahead::effort() const {
 
 std::size_t Lookahead::threads() const {
   return state_->options.threads;
+}
+
+std::size_t Lookahead::ahead() const {
+  return state_->options.ahead;
 }
 
 std::size_t Lookahead::most_open() const {

@@ -21,6 +21,7 @@ namespace unicursal::host {
 struct PlannedLayer {
   core::Layer layer;
   std::vector<core::IslandPlan> plans;  ///< one for each island, in the same order
+  double cpu_seconds = 0;               ///< that slicing and planning it have cost
 };
 
 struct LookaheadOptions {
@@ -62,6 +63,8 @@ class Lookahead {
 
   PlanningEffort effort() const;
   std::size_t threads() const;
+  /// Layers that may be open or waiting.
+  std::size_t ahead() const;
   /// The greatest number of layers that were open or waiting at once.
   std::size_t most_open() const;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/picture/filaments.hpp"
+
 namespace unicursal::host {
 namespace {
 
@@ -13,17 +15,6 @@ constexpr double line_share = 0.55;    // of the bead width that the line takes
 constexpr picture::Colour background{255, 255, 255};
 constexpr picture::Colour inside{238, 238, 234};
 constexpr picture::Colour border{120, 120, 120};
-
-using LinearColour = std::array<double, 3>;
-
-/// Filaments in linear light: blue, red and white.
-constexpr std::array<LinearColour, gcode::max_feeders> filaments{
-    {{0.02, 0.12, 0.56}, {0.68, 0.03, 0.03}, {0.92, 0.87, 0.77}}};
-
-std::uint8_t display_value(double linear) {
-  const double value = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
-}
 
 /// From the part's frame to pixels.
 struct View {
@@ -84,11 +75,7 @@ void draw_path(picture::Image& image, const View& view, const core::BeadPath& pa
 }  // namespace
 
 picture::Colour colour_of(const gcode::Mixture& mixture) {
-  LinearColour light{};
-  for (std::size_t f = 0; f < filaments.size(); ++f) {
-    for (std::size_t c = 0; c < light.size(); ++c) light[c] += mixture.share(f) * filaments[f][c];
-  }
-  return {display_value(light[0]), display_value(light[1]), display_value(light[2])};
+  return picture::mixed_filaments(mixture.shares());
 }
 
 picture::Image draw_curves(const PlannedLayer& layer, const CurveStyle& style) {

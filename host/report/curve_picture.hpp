@@ -9,7 +9,8 @@
 
 namespace unicursal::host {
 
-/// What a mixture of the three feeders looks like on a screen: filaments in blue, red and white.
+/// What a mixture of the three feeders looks like on a screen: filaments in blue, red and white, as the
+/// simulator shows them.
 picture::Colour colour_of(const gcode::Mixture& mixture);
 
 /// What the picture has to know beside the layer.

@@ -6,6 +6,13 @@
 #include <iterator>
 
 namespace unicursal::host {
+namespace {
+
+std::string counted(std::uint64_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
 
 std::string duration_words(double seconds) {
   if (seconds < 60) return fmt::format("{:.1f} s", seconds);
@@ -46,6 +53,43 @@ std::string summary(const Comparison& comparison) {
   for (const Comparison::Mixture& mixture : comparison.mixtures) {
     fmt::format_to(out, "           {}: fed {:.2f} mm³ of {:.2f} ({:+.3f} %)\n", mixture.name, mixture.fed,
                    mixture.intended, 100 * mixture.relative_error);
+  }
+  return text;
+}
+
+std::string summary(const DepositFindings& d) {
+  if (d.area <= 0) return "";
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 "laid:      gaps {:.2f} %, overfill {:.2f} % of {:.0f} mm²; height {:.0f} to {:.0f} %\n",
+                 100 * d.gap_fraction(), 100 * d.overfill_fraction(), d.area, 100 * d.fill.percentile(0.05),
+                 100 * d.fill.percentile(0.95));
+  if (d.wrong > 0) {
+    fmt::format_to(
+        out,
+        "mixtures:  {:.1f} mm² ({:.2f} %) nearer to another zone's; half of it within {:.2f} mm of a "
+        "border, 90 % within {:.2f}\n",
+        d.wrong, 100 * d.wrong_fraction(), d.wrong_distance.percentile(0.5),
+        d.wrong_distance.percentile(0.9));
+  }
+  fmt::format_to(out, "           misplaced plastic {:.1f} mm² ({:.2f} %)\n", d.mixture_error,
+                 100 * d.mixture_error / d.area);
+  return text;
+}
+
+std::string summary(const MotionFindings& m) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "motion:    {:.2f} mm/s on average, {} of {:.1f} mm in all, {}", m.mean_speed,
+                 counted(m.travels, "travel"), m.travel, counted(m.starvations, "starvation"));
+  if (m.hasty_stops > 0) fmt::format_to(out, ", {} for late moves", counted(m.hasty_stops, "stop"));
+  fmt::format_to(
+      out, "\nflow:      within 5 % of {:.2f} mm³/s in {:.1f} % of the seconds ({:.1f} % of the instants)\n",
+      m.nominal_flow, 100 * m.seconds_in_tolerance, 100 * m.instants_in_tolerance);
+  if (m.seconds_in_tolerance < MotionFindings::hold_share && m.holdable_flow > 0) {
+    fmt::format_to(out, "           about {:.2f} mm³/s could be held in {:.0f} % of them\n", m.holdable_flow,
+                   100 * MotionFindings::hold_share);
   }
   return text;
 }

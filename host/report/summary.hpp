@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "host/report/deposit_findings.hpp"
+#include "host/report/motion_findings.hpp"
 #include "host/report/totals.hpp"
 
 namespace unicursal::host {
@@ -15,5 +17,11 @@ std::string summary(const RunTotals& totals, const PlanningEffort& planning);
 
 /// What the simulator's feeders and its line counts say about it.
 std::string summary(const Comparison& comparison);
+
+/// Gaps, heights and mixtures of what was laid.
+std::string summary(const DepositFindings& deposit);
+
+/// Speed, flow, travels and starvations.
+std::string summary(const MotionFindings& motion);
 
 }  // namespace unicursal::host

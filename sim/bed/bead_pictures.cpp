@@ -1,156 +1,146 @@
 #include "sim/bed/bead_pictures.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <deque>
-#include <system_error>
-#include <utility>
+#include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "core/picture/image.hpp"
-#include "sim/bed/colours.hpp"
+#include "sim/bed/pen.hpp"
 
 namespace unicursal::sim {
 
 namespace {
 
 constexpr picture::Colour background{250, 249, 246};
-constexpr double border_light = 0.45;  // of the bead's own colour
-constexpr double core_part = 0.78;     // of the bead's width
 constexpr double margin = 1;           // mm around the print
-constexpr double longest_side = 4096;  // pixels
-constexpr double widest_drawn = 5;     // mm: what a nozzle that stands still piles up is drawn no wider
+constexpr double longest_side = 4096;  // pixels of a layer's picture
+constexpr double part_side = 1600;     // pixels of the part's picture
+constexpr double finest_part = 16;     // pixels for a mm in it
+constexpr Ink wall{0.36, 0.36};        // the side of a layer
+constexpr Ink seam{0.2, 0.2};          // and its foot, so that layers can be told apart
+constexpr Ink top{0.6, 1};
 
-/// A bead as it waits in the file. mm.
-struct Record {
-  float x0, y0, x1, y1, width;
-  picture::Colour colour;
-};
+std::size_t pixels(double count, double most) {
+  return static_cast<std::size_t>(std::clamp(std::ceil(count), 1.0, most));
+}
 
-struct Frame {
-  double left = 0, top = 0;  ///< mm, y up
-  double scale = 1;          ///< pixels per mm
+struct View {
+  Projection projection;
   std::size_t width = 1, height = 1;
 };
 
-Frame frame_of(const Extents& extents, double pixel, double around) {
+View from_above(const Extents& extents, double pixel, double around) {
   const double width = extents.max_x - extents.min_x + 2 * around;
   const double height = extents.max_y - extents.min_y + 2 * around;
   const double scale = std::min(1 / pixel, longest_side / std::max(width, height));
-  const auto pixels = [scale](double mm) {
-    return static_cast<std::size_t>(std::clamp(std::ceil(mm * scale), 1.0, longest_side));
-  };
-  return {extents.min_x - around, extents.max_y + around, scale, pixels(width), pixels(height)};
+  const Projection projection{
+      {-(extents.min_x - around) * scale, (extents.max_y + around) * scale}, {scale, 0}, {0, -scale}};
+  return {projection, pixels(width * scale, longest_side), pixels(height * scale, longest_side)};
 }
 
-/// Draws borders as they come and cores one bead width behind, so that the round end of a new border never
-/// bites into the core of the bead that it continues.
-class Pen {
+/// x runs to the right and away, y to the left and away; both rise by half of what they go sideways.
+class CornerView {
  public:
-  Pen(picture::Image& image, const Frame& frame) : image_(image), frame_(frame) {}
-  ~Pen() { finish_run(); }
-  Pen(const Pen&) = delete;
-  Pen& operator=(const Pen&) = delete;
-
-  void draw(const Record& bead) {
-    if (!waiting_.empty() && (waiting_.back().x1 != bead.x0 || waiting_.back().y1 != bead.y0)) finish_run();
-    stroke(bead, bead.width, darker(bead.colour, border_light));
-    waiting_.push_back(bead);
-    ahead_ += length(bead);
-    while (ahead_ - length(waiting_.front()) > waiting_.front().width) draw_core();
+  /// Shows these beads and the walls below them; `around` mm of margin.
+  CornerView(BeadStore& store, double around) {
+    const bool only_first = store.layers().size() == 1;
+    store.for_each([&](std::size_t layer, const StoredBead& bead) {
+      if (layer == 0 && !only_first) return;
+      include(bead.x0, bead.y0, store.layers()[layer].z);
+      include(bead.x0, bead.y0, 0);
+    });
+    left_ -= around, right_ += around, bottom_ -= around, top_ += around;
+    scale = std::min(finest_part, part_side / std::max(right_ - left_, top_ - bottom_));
+    width = pixels((right_ - left_) * scale, part_side);
+    height = pixels((top_ - bottom_) * scale, part_side);
   }
+
+  Projection at(double z) const {
+    return {
+        {-left_ * scale, (top_ - z) * scale}, {across * scale, -up * scale}, {-across * scale, -up * scale}};
+  }
+
+  double scale = 1;  ///< pixels for a mm
+  std::size_t width = 1, height = 1;
 
  private:
-  static double length(const Record& bead) { return std::hypot(bead.x1 - bead.x0, bead.y1 - bead.y0); }
+  static constexpr double across = std::numbers::sqrt3 / 2, up = 0.5;
 
-  void stroke(const Record& bead, double width, picture::Colour colour) {
-    const auto x = [this](double mm) { return (mm - frame_.left) * frame_.scale; };
-    const auto y = [this](double mm) { return (frame_.top - mm) * frame_.scale; };
-    image_.stroke(x(bead.x0), y(bead.y0), x(bead.x1), y(bead.y1), width * frame_.scale, colour);
-  }
-  void draw_core() {
-    const Record& bead = waiting_.front();
-    stroke(bead, bead.width * core_part, bead.colour);
-    ahead_ -= length(bead);
-    waiting_.pop_front();
-  }
-  void finish_run() {
-    while (!waiting_.empty()) draw_core();
-    ahead_ = 0;
+  void include(double x, double y, double z) {
+    const double sideways = (x - y) * across, high = (x + y) * up + z;
+    left_ = std::min(left_, sideways), right_ = std::max(right_, sideways);
+    bottom_ = std::min(bottom_, high), top_ = std::max(top_, high);
   }
 
-  picture::Image& image_;
-  const Frame& frame_;
-  std::deque<Record> waiting_;  ///< border drawn, core not yet
-  double ahead_ = 0;            ///< mm of them
+  double left_ = 1e9, right_ = -1e9, bottom_ = 1e9, top_ = -1e9;  ///< mm of the projection
 };
 
-/// A longer print may have left more layers here than this one will have.
-void remove_old_pictures(const std::filesystem::path& folder) {
+}  // namespace
+
+void clear_pictures(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("deposit-") && name.ends_with(".png")) old.push_back(entry.path());
+    if ((name.starts_with("deposit-") && name.ends_with(".png")) || name == "part.png" ||
+        name == "motion.png")
+      old.push_back(entry.path());
   }
   for (const auto& file : old) std::filesystem::remove(file);
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file) {
-  throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), file.string());
-}
-
-}  // namespace
-
-BeadPictures::BeadPictures(std::filesystem::path folder, double pixel)
-    : folder_(std::move(folder)), waiting_(folder_ / ".deposit.beads"), pixel_(pixel) {
-  std::filesystem::create_directories(folder_);
-  remove_old_pictures(folder_);
-  file_.reset(std::fopen(waiting_.c_str(), "w+b"));
-  if (!file_) fail(waiting_);
-}
-
-BeadPictures::~BeadPictures() {
-  std::error_code ignored;
-  std::filesystem::remove(waiting_, ignored);
-}
-
-void BeadPictures::bead(std::size_t layer, const Bead& bead, double width) {
-  beads_.resize(std::max(beads_.size(), layer + 1));
-  ++beads_[layer];
-  widest_ = std::max(widest_, width);
-  for (Extents* extents : {&all_, &above_}) {
-    if (layer == 0 && extents == &above_) continue;
-    extents->include(bead.from);
-    extents->include(bead.to);
-  }
-  const auto narrow = [](double mm) { return static_cast<float>(mm); };
-  const Record record{narrow(bead.from.x),
-                      narrow(bead.from.y),
-                      narrow(bead.to.x),
-                      narrow(bead.to.y),
-                      narrow(std::min(width, widest_drawn)),
-                      colour_of(bead.shares)};
-  if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1) fail(waiting_);
-}
-
-void BeadPictures::draw() {
-  std::rewind(file_.get());
-  const double around = margin + std::min(widest_ / 2, margin);
-  for (std::size_t layer = 0; layer < beads_.size(); ++layer) {
-    const Frame frame = frame_of(layer == 0 ? all_ : above_, pixel_, around);
-    picture::Image image(frame.width, frame.height, background);
-    {
-      Pen pen(image, frame);
-      for (std::uint64_t i = 0; i < beads_[layer]; ++i) {
-        Record record{};
-        if (std::fread(&record, sizeof record, 1, file_.get()) != 1) fail(waiting_);
-        pen.draw(record);
-      }
+void draw_layers(BeadStore& store, const std::filesystem::path& folder, double pixel) {
+  const double around = margin + std::min(store.widest() / 2, margin);
+  std::optional<picture::Image> image;
+  std::optional<Pen> pen;
+  std::size_t current = 0;
+  const auto finish = [&] {
+    if (!image) return;
+    pen.reset();
+    picture::write_png(folder / fmt::format("deposit-{:04}.png", current), *image);
+    image.reset();
+  };
+  store.for_each([&](std::size_t layer, const StoredBead& bead) {
+    if (!image || layer != current) {
+      finish();
+      current = layer;
+      const View view = from_above(layer == 0 ? store.all() : store.above(), pixel, around);
+      image.emplace(view.width, view.height, background);
+      pen.emplace(*image, view.projection, Ink{});
     }
-    picture::write_png(folder_ / fmt::format("deposit-{:04}.png", layer), image);
-  }
+    pen->draw(bead);
+  });
+  finish();
+}
+
+void draw_part(BeadStore& store, const std::filesystem::path& folder) {
+  if (store.layers().empty()) return;
+  const CornerView view(store, margin + store.widest() / 2);
+  picture::Image image(view.width, view.height, background);
+  std::vector<StoredBead> beads;
+  std::size_t current = 0;
+  const auto draw_layer = [&] {
+    if (beads.empty()) return;
+    const StoredLayer& layer = store.layers()[current];
+    // The walls, pixel by pixel from below, then the top.
+    const double foot = layer.height * view.scale;
+    for (double below = foot; below >= 1; --below) {
+      Pen pen(image, view.at(layer.z - below / view.scale), below == foot ? seam : wall);
+      for (const StoredBead& bead : beads) pen.draw(bead);
+    }
+    Pen pen(image, view.at(layer.z), top);
+    for (const StoredBead& bead : beads) pen.draw(bead);
+    beads.clear();
+  };
+  store.for_each([&](std::size_t layer, const StoredBead& bead) {
+    if (layer != current) draw_layer();
+    current = layer;
+    beads.push_back(bead);
+  });
+  draw_layer();
+  picture::write_png(folder / "part.png", image);
 }
 
 }  // namespace unicursal::sim

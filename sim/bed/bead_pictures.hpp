@@ -1,45 +1,23 @@
-// One picture for each layer, top view. The first shows everything, the others are cropped alike to what lies
-// above it, so that a prime line does not shrink the part. Since that is known only at the end, the beads
-// wait in a file in the pictures' folder, which is removed after drawing; memory holds a few bytes for each
-// layer. Each bead is a capsule as wide as its volume makes it, with a darker border, drawn in the order of
-// printing: overlaps show as borders across older beads, gaps as background.
+// What was laid, bead by bead, in the colours that arrived: a picture of each layer from above, and one of
+// the whole part from a corner. The first layer's shows everything, the others and the part's are cropped
+// alike to what lies above it, so that a prime line does not shrink the part. Each bead is as wide as its
+// volume makes it, with a darker border, drawn in the order of printing: overlaps show as borders across
+// older beads, gaps as background.
 #pragma once
 
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <vector>
 
-#include "sim/bed/deposit.hpp"
+#include "sim/bed/bead_store.hpp"
 
 namespace unicursal::sim {
 
-class BeadPictures : public BeadSink {
- public:
-  /// Makes the folder and removes an older print's pictures from it. `pixel`: mm. Throws std::system_error
-  /// when folder or file cannot be made.
-  BeadPictures(std::filesystem::path folder, double pixel);
-  ~BeadPictures() override;
-  BeadPictures(const BeadPictures&) = delete;
-  BeadPictures& operator=(const BeadPictures&) = delete;
+/// deposit-0000.png and so on. `pixel` mm; pixels grow where a side would exceed 4096 of them.
+void draw_layers(BeadStore& store, const std::filesystem::path& folder, double pixel);
 
-  void bead(std::size_t layer, const Bead& bead, double width) override;
-  /// Draws deposit-0000.png and so on, one for each layer. Pixels grow where a side would exceed 4096 of
-  /// them.
-  void draw();
+/// part.png: parallel projection from the front left corner, a third of a right angle above the bed.
+void draw_part(BeadStore& store, const std::filesystem::path& folder);
 
- private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  std::filesystem::path folder_, waiting_;
-  double pixel_;
-  std::unique_ptr<std::FILE, Close> file_;
-  std::vector<std::uint64_t> beads_;  ///< in each layer
-  Extents all_, above_;  ///< of the centre lines: of the first layer and all others, of the others
-  double widest_ = 0;    ///< mm
-};
+/// Makes the folder and removes an older print's pictures from it. Throws std::system_error.
+void clear_pictures(const std::filesystem::path& folder);
 
 }  // namespace unicursal::sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace unicursal::sim {
 
@@ -25,13 +26,16 @@ void Extents::include(const Position& place) {
 }
 
 void Deposit::laid(const Bead& bead) {
+  for (std::size_t f = 0; f < max_feeders; ++f) by_feeder_[f] += bead.shares[f] * bead.volume;
+  const double length = in_plane(bead.from, bead.to);
+  if (length == 0) return drop(bead);
   if (layers_.empty()) first_start_ = bead.start;
   if (layers_.empty() || layers_.back().z != bead.to.z) begin_layer(bead.to.z);
   DepositedLayer& layer = layers_.back();
   settle_travel(layer);
-  const double length = in_plane(bead.from, bead.to);
   ++layer.beads;
   layer.length += length;
+  layer.seconds += bead.end - bead.start;
   layer.volume += bead.volume;
   length_ += length;
   volume_ += bead.volume;
@@ -39,7 +43,21 @@ void Deposit::laid(const Bead& bead) {
   extents_.include(bead.from);
   extents_.include(bead.to);
   last_width_ = layer.height > 0 ? bead.volume / (length * layer.height) : 0;
-  if (drawing_ != nullptr) drawing_->bead(layers_.size() - 1, bead, last_width_);
+  if (takers_.drawing != nullptr) takers_.drawing->bead(layers_.size() - 1, layer, bead, last_width_);
+  if (takers_.spread != nullptr && layer.height > 0) takers_.spread->lay(bead, last_width_);
+}
+
+void Deposit::drop(const Bead& bead) {
+  dropped_ += bead.volume;
+  if (takers_.spread == nullptr || layers_.empty() || layers_.back().z != bead.to.z) return;
+  const double height = layers_.back().height;
+  if (height > 0) takers_.spread->lay(bead, 2 * std::sqrt(bead.volume / (std::numbers::pi * height)));
+}
+
+void Deposit::finish() {
+  if (takers_.spread == nullptr || takers_.spread->empty()) return;
+  if (takers_.rasters != nullptr) takers_.rasters->layer(takers_.spread->raster());
+  takers_.spread->begin(0, 0);
 }
 
 void Deposit::travelled(const Position& from, const Position& to) {
@@ -58,6 +76,8 @@ void Deposit::begin_layer(double z) {
   layer.z = z;
   layer.height = z - below;
   layers_.push_back(layer);
+  finish();
+  if (takers_.spread != nullptr) takers_.spread->begin(layer.z, layer.height);
 }
 
 void Deposit::settle_travel(DepositedLayer& layer) {

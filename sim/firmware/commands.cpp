@@ -73,6 +73,7 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'M', 155}, &F::auto_report},
       {{'M', 163}, &F::collect_share},
       {{'M', 164}, &F::store_mixture},
+      {{'M', 165}, &F::mix_directly},
       {{'M', 190}, &F::wait_bed},
       {{'M', 201}, &F::accelerations},
       {{'M', 203}, &F::max_speeds},
@@ -90,12 +91,20 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
 void Firmware::execute(const std::string& body) {
   const auto command = parse_command(body);
   if (command && command->letter() == 'T') return select_tool(*command);
-  if (command) {
+  if (command && knows(*command)) {
     const auto found = handlers().find({command->letter(), command->code()});
     if (found != handlers().end()) return (this->*found->second)(*command);
   }
   ++counts_.unknown;
-  reply_(fmt::format("echo:Unknown command: \"{}\"", body));
+  say_unknown(body);
+}
+
+void Firmware::say_unknown(const std::string& body) {
+  say(fmt::format("echo:Unknown command: \"{}\"", body));
+}
+
+bool Firmware::knows(const Command& command) const {
+  return personality_.direct_mixing || !command.is('M', 165);
 }
 
 // ---- moves
@@ -114,24 +123,30 @@ void Firmware::plan(const MoveTarget& target, double e) {
   filament_ += fed;
   const PerAxis<double> mm{target.place[0], target.place[1], target.place[2], filament_};
   PerAxis<std::int64_t> steps{};
-  for (std::size_t i = 0; i < axes; ++i) steps[i] = to_steps(mm[i], planner_.limits().steps_per_mm[i]);
-  planner_.add(now_, steps, fed, target.speed, mixer_.current());
+  for (std::size_t i = 0; i < axes; ++i) {
+    steps[i] = origin_[i] + to_steps(mm[i], planner_.limits().steps_per_mm[i]);
+  }
+  planner_.push({steps, fed, target.speed, current_mix()}, now_);
 }
 
 /// What of a move's E is really fed: all, or nothing when that is refused; XY moves all the same.
 double Firmware::filament_to_feed(double e) {
   if (e == 0) return 0;
   if (nozzle_.temperature(now_) < cold) {
-    reply_("echo: cold extrusion prevented");
     warn("cold extrusion prevented");
+    say_refused("cold extrusion prevented");
     return 0;
   }
   if (std::abs(e * coordinates_.flow()) > longest_extrusion) {
-    reply_("echo: too long extrusion prevented");
     warn("too long extrusion prevented");
+    say_refused("too long extrusion prevented");
     return 0;
   }
   return e * coordinates_.flow();
+}
+
+void Firmware::say_refused(const char* what) {
+  say(fmt::format("echo: {}", what));
 }
 
 void Firmware::dwell(const Command& command) {
@@ -158,7 +173,7 @@ void Firmware::homed(bool x, bool y, bool z) {
   for (const Axis axis : {axis_x, axis_y, axis_z}) {
     if (!chosen[axis]) continue;
     coordinates_.home(axis);
-    steps[axis] = 0;
+    steps[axis] = origin_[axis] = 0;
   }
   planner_.set_position(steps);
   say_position();
@@ -226,6 +241,7 @@ void Firmware::steps_per_mm(const Command& command) {
     for (std::size_t i = 0; i < axes; ++i) {
       ratios[i] = std::min(ratios[i], most_steps_per_mm);
       steps[i] = to_steps(static_cast<double>(steps[i]) / before[i], ratios[i]);
+      origin_[i] = to_steps(static_cast<double>(origin_[i]) / before[i], ratios[i]);
     }
     planner_.set_position(steps);
   });
@@ -246,6 +262,14 @@ void Firmware::store_mixture(const Command& command) {
   }
 }
 
+/// M165 A… B… C…: the present tool, at once; letters left out are none of that feeder.
+void Firmware::mix_directly(const Command& command) {
+  constexpr std::string_view letters = "ABCDHI";
+  PerFeeder<double> shares{};
+  for (std::size_t i = 0; i < max_feeders; ++i) shares[i] = command.value_or(letters[i], 0);
+  mixer_.set_current(shares);
+}
+
 void Firmware::select_tool(const Command& command) {
   if (!mixer_.select(command.code())) reply_(fmt::format("echo:T{} Invalid extruder", command.code()));
 }
@@ -254,15 +278,14 @@ void Firmware::select_tool(const Command& command) {
 
 std::string Firmware::temperatures() const {
   return fmt::format("T:{:.2f} /{:.2f} B:{:.2f} /{:.2f} @:{} B@:{}", nozzle_.temperature(now_),
-                     nozzle_.target(), bed_.temperature(now_), bed_.target(), nozzle_.power(now_),
-                     bed_.power(now_));
+                     nozzle_.target(), bed_.temperature(now_), bed_.target(), nozzle_.power(), bed_.power());
 }
 
 /// Virtual tools have no heater of their own: only T0 does.
 bool Firmware::extruder_exists(const Command& command) {
   const double extruder = command.value_or('T', 0);
   if (extruder == 0) return true;
-  reply_(fmt::format("echo:M{} Invalid extruder {:.0f}", command.code(), extruder));
+  say(fmt::format("echo:M{} Invalid extruder {:.0f}", command.code(), extruder));
   return false;
 }
 
@@ -306,7 +329,7 @@ void Firmware::line_number(const Command& command) {
 }
 
 void Firmware::emergency_stop(const Command&) {
-  reply_("echo:M112 Shutdown");
+  say("echo:M112 Shutdown");
   kill();
 }
 
@@ -320,18 +343,18 @@ void Firmware::report_position(const Command&) {
 
 void Firmware::say_position() {
   const auto& steps = planner_.executed_position();
-  reply_(fmt::format("X:{:.2f} Y:{:.2f} Z:{:.2f} E:{:.2f} Count X:{} Y:{} Z:{}", coordinates_.logical(axis_x),
-                     coordinates_.logical(axis_y), coordinates_.logical(axis_z), coordinates_.e(),
-                     steps[axis_x], steps[axis_y], steps[axis_z]));
+  say(fmt::format("X:{:.2f} Y:{:.2f} Z:{:.2f} E:{:.2f} Count X:{} Y:{} Z:{}", coordinates_.logical(axis_x),
+                  coordinates_.logical(axis_y), coordinates_.logical(axis_z), coordinates_.e(),
+                  steps[axis_x] - origin_[axis_x], steps[axis_y] - origin_[axis_y],
+                  steps[axis_z] - origin_[axis_z]));
 }
 
 void Firmware::report_firmware(const Command&) {
-  reply_(
-      "FIRMWARE_NAME:Marlin 2.1.2 (simulated) SOURCE_CODE_URL:none PROTOCOL_VERSION:1.0 "
+  say("FIRMWARE_NAME:Marlin 2.1.2 (simulated) SOURCE_CODE_URL:none PROTOCOL_VERSION:1.0 "
       "MACHINE_TYPE:unicursal simulator EXTRUDER_COUNT:1 UUID:00000000-0000-0000-0000-000000000000");
   for (const char* line : {"Cap:SERIAL_XON_XOFF:0", "Cap:EEPROM:0", "Cap:AUTOREPORT_TEMP:1", "Cap:PROGRESS:0",
                            "Cap:EMERGENCY_PARSER:0", "Cap:HOST_ACTION_COMMANDS:1", "Cap:BUSY_PROTOCOL:1"}) {
-    reply_(line);
+    say(line);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "sim/firmware/firmware.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,73 +9,192 @@
 namespace unicursal::sim {
 
 namespace {
+
 constexpr double busy_interval = 2;  // s between busy lines
 constexpr double heat_interval = 1;  // s between the lines of M109 and M190
+constexpr double heat_look = 0.25;   // s between looks at the thermometer while M109 and M190 wait
 constexpr double residency = 10;     // s that a heater must have been hot for M109 and M190
+
+LineCheck::Rules rules_of(const Personality& personality) {
+  return personality.family == Personality::Family::repetier ? LineCheck::Rules::repetier
+                                                             : LineCheck::Rules::marlin;
+}
+
+MotionLimits limits_of(const Machine& machine, const Personality& personality) {
+  MotionLimits limits = machine.limits;
+  if (limits.step_rate == 0) limits.step_rate = personality.step_rate;
+  return limits;
+}
+
 }  // namespace
 
-Firmware::Firmware(const Machine& machine, MoveSink& sink, Reply reply)
+Firmware::Firmware(const Machine& machine, const Personality& personality, MoveSink& sink, Reply reply)
     : machine_(machine),
+      personality_(personality),
       reply_(std::move(reply)),
-      planner_(machine.limits, sink),
+      check_(rules_of(personality)),
+      planner_(limits_of(machine, personality), sink),
       coordinates_(machine.bed),
-      mixer_(machine.feeders),
+      mixer_(machine.feeders, personality.mix_scale),
       nozzle_(machine.nozzle),
       bed_(machine.bed_heater) {}
 
+// ---- power and reset
+
 void Firmware::boot() {
-  for (const char* line :
-       {"start", "PowerUp", "Marlin 2.1.2", "", "echo: Simulated printer with a mixing extruder",
-        "echo: Free Memory: 65536  PlannerBufferBytes: 2048", "echo:Hardcoded Default Settings Loaded"}) {
-    reply_(line);
-  }
+  booting_ = true;
+  boot_at_ = now_ + personality_.boot_seconds;
 }
 
-void Firmware::receive(std::string_view bytes) {
-  while (!bytes.empty() && buffer_.room() > 0 && !dead()) {
-    const std::size_t portion = std::min(bytes.size(), buffer_.room());
-    buffer_.push(bytes.substr(0, portion));
-    bytes.remove_prefix(portion);
-    settle();
-  }
-  if (!dead()) buffer_.push(bytes);
+void Firmware::wake_up() {
+  booting_ = false;
+  for (const std::string& line : personality_.chatter) say(line);
+  forget();
 }
+
+void Firmware::reset() {
+  ++counts_.resets;
+  planner_.reset(now_);
+  planner_.limits() = limits_of(machine_, personality_);
+  origin_ = planner_.executed_position();
+  origin_[axis_e] = 0;
+  coordinates_ = Coordinates(machine_.bed);
+  mixer_ = Mixer(machine_.feeders, personality_.mix_scale);
+  check_.set_last(0);
+  last_executed_ = 0;
+  buffer_.flush();
+  assembler_.reset();
+  queue_.clear();
+  waits_.clear();
+  running_ = killed_ = false;
+  stalled_until_ = report_interval_ = inactivity_ = 0;
+  nozzle_.reset(now_);
+  bed_.reset(now_);
+  boot();
+}
+
+void Firmware::die(const std::string& reason) {
+  say("Error:" + reason);
+  kill();
+}
+
+void Firmware::kill() {
+  say("Error:Printer halted. kill() called!");
+  say("//action:poweroff");
+  planner_.abort(now_);
+  nozzle_.reset(now_);
+  bed_.reset(now_);
+  killed_ = true;
+}
+
+// ---- time
 
 void Firmware::advance(double until) {
   settle();
   for (auto next = next_event(); next && *next <= until; next = next_event()) {
     now_ = std::max(now_, *next);
+    if (booting_) {
+      wake_up();
+      continue;
+    }
     if (!planner_.still()) active_at_ = now_;
-    planner_.advance(now_);
+    planner_.advance_to(now_);
     settle();
     tick();
   }
-  if (dead()) return;
   now_ = std::max(now_, until);
-  planner_.advance(now_);
+  if (!dead()) planner_.advance_to(now_);
 }
 
 std::optional<double> Firmware::next_event() const {
+  if (booting_) return boot_at_;
   if (dead()) return std::nullopt;
-  std::optional<double> next = planner_.next_end();
-  const auto consider = [&next](double time) { next = std::min(next.value_or(time), time); };
+  std::optional<double> next = planner_.next_event();
+  const auto consider = [&next](std::optional<double> time) {
+    if (time) next = std::min(next.value_or(*time), *time);
+  };
+  consider(nozzle_.next_tick());
+  consider(bed_.next_tick());
+  if (frozen()) {
+    if (std::isfinite(stalled_until_)) consider(stalled_until_);
+    return next;
+  }
   if (running_) consider(busy_at_);
   if (report_interval_ > 0) consider(report_at_);
   if (inactivity_ > 0 && !running_ && planner_.still()) consider(active_at_ + inactivity_);
-  if (!waits_.empty() && waits_.front().what == Wait::For::time) consider(waits_.front().until);
-  if (!waits_.empty() && waits_.front().settled) consider(heat_report_at_);
+  if (!waits_.empty() && waits_.front().until > 0) consider(waits_.front().until);
+  if (waits_for_heat()) consider(heat_report_at_);
+  consider(next_habit());
   return next;
 }
 
 void Firmware::run_down() {
+  if (booting_) advance(boot_at_);
+  if (frozen() && std::isfinite(stalled_until_)) advance(stalled_until_);
   settle();
-  while (!dead() && (running_ || !planner_.still())) advance(*next_event());
+  while (!dead() && !frozen() && (running_ || !planner_.still())) advance(*next_event());
+}
+
+void Firmware::tick() {
+  tick_heaters();
+  if (dead() || frozen()) return;
+  if (report_interval_ > 0 && now_ >= report_at_) {
+    report_at_ = now_ + report_interval_;
+    say(" " + temperatures());
+  }
+  if (waits_for_heat() && now_ >= heat_report_at_) {
+    heat_report_at_ = now_ + heat_interval;
+    say_heating(*waits_.front().heat);
+  }
+  if (running_ && now_ >= busy_at_) {
+    busy_at_ = now_ + busy_interval;
+    say_busy();
+  }
+  follow_habits();
+  if (inactivity_ > 0 && !running_ && planner_.still() && now_ >= active_at_ + inactivity_) {
+    warn("switched itself off after M85's time without a command");
+    die("!! KILL caused by too much inactive time - current command: ");
+  }
+}
+
+void Firmware::tick_heaters() {
+  for (Heater* heater : {&nozzle_, &bed_}) {
+    if (dead()) return;
+    const auto alarm = heater->tick(now_);
+    if (!alarm) continue;
+    warn(sentence(*alarm));
+    die(fmt::format("{}, system stopped! Heater_ID: {}", sentence(*alarm), heater == &bed_ ? "bed" : "0"));
+  }
+}
+
+void Firmware::say_heating(const HeatWait& wait) {
+  const std::string rest = wait.since ? fmt::format("{:.0f}", *wait.since + residency - now_) : "?";
+  say(fmt::format(" {} W:{}", temperatures(), rest));
+}
+
+// ---- lines in
+
+void Firmware::receive(std::string_view bytes) {
+  std::vector<WireByte> intact;
+  for (const char byte : bytes) intact.push_back({byte, false});
+  receive(intact);
+}
+
+void Firmware::receive(const std::vector<WireByte>& bytes) {
+  if (booting_) counts_.while_booting += bytes.size();
+  if (booting_) return;
+  for (const WireByte& byte : bytes) {
+    if (buffer_.room() == 0) settle();
+    if (booting_) return;
+    buffer_.push(byte);
+  }
+  settle();
 }
 
 void Firmware::settle() {
-  while (!dead()) {
+  while (!dead() && !frozen() && !booting_) {
     read_lines();
-    if (dead() || queue_.empty()) return;
+    if (dead() || booting_ || queue_.empty()) return;
     if (!running_) start_next();
     if (!progress()) return;
     finish();
@@ -82,55 +202,58 @@ void Firmware::settle() {
 }
 
 void Firmware::read_lines() {
-  while (queue_.size() < queue_size && !dead()) {
+  while (queue_.size() < personality_.queue_size && !dead() && !booting_ && !frozen()) {
     const auto byte = buffer_.pop();
     if (!byte) return;
-    if (const auto line = assembler_.push(*byte)) take(*line);
+    line_damaged_ = line_damaged_ || byte->damaged;
+    const auto line = assembler_.push(byte->value);
+    if (line) take(*line, line_damaged_);
+    if (byte->value == '\n' || byte->value == '\r') line_damaged_ = false;
   }
 }
 
-void Firmware::take(const std::string& line) {
+void Firmware::take(const std::string& line, bool damaged) {
   ++counts_.received;
+  if (watch_ && watch_(line)) return refuse(LineVerdict::Kind::wrong_checksum);
   LineVerdict verdict = check_.check(line);
-  if (verdict.kind == LineVerdict::Kind::repeated) {
-    ++counts_.repeated;
-  } else if (verdict.kind != LineVerdict::Kind::accepted) {
-    refuse(verdict.kind);
-  } else {
-    if (verdict.number) ++counts_.accepted;
-    if (verdict.number || !handled_at_once(verdict.body)) {
-      queue_.push_back({verdict.number, std::move(verdict.body)});
-    }
-  }
+  if (verdict.kind == LineVerdict::Kind::repeated) return repeated(*verdict.number);
+  if (verdict.kind != LineVerdict::Kind::accepted) return refuse(verdict.kind);
+  if (verdict.number) ++counts_.accepted;
+  if (damaged) ++(verdict.number ? counts_.unseen_damage : counts_.disguised);
+  if (!verdict.number && handled_at_once(verdict.body)) return;
+  queue_.push_back({verdict.number, std::move(verdict.body)});
+  taken(queue_.back());
 }
 
 void Firmware::refuse(LineVerdict::Kind kind) {
   ++(kind == LineVerdict::Kind::wrong_number ? counts_.number_errors : counts_.checksum_errors);
   ++counts_.resends;
   buffer_.flush();
-  reply_("Error:" + refusal(kind, check_.last()));
-  reply_(fmt::format("Resend: {}", check_.last() + 1));
-  reply_("ok");
+  say("Error:" + refusal(kind, check_.last()));
+  say(fmt::format("Resend: {}", check_.last() + 1));
+  say("ok");
 }
 
 /// Without a number, three commands act when they are received, ahead of the queue. Only a kill ends there;
 /// the others are queued as well and answered in their turn.
 bool Firmware::handled_at_once(std::string_view line) {
   if (line.starts_with("M112")) {
-    reply_("echo:M112 Shutdown");
-    kill();
+    emergency_stop({'M', 112});
     return true;
   }
-  if (line.starts_with("M108") && !waits_.empty() && waits_.front().settled) waits_.pop_front();
+  if (line.starts_with("M108") && waits_for_heat()) waits_.pop_front();
   if (line.starts_with("M410")) quick_stop();
   return false;
 }
+
+// ---- commands, one at a time
 
 void Firmware::start_next() {
   running_ = true;
   answers_ok_ = true;
   busy_at_ = now_ + busy_interval;
   active_at_ = now_;
+  if (command_watch_) command_watch_(queue_.front().body);
   execute(queue_.front().body);
 }
 
@@ -141,10 +264,10 @@ bool Firmware::progress() {
     waits_.pop_front();
     if (then) then();
   }
-  return !dead();
+  return running_ && !dead();
 }
 
-bool Firmware::over(const Wait& wait) const {
+bool Firmware::over(Wait& wait) {
   switch (wait.what) {
     case Wait::For::room:
       return planner_.has_room();
@@ -152,17 +275,37 @@ bool Firmware::over(const Wait& wait) const {
       return planner_.still();
     case Wait::For::time:
       return now_ >= wait.until;
+    case Wait::For::heat:
+      return hot_for_long(wait);
   }
   return true;
+}
+
+/// As Marlin's TEMP_RESIDENCY_TIME: the time starts at the target and starts anew when it strays.
+bool Firmware::hot_for_long(Wait& wait) {
+  HeatWait& heat = *wait.heat;
+  if (!heat.since && heat.heater->arrived(now_, heat.heating_only)) heat.since = now_;
+  if (heat.since && !heat.heating_only && heat.heater->strayed(now_)) heat.since.reset();
+  wait.until = now_ + heat_look;
+  if (!heat.since) return false;
+  wait.until = std::min(wait.until, *heat.since + residency);
+  return now_ >= *heat.since + residency;
 }
 
 void Firmware::finish() {
   ++counts_.executed;
   note_order(queue_.front());
+  active_at_ = now_;
+  done(queue_.front());
   queue_.pop_front();
   running_ = false;
-  active_at_ = now_;
-  if (answers_ok_) reply_("ok");
+}
+
+void Firmware::done(const Line& line) {
+  if (!answers_ok_) return;
+  if (!personality_.advanced_ok) return say("ok");
+  const std::string number = line.number ? fmt::format(" N{}", *line.number) : "";
+  say(fmt::format("ok{} P{} B{}", number, planner_.free_slots(), personality_.queue_size - queue_.size()));
 }
 
 void Firmware::note_order(const Line& line) {
@@ -174,44 +317,12 @@ void Firmware::note_order(const Line& line) {
   }
 }
 
-void Firmware::tick() {
-  if (dead()) return;
-  if (report_interval_ > 0 && now_ >= report_at_) {
-    report_at_ += report_interval_;
-    reply_(" " + temperatures());
-  }
-  if (!waits_.empty() && waits_.front().settled && now_ >= heat_report_at_) {
-    heat_report_at_ += heat_interval;
-    const Wait& wait = waits_.front();
-    const std::string rest = now_ < *wait.settled ? "?" : fmt::format("{:.0f}", wait.until - now_);
-    reply_(fmt::format(" {} W:{}", temperatures(), rest));
-  }
-  if (running_ && now_ >= busy_at_) {
-    busy_at_ += busy_interval;
-    reply_("echo:busy: processing");
-  }
-  if (inactivity_ > 0 && !running_ && planner_.still() && now_ >= active_at_ + inactivity_) {
-    reply_("Error:!! KILL caused by too much inactive time - current command: ");
-    warn("switched itself off after M85's time without a command");
-    kill();
-  }
-}
-
-void Firmware::kill() {
-  reply_("Error:Printer halted. kill() called!");
-  reply_("//action:poweroff");
-  planner_.abort(now_);
-  nozzle_.set_target(now_, 0);
-  bed_.set_target(now_, 0);
-  killed_ = true;
-}
-
 void Firmware::quick_stop() {
   planner_.abort(now_);
   if (!waits_.empty() && waits_.front().what == Wait::For::room) waits_.clear();
   const auto& steps = planner_.executed_position();
   const auto mm = [&](Axis axis) {
-    return static_cast<double>(steps[axis]) / planner_.limits().steps_per_mm[axis];
+    return static_cast<double>(steps[axis] - origin_[axis]) / planner_.limits().steps_per_mm[axis];
   };
   const double unfed = filament_ - mm(axis_e);
   filament_ -= unfed;
@@ -224,6 +335,7 @@ void Firmware::wait_for_room(std::function<void()> then) {
 }
 
 void Firmware::wait_until_still(std::function<void()> then) {
+  planner_.stop_is_meant();
   waits_.push_back({Wait::For::stillness, 0, std::move(then), std::nullopt});
 }
 
@@ -231,11 +343,11 @@ void Firmware::wait_seconds(double seconds, std::function<void()> then) {
   waits_.push_back({Wait::For::time, now_ + seconds, std::move(then), std::nullopt});
 }
 
-void Firmware::wait_for_heater(Heater& heater, bool heating_only) {
+void Firmware::wait_for_heater(const Heater& heater, bool heating_only) {
   if (heating_only && heater.temperature(now_) > heater.target()) return;
-  const double hot = heater.arrival(now_, heating_only);
   heat_report_at_ = now_ + heat_interval;
-  waits_.push_back({Wait::For::time, hot + residency, nullptr, hot});
+  waits_.push_back(
+      {Wait::For::heat, now_ + heat_look, nullptr, HeatWait{&heater, heating_only, std::nullopt}});
 }
 
 }  // namespace unicursal::sim

@@ -1,9 +1,9 @@
-// A printer's firmware: bytes in, lines of replies out, moves to a sink. It behaves like Marlin 2.1.2 on a
-// 32-bit board with a mixing extruder (firmware facts). It has no clock of its own: whoever holds it says how
-// far printer time goes, so it can run in real time, in leaps, or step by step in a test.
+// A printer's firmware: bytes in, lines of replies out, moves to a sink. It behaves like Marlin 2.1.2 with a
+// mixing extruder (firmware facts); what other families do differently overrides it. It has no clock of its
+// own: whoever holds it says how far printer time goes, so it can run in real time, in leaps, or step by step
+// in a test.
 //
-//   Firmware printer(machine, bed, [](std::string_view line) { … });
-//   printer.boot();
+//   Firmware printer(machine, personality("marlin"), bed, [](std::string_view line) { … });
 //   printer.receive("G28\n");                                 // answers what needs no time
 //   while (printer.blocked()) printer.advance(*printer.next_event());
 //
@@ -20,13 +20,16 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/firmware/coordinates.hpp"
 #include "sim/firmware/heater.hpp"
 #include "sim/firmware/mixer.hpp"
+#include "sim/firmware/personality.hpp"
 #include "sim/line/line_assembler.hpp"
 #include "sim/line/line_check.hpp"
 #include "sim/line/receive_buffer.hpp"
+#include "sim/line/wire.hpp"
 #include "sim/line/words.hpp"
 #include "sim/motion/planner.hpp"
 
@@ -36,8 +39,8 @@ struct Machine {
   std::array<double, 3> bed{200, 200, 200};  ///< mm
   MotionLimits limits;
   std::size_t feeders = 3;
-  HeaterModel nozzle{425, 120, 260};
-  HeaterModel bed_heater{175, 300, 140};
+  HeaterModel nozzle;
+  HeaterModel bed_heater = HeaterModel::bed();
 };
 
 struct LineCounts {
@@ -48,36 +51,60 @@ struct LineCounts {
   std::uint64_t number_errors = 0;
   std::uint64_t resends = 0;
   std::uint64_t repeated = 0;  ///< dropped in silence
+  std::uint64_t skipped = 0;   ///< repeated, and answered so (Repetier)
   std::uint64_t unknown = 0;
-  bool executed_in_order = true;  ///< every numbered line once, each one more than the one before
+  std::uint64_t unseen_damage = 0;  ///< damaged on the way, and the 8-bit checksum fits all the same
+  std::uint64_t disguised = 0;      ///< damaged so that they looked like lines without a number
+  std::uint64_t while_booting = 0;  ///< bytes that came before the firmware ran
+  std::uint64_t resets = 0;         ///< after power-up
+  bool executed_in_order = true;    ///< every numbered line once, each one more than the one before
 };
 
 class Firmware {
  public:
-  static constexpr std::size_t queue_size = 4;  ///< commands, the running one included
-
   /// Takes one line of reply, without its newline.
   using Reply = std::function<void(std::string_view line)>;
+  /// Sees every complete line that comes in; true makes the firmware take it for damaged.
+  using LineWatch = std::function<bool(std::string_view line)>;
+  /// Sees every command that is executed, without its number and checksum.
+  using CommandWatch = std::function<void(const std::string& command)>;
 
-  Firmware(const Machine& machine, MoveSink& sink, Reply reply);
+  Firmware(const Machine& machine, const Personality& personality, MoveSink& sink, Reply reply);
+  virtual ~Firmware() = default;
+  Firmware(const Firmware&) = delete;
+  Firmware& operator=(const Firmware&) = delete;
 
-  /// What a board says after power-up.
+  /// Power comes on: after the personality's time it says what it is. Without this it is up from the start.
   void boot();
+  /// The board's reset: motion stops where it is, heaters go off, everything in memory is forgotten; boots.
+  void reset();
   /// Bytes arrive now.
+  void receive(const std::vector<WireByte>& bytes);
   void receive(std::string_view bytes);
   /// Lets printer time run; everything due until then happens, in order.
   void advance(double until);
   double now() const { return now_; }
   /// When the next thing happens by itself; nothing when the printer rests or is dead.
   std::optional<double> next_event() const;
-  /// The running command waits for time to pass.
-  bool blocked() const { return running_ && !dead(); }
+  /// The running command waits for time to pass, or the firmware boots.
+  bool blocked() const { return booting_ || (running_ && !dead()); }
   /// Lets time run until every command received has been done and all is still.
   void run_down();
+
+  // What a fault can do to it
+  void watch_lines(LineWatch watch) { watch_ = std::move(watch); }
+  void watch_commands(CommandWatch watch) { command_watch_ = std::move(watch); }
+  /// Neither reads nor answers for so long; moves go on.
+  void stall(double seconds) { stalled_until_ = now_ + seconds; }
+  /// Finds fault with a line that was good: the next one is asked for again.
+  void ask_again() { refuse(LineVerdict::Kind::wrong_checksum); }
+  /// Stops itself for good and says why.
+  virtual void die(const std::string& reason);
 
   bool killed() const { return killed_; }
   bool hung() const { return planner_.stuck(); }
 
+  const Personality& personality() const { return personality_; }
   const LineCounts& counts() const { return counts_; }
   const ReceiveBuffer& buffer() const { return buffer_; }
   const LineAssembler& assembler() const { return assembler_; }
@@ -86,49 +113,82 @@ class Firmware {
   const Coordinates& coordinates() const { return coordinates_; }
   const Heater& nozzle() const { return nozzle_; }
   const Heater& bed() const { return bed_; }
+  Heater& nozzle() { return nozzle_; }
+  Heater& bed() { return bed_; }
   /// What a user should know about, and how often it happened.
   const std::map<std::string, std::uint64_t>& warnings() const { return warnings_; }
 
- private:
+ protected:
   struct Line {
     std::optional<std::int64_t> number;
     std::string body;
   };
+  /// A heater that has to be at its target for a while.
+  struct HeatWait {
+    const Heater* heater;
+    bool heating_only;
+    std::optional<double> since;  ///< it is there
+  };
   /// Something that the running command waits for, and what it does then.
   struct Wait {
-    enum class For { room, stillness, time } what;
-    double until = 0;               ///< printer time
-    std::function<void()> then;     ///< may add waits
-    std::optional<double> settled;  ///< a heater's wait: when it is hot and only has to stay so
+    enum class For { room, stillness, time, heat } what;
+    double until = 0;            ///< printer time; for heat when to look again
+    std::function<void()> then;  ///< may add waits
+    std::optional<HeatWait> heat;
   };
   using Handler = void (Firmware::*)(const Command&);
+
+  // What families do differently, from the line to the ok
+  virtual void repeated(std::int64_t) { ++counts_.repeated; }
+  virtual void refuse(LineVerdict::Kind kind);
+  virtual bool handled_at_once(std::string_view line);
+  /// A line has been taken into the queue.
+  virtual void taken(const Line&) {}
+  /// The running command is done, but still in the queue.
+  virtual void done(const Line& line);
+  virtual void say_busy() { say("echo:busy: processing"); }
+  virtual void say_heating(const HeatWait& wait);
+  virtual void say_unknown(const std::string& body);
+  virtual void say_refused(const char* what);
+  virtual bool knows(const Command& command) const;
+  virtual Mix current_mix() const { return mixer_.current(); }
+  /// Things that the firmware does by itself; nothing when there are none.
+  virtual std::optional<double> next_habit() const { return std::nullopt; }
+  virtual void follow_habits() {}
+  /// What a reset makes it forget, and the time from which habits count.
+  virtual void forget() {}
 
   // firmware.cpp: lines in, commands one at a time, time
   void settle();
   void read_lines();
-  void take(const std::string& line);
-  void refuse(LineVerdict::Kind kind);
-  bool handled_at_once(std::string_view line);
+  void take(const std::string& line, bool damaged);
   void start_next();
   bool progress();
-  bool over(const Wait& wait) const;
+  bool over(Wait& wait);
+  bool hot_for_long(Wait& wait);
   void finish();
   void note_order(const Line& line);
   void tick();
+  void tick_heaters();
+  void wake_up();
+  bool frozen() const { return now_ < stalled_until_; }
   bool dead() const { return killed_ || planner_.stuck(); }
+  bool idle() const { return !running_ && queue_.empty(); }
+  bool waits_for_heat() const { return !waits_.empty() && waits_.front().what == Wait::For::heat; }
   void kill();
   void quick_stop();
   void warn(const std::string& what) { ++warnings_[what]; }
+  void say(std::string_view line) { reply_(line); }
   void wait_for_room(std::function<void()> then);
   void wait_until_still(std::function<void()> then);
   void wait_seconds(double seconds, std::function<void()> then);
-  void wait_for_heater(Heater& heater, bool heating_only);
+  void wait_for_heater(const Heater& heater, bool heating_only);
 
   // commands.cpp: what each command does
   static const std::map<std::pair<char, int>, Handler>& handlers();
   void execute(const std::string& body);
   bool extruder_exists(const Command& command);
-  std::string temperatures() const;
+  virtual std::string temperatures() const;
   void nothing(const Command&) {}
   void move(const Command& command);
   void dwell(const Command& command);
@@ -141,16 +201,17 @@ class Firmware {
   void set_inactivity(const Command& command);
   void steps_per_mm(const Command& command);
   void nozzle_target(const Command& command);
-  void report_temperatures(const Command& command);
+  virtual void report_temperatures(const Command& command);
   void wait_nozzle(const Command& command);
-  void line_number(const Command& command);
-  void emergency_stop(const Command& command);
+  virtual void line_number(const Command& command);
+  virtual void emergency_stop(const Command& command);
   void report_position(const Command& command);
-  void report_firmware(const Command& command);
+  virtual void report_firmware(const Command& command);
   void bed_target(const Command& command);
   void auto_report(const Command& command);
-  void collect_share(const Command& command);
-  void store_mixture(const Command& command);
+  virtual void collect_share(const Command& command);
+  virtual void store_mixture(const Command& command);
+  void mix_directly(const Command& command);
   void wait_bed(const Command& command);
   void accelerations(const Command& command);
   void max_speeds(const Command& command);
@@ -160,17 +221,21 @@ class Firmware {
   void flow_percent(const Command& command);
   void finish_moves(const Command& command);
   void stop_moves(const Command& command);
-  void select_tool(const Command& command);
+  virtual void select_tool(const Command& command);
   void plan(const MoveTarget& target, double e);
   double filament_to_feed(double e);
   void homed(bool x, bool y, bool z);
   void say_position();
 
-  Machine machine_;
+  const Machine machine_;
+  const Personality personality_;
   Reply reply_;
+  LineWatch watch_;
+  CommandWatch command_watch_;
   ReceiveBuffer buffer_;
   LineAssembler assembler_;
   LineCheck check_;
+  bool line_damaged_ = false;  ///< the one being read
   LineCounts counts_;
   std::deque<Line> queue_;
   std::deque<Wait> waits_;
@@ -181,8 +246,11 @@ class Firmware {
   std::map<std::string, std::uint64_t> warnings_;
 
   double now_ = 0;
-  double filament_ = 0;  ///< mm asked of the feeders since power-up
-  bool running_ = false, answers_ok_ = true, killed_ = false;
+  double filament_ = 0;             ///< mm asked of the feeders since power-up
+  PerAxis<std::int64_t> origin_{};  ///< steps: where the machine stood when the firmware last booted
+  bool booting_ = false, running_ = false, answers_ok_ = true, killed_ = false;
+  double boot_at_ = 0;  ///< when booting is over
+  double stalled_until_ = 0;
   std::int64_t last_executed_ = 0;  ///< line number
   double busy_at_ = 0;              ///< when to say that a command still runs
   double heat_report_at_ = 0;

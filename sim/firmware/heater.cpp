@@ -1,53 +1,166 @@
 #include "sim/firmware/heater.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace unicursal::sim {
 
 namespace {
-constexpr double close_enough = 0.5;  // °C from the target at which it counts as reached
+constexpr int full = 127;
+constexpr double period = 0.25;        // s between two acts of the control
+constexpr double control_range = 10;   // °C from the target: beyond, all or nothing
+constexpr double window = 1;           // °C from the target that count as reached
+constexpr double hysteresis = 3;       // °C from the target at which it has strayed
+constexpr double watch_increase = 2;   // °C
+constexpr double min_temp = 5;         // °C: below, no thermometer can be there
+constexpr double no_thermistor = -15;  // °C that an open input reads
+}  // namespace
+
+HeaterModel HeaterModel::bed() {
+  HeaterModel model{175, 300, 140};
+  model.sensor_lag = 5;
+  model.gain = 0.1;
+  model.integral_time = 60;
+  model.watch_period = 60;
+  model.runaway_period = 20;
+  model.runaway_margin = 2;
+  model.max_temp = 150;
+  return model;
 }
 
-void Heater::set_target(double now, double target) {
-  from_ = temperature(now);
-  since_ = now;
-  target_ = std::clamp(target, 0.0, model_.highest_target);
+/// Share of full power that really heats.
+double Heater::delivered() const {
+  if (defect_ == Defect::open) return 0;
+  if (defect_ == Defect::closed) return 1;
+  return static_cast<double>(power_) / full;
 }
 
-/// Where it settles: nothing here cools below the room.
-double Heater::goal() const {
-  return std::max(target_, room_temperature);
+// With the block's b(t) = end + (b0 − end) e^(−t/τ), the sensor's s' = (b − s)/λ has this solution.
+Heater::Sample Heater::at(double now) const {
+  const double end = room_temperature + delivered() * (model_.limit - room_temperature);
+  const double passed = now - since_;
+  const double block = (from_.block - end) * std::exp(-passed / model_.time_constant);
+  const double share = model_.time_constant / (model_.time_constant - model_.sensor_lag);
+  const double lagging =
+      (from_.sensor - end - (from_.block - end) * share) * std::exp(-passed / model_.sensor_lag);
+  return {end + block, end + block * share + lagging};
 }
 
 double Heater::temperature(double now) const {
-  const bool heats = from_ < goal();
-  const double end = heats ? model_.limit : room_temperature;
-  const double free = end + (from_ - end) * std::exp((since_ - now) / model_.time_constant);
-  return heats ? std::min(free, goal()) : std::max(free, goal());
+  return pulled_ ? no_thermistor : at(now).sensor;
 }
 
-int Heater::power(double now) const {
-  constexpr int full = 127;
-  if (target_ <= room_temperature) return 0;
-  const double actual = temperature(now);
-  if (actual < target_) return full;
-  if (actual > target_) return 0;
-  const double share = (target_ - room_temperature) / (model_.limit - room_temperature);
-  return static_cast<int>(std::lround(full * share));
+double Heater::block(double now) const {
+  return at(now).block;
+}
+
+void Heater::set_power(double now, int power) {
+  from_ = at(now);
+  since_ = now;
+  power_ = power;
+}
+
+void Heater::set_target(double now, double target) {
+  target_ = std::clamp(target, 0.0, model_.highest_target);
+  reached_ = false;
+  behind_since_.reset();
+  integral_ = 0;
+  start_watch(now);
+  set_power(now, wanted(temperature(now)));
+  tick_at_ = now + period;
+}
+
+/// As in Marlin: only a target well above what is there has to be seen approaching.
+void Heater::start_watch(double now) {
+  watch_until_.reset();
+  const double reading = temperature(now);
+  if (target_ <= reading + watch_increase + hysteresis) return;
+  watch_goal_ = reading + watch_increase;
+  watch_until_ = now + model_.watch_period;
+}
+
+std::optional<double> Heater::next_tick() const {
+  if (target_ > 0 || pulled_ || defect_ == Defect::closed) return tick_at_;
+  return std::nullopt;
+}
+
+std::optional<Heater::Alarm> Heater::tick(double now) {
+  if (!next_tick() || now < tick_at_) return std::nullopt;
+  tick_at_ = now + period;
+  const double reading = temperature(now);
+  set_power(now, wanted(reading));
+  return protect(now, reading);
+}
+
+int Heater::wanted(double reading) {
+  if (target_ <= 0) return 0;
+  const double error = target_ - reading;
+  if (std::abs(error) > control_range) {
+    integral_ = 0;
+    return error > 0 ? full : 0;
+  }
+  integral_ = std::clamp(integral_ + model_.gain * error * period / model_.integral_time, 0.0, 1.0);
+  return static_cast<int>(std::lround(full * std::clamp(model_.gain * error + integral_, 0.0, 1.0)));
+}
+
+std::optional<Heater::Alarm> Heater::protect(double now, double reading) {
+  if (reading < min_temp) return Alarm::min_temp;
+  if (reading > model_.max_temp) return Alarm::max_temp;
+  if (target_ <= 0) return std::nullopt;
+  if (reading >= target_ - model_.runaway_margin) {
+    reached_ = true;
+    behind_since_.reset();
+    watch_until_.reset();
+  } else if (reached_ && !behind_since_) {
+    behind_since_ = now;
+  }
+  if (behind_since_ && now - *behind_since_ > model_.runaway_period) return Alarm::thermal_runaway;
+  if (watch_until_ && now >= *watch_until_) {
+    if (reading < watch_goal_) return Alarm::heating_failed;
+    start_watch(now);
+  }
+  return std::nullopt;
 }
 
 bool Heater::arrived(double now, bool heating_only) const {
-  return arrival(now, heating_only) <= now;
+  const double away = temperature(now) - std::max(target_, room_temperature);
+  return heating_only ? away > -window : std::abs(away) < window;
 }
 
-double Heater::arrival(double now, bool heating_only) const {
-  const double actual = temperature(now);
-  const bool heats = actual < goal();
-  const double reached = heats ? goal() - close_enough : goal() + close_enough;
-  if (heats ? actual >= reached : heating_only || actual <= reached) return now;
-  const double end = heats ? model_.limit : room_temperature;
-  return now + model_.time_constant * std::log((actual - end) / (reached - end));
+bool Heater::strayed(double now) const {
+  return std::abs(temperature(now) - std::max(target_, room_temperature)) > hysteresis;
+}
+
+void Heater::break_down(double now, Defect defect) {
+  set_power(now, power_);
+  defect_ = defect;
+  tick_at_ = std::max(tick_at_, now);
+}
+
+void Heater::pull_thermistor(double now) {
+  pulled_ = true;
+  tick_at_ = std::max(tick_at_, now);
+}
+
+void Heater::reset(double now) {
+  set_target(now, 0);
+  set_power(now, 0);
+}
+
+const char* sentence(Heater::Alarm alarm) {
+  switch (alarm) {
+    case Heater::Alarm::heating_failed:
+      return "Heating failed";
+    case Heater::Alarm::thermal_runaway:
+      return "Thermal Runaway";
+    case Heater::Alarm::min_temp:
+      return "MINTEMP triggered";
+    case Heater::Alarm::max_temp:
+      return "MAXTEMP triggered";
+  }
+  assert(false);
+  return "";
 }
 
 }  // namespace unicursal::sim

@@ -5,7 +5,7 @@
 
 namespace unicursal::sim {
 
-Mixer::Mixer(std::size_t feeders) : feeders_(feeders) {
+Mixer::Mixer(std::size_t feeders, std::int32_t full_scale) : feeders_(feeders), full_scale_(full_scale) {
   assert(feeders >= 1 && feeders <= max_feeders);
   for (std::size_t tool = 0; tool < factors_.size(); ++tool) {
     factors_[tool][tool < feeders ? tool : 0] = full_scale;
@@ -17,13 +17,23 @@ void Mixer::collect(double feeder, double share) {
   collector_[static_cast<std::size_t>(feeder)] = std::max(share, 0.0);
 }
 
+/// Fractions of a step are cut off, as the firmware's conversion to integers does.
+Factors Mixer::factors_for(const PerFeeder<double>& shares) const {
+  const double largest = *std::max_element(shares.begin(), shares.end());
+  Factors factors{};
+  for (std::size_t i = 0; i < feeders_ && largest > 0; ++i) {
+    factors[i] = static_cast<std::int32_t>(std::max(shares[i], 0.0) / largest * full_scale_);
+  }
+  return factors;
+}
+
 void Mixer::store(double tool) {
   if (tool < 0 || tool >= tools) return;
-  const double largest = *std::max_element(collector_.begin(), collector_.end());
-  Factors& factors = factors_[static_cast<std::size_t>(tool)];
-  for (std::size_t i = 0; i < max_feeders; ++i) {
-    factors[i] = largest > 0 ? static_cast<std::int32_t>(collector_[i] / largest * full_scale) : 0;
-  }
+  factors_[static_cast<std::size_t>(tool)] = factors_for(collector_);
+}
+
+void Mixer::set_current(const PerFeeder<double>& shares) {
+  factors_[static_cast<std::size_t>(selected_)] = factors_for(shares);
 }
 
 bool Mixer::select(double tool) {

@@ -1,4 +1,4 @@
-// Virtual tools of Marlin 2.1's mixing extruder on a 32-bit board (firmware facts, "Mixing in Marlin 2.1"):
+// Virtual tools of Marlin 2.1's mixing extruder (firmware facts, "Mixing in Marlin 2.1"):
 // M163 fills a collector that persists; M164 copies it into a tool as integers relative to the largest.
 #pragma once
 
@@ -13,24 +13,29 @@ namespace unicursal::sim {
 class Mixer {
  public:
   static constexpr int tools = 16;
-  static constexpr std::int32_t full_scale = 32768;
 
+  /// `full_scale`: factor of the largest share, 32768 on 32-bit boards and 128 on 8-bit ones.
   /// Precondition: 1 ≤ feeders ≤ max_feeders. T0, T1… are pure as far as there are feeders, the others
   /// feeder 1.
-  explicit Mixer(std::size_t feeders);
+  Mixer(std::size_t feeders, std::int32_t full_scale);
 
   /// M163. A negative share counts as zero; a feeder that is not there is ignored.
   void collect(double feeder, double share);
   /// M164. A tool that is not there is ignored.
   void store(double tool);
   void store() { store(selected_); }
+  /// M165: the present tool, past the collector. Negative shares count as zero.
+  void set_current(const PerFeeder<double>& shares);
 
   bool select(double tool);  ///< false when there is no such tool
   int selected() const { return selected_; }
   Mix current() const { return {selected_, factors_[static_cast<std::size_t>(selected_)]}; }
 
  private:
+  Factors factors_for(const PerFeeder<double>& shares) const;
+
   std::size_t feeders_;
+  std::int32_t full_scale_;
   PerFeeder<double> collector_{};
   std::array<Factors, tools> factors_{};
   int selected_ = 0;

@@ -1,5 +1,6 @@
 #include "sim/line/line_check.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 
@@ -8,6 +9,10 @@
 namespace unicursal::sim {
 
 namespace {
+
+constexpr std::int64_t repetier_modulus = 65536, repetier_repeats = 40;
+/// Longer numbers end here, so that no arithmetic on them overflows.
+constexpr std::int64_t largest_line_number = 1'000'000'000'000;
 
 std::string_view without_leading_spaces(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
@@ -20,7 +25,7 @@ std::int64_t leading_integer(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   std::int64_t value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
+  return std::clamp(value, -largest_line_number, largest_line_number);
 }
 
 std::string body_of(std::string_view line) {
@@ -51,11 +56,20 @@ LineVerdict LineCheck::check(std::string_view line) {
   return {kind, number, body_of(line)};
 }
 
+bool LineCheck::follows(std::int64_t number) const {
+  if (rules_ == Rules::marlin) return number == last_ + 1;
+  return (number - last_ - 1) % repetier_modulus == 0;
+}
+
+bool LineCheck::repeats(std::int64_t number) const {
+  if (rules_ == Rules::marlin) return number == last_ || number == last_ - 1;
+  const std::int64_t behind = (last_ - number) % repetier_modulus;
+  return (behind + repetier_modulus) % repetier_modulus < repetier_repeats;
+}
+
 LineVerdict::Kind LineCheck::judge(std::string_view line, std::int64_t number, bool resets) const {
   using Kind = LineVerdict::Kind;
-  if (!resets && number != last_ + 1) {
-    return number == last_ || number == last_ - 1 ? Kind::repeated : Kind::wrong_number;
-  }
+  if (!resets && !follows(number)) return repeats(number) ? Kind::repeated : Kind::wrong_number;
   const std::size_t star = line.rfind('*');
   if (star == std::string_view::npos) return Kind::no_checksum;
   const bool good = leading_integer(line.substr(star + 1)) == checksum(line.substr(0, star));

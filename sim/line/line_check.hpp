@@ -1,5 +1,6 @@
 // Line numbers and checksums, judged when a line is received and in the order in which Marlin 2.1 does it:
-// number first, then checksum. The checksum is the exclusive or of every byte before the last `*`.
+// number first, then checksum. The checksum is the exclusive or of every byte before the last `*`. Repetier
+// compares numbers modulo 65536, and takes the last forty for repeated ones.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace unicursal::sim {
 struct LineVerdict {
   enum class Kind {
     accepted,
-    repeated,      ///< the last or last-but-one number again: to be dropped without an answer
+    repeated,      ///< one of the last numbers again: not to be executed
     wrong_number,  ///< not the last number + 1
     wrong_checksum,
     no_checksum,  ///< a number, but no checksum
@@ -24,6 +25,10 @@ struct LineVerdict {
 
 class LineCheck {
  public:
+  enum class Rules { marlin, repetier };
+
+  explicit LineCheck(Rules rules = Rules::marlin) : rules_(rules) {}
+
   LineVerdict check(std::string_view line);
 
   std::int64_t last() const { return last_; }  ///< the number accepted last
@@ -31,7 +36,10 @@ class LineCheck {
 
  private:
   LineVerdict::Kind judge(std::string_view line, std::int64_t number, bool resets) const;
+  bool follows(std::int64_t number) const;
+  bool repeats(std::int64_t number) const;
 
+  Rules rules_;
   std::int64_t last_ = 0;
 };
 

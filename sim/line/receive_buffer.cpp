@@ -1,18 +1,22 @@
 #include "sim/line/receive_buffer.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace unicursal::sim {
 
-void ReceiveBuffer::push(std::string_view bytes) {
-  const std::size_t fits = std::min(bytes.size(), room());
-  for (const char byte : bytes.substr(0, fits)) bytes_[(first_ + used_++) % size] = byte;
-  lost_ += bytes.size() - fits;
+void ReceiveBuffer::push(WireByte byte) {
+  if (room() == 0) {
+    ++lost_;
+    gap_ = true;
+    return;
+  }
+  byte.damaged = std::exchange(gap_, false) || byte.damaged;
+  bytes_[(first_ + used_++) % size] = byte;
 }
 
-std::optional<char> ReceiveBuffer::pop() {
+std::optional<WireByte> ReceiveBuffer::pop() {
   if (empty()) return std::nullopt;
-  const char byte = bytes_[first_];
+  const WireByte byte = bytes_[first_];
   first_ = (first_ + 1) % size;
   --used_;
   return byte;

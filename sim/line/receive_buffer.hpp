@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string_view>
+
+#include "sim/line/wire.hpp"
 
 namespace unicursal::sim {
 
@@ -15,9 +16,9 @@ class ReceiveBuffer {
   static constexpr std::size_t size = 128;           ///< bytes
   static constexpr std::size_t capacity = size - 1;  ///< bytes that can really wait
 
-  /// Takes what fits; the rest is counted as lost.
-  void push(std::string_view bytes);
-  std::optional<char> pop();
+  /// Takes the byte if it fits; otherwise it is counted as lost, and the next one marked as damaged.
+  void push(WireByte byte);
+  std::optional<WireByte> pop();
   /// Forgets everything that waits, as the firmware does when a line is damaged.
   void flush();
 
@@ -27,8 +28,9 @@ class ReceiveBuffer {
   std::uint64_t flushed() const { return flushed_; }  ///< bytes that were thrown away by flush()
 
  private:
-  std::array<char, size> bytes_{};
+  std::array<WireByte, size> bytes_{};
   std::size_t first_ = 0, used_ = 0;
+  bool gap_ = false;  ///< bytes were lost behind the last one taken
   std::uint64_t lost_ = 0, flushed_ = 0;
 };
 

@@ -60,6 +60,7 @@ Terminal::Terminal(std::optional<std::filesystem::path> link)
     termios settings{};
     ::tcgetattr(slave.get(), &settings);
     ::cfmakeraw(&settings);
+    settings.c_cflag |= HUPCL;  // as a real port has it, unless a host says otherwise
     if (::tcsetattr(slave.get(), TCSANOW, &settings) != 0) fail("cannot make " + path_ + " raw");
   }
   if (openings() < 0 || ::inotify_add_watch(openings(), path_.c_str(), IN_OPEN) < 0)
@@ -96,6 +97,27 @@ bool Terminal::host_present() const {
   pollfd state{master(), POLLIN, 0};
   ::poll(&state, 1, 0);
   return (state.revents & POLLHUP) == 0 || (state.revents & POLLIN) != 0;
+}
+
+std::optional<std::string> Terminal::read() {
+  std::array<char, 4096> bytes;
+  const auto count = ::read(master(), bytes.data(), bytes.size());
+  if (count > 0) return std::string(bytes.data(), static_cast<std::size_t>(count));
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return std::string();
+  return std::nullopt;
+}
+
+void Terminal::write(std::string& bytes) {
+  while (!bytes.empty()) {
+    const auto count = ::write(master(), bytes.data(), bytes.size());
+    if (count <= 0) return;
+    bytes.erase(0, static_cast<std::size_t>(count));
+  }
+}
+
+bool Terminal::drops_dtr() const {
+  termios settings{};
+  return ::tcgetattr(master(), &settings) != 0 || (settings.c_cflag & HUPCL) != 0;
 }
 
 void Terminal::clear() {

@@ -39,6 +39,12 @@ class Terminal {
   void forget_openings();
   /// A host has the terminal open, or has left something to read.
   bool host_present() const;
+  /// What the host has sent, empty when there is nothing now; nothing when it has hung up and all was read.
+  std::optional<std::string> read();
+  /// Hands over what fits and takes it off `bytes`.
+  void write(std::string& bytes);
+  /// Whether the line drops DTR when it is closed, so that the next opening resets many boards.
+  bool drops_dtr() const;
   /// Drops what a host has left unread, so that the next one starts afresh.
   void clear();
 

@@ -14,4 +14,8 @@ PerFeeder<double> shares_of(const Factors& factors) {
   return shares;
 }
 
+bool lays_bead(const ExecutedMove& move) {
+  return move.filament > 0 && (move.from.x != move.to.x || move.from.y != move.to.y);
+}
+
 }  // namespace unicursal::sim

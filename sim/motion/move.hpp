@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/motion/trapezoid.hpp"
+
 namespace unicursal::sim {
 
 inline constexpr std::size_t max_feeders = 6;
@@ -36,13 +38,28 @@ struct ExecutedMove {
   PerFeeder<std::int64_t> feeder_steps{};  ///< signed; add up to the steps of E
   Mix mix;
   double start = 0, end = 0;  ///< s
+  Trapezoid speed;            ///< along the move, as it was run; of a stopped move, as it was meant
 };
 
-/// Takes moves in the order in which they happen.
+/// A move that lays a bead: it feeds forward and goes somewhere in the plane.
+bool lays_bead(const ExecutedMove& move);
+
+/// The nozzle stood still in mid-curve because the next move was not there in time.
+struct Starvation {
+  double time = 0;     ///< s, when it came to stand
+  Position place;      ///< where
+  double seconds = 0;  ///< until it went on
+  bool dry = true;     ///< the queue was empty; otherwise the next move came while the last one was braking
+};
+
+/// Takes what the machine does, in the order in which it happens.
 class MoveSink {
  public:
   virtual ~MoveSink() = default;
   virtual void moved(const ExecutedMove& move) = 0;
+  virtual void starved(const Starvation&) {}
+  /// From now on this many moves are planned and not yet done, the running one included.
+  virtual void queue_changed(double /*time*/, std::size_t /*queued*/) {}
 };
 
 /// The shares of the feeders in a mixture; all zero for a mixture of zeros.

@@ -13,52 +13,72 @@ constexpr double slowest = 0.05;           // mm/s: what a move ends at when not
 constexpr std::int64_t fewest_steps = 6;   // a move with fewer joins the next one
 constexpr double first_block_delay = 0.1;  // s that a first block waits for company
 constexpr std::size_t company = 3;         // blocks with which it waits no longer
-constexpr double short_move = 0.02;        // s: moves of less are stretched while the queue is short
 constexpr std::size_t short_queue_from = 2, short_queue_to = 7;  // waiting blocks that count as short
+
+bool extrudes_along(const PerAxis<std::int64_t>& steps) {
+  return steps[axis_e] > 0 && (steps[axis_x] != 0 || steps[axis_y] != 0);
+}
 
 }  // namespace
 
 Planner::Planner(MotionLimits limits, MoveSink& sink) : limits_(limits), sink_(sink) {}
 
-void Planner::add(double now, const PerAxis<std::int64_t>& target, double filament, double speed,
-                  const Mix& mix) {
+void Planner::push(const Move& move, double now) {
   assert(has_room());
+  advance_to(now);
   PerAxis<std::int64_t> steps{};
   std::int64_t most = 0;
   for (std::size_t i = 0; i < axes; ++i) {
-    steps[i] = target[i] - planned_[i];
+    steps[i] = move.target[i] - planned_[i];
     most = std::max(most, std::abs(steps[i]));
   }
-  put_off_ += filament;
+  put_off_ += move.filament;
   if (most < fewest_steps) return;
-  planned_ = target;
-  Block block = make_block(steps, speed, mix);
+  planned_ = move.target;
+  Block block = make_block(steps, move);
   block.filament = std::exchange(put_off_, 0);
-  block.max_entry = blocks_.empty() ? speed_from_rest(block) : junction_speed(blocks_.back(), block);
+  block.after_meant_stop = std::exchange(stop_meant_, false);
+  enqueue(block, now);
+}
+
+void Planner::enqueue(Block block, double now) {
+  block.max_entry = blocks_.empty() ? first_speed(block) : junction_speed(blocks_.back(), block);
   if (blocks_.empty()) block.start = std::max(now, last_end_) + first_block_delay;
   blocks_.push_back(block);
   if (!blocks_.front().started && blocks_.size() >= company) {
     blocks_.front().start = std::min(blocks_.front().start, now);
   }
   look_ahead();
+  sink_.queue_changed(now, blocks_.size());
 }
 
-Planner::Block Planner::make_block(const PerAxis<std::int64_t>& steps, double speed, const Mix& mix) const {
+Planner::Block Planner::make_block(const PerAxis<std::int64_t>& steps, const Move& move) const {
   Block block;
   block.steps = steps;
-  block.mix = mix;
+  block.mix = move.mix;
   PerAxis<double> mm{};
   for (std::size_t i = 0; i < axes; ++i) mm[i] = static_cast<double>(steps[i]) / limits_.steps_per_mm[i];
   const double way = std::hypot(mm[axis_x], mm[axis_y], mm[axis_z]);
   const double length = way > 0 ? way : std::abs(mm[axis_e]);
-  double nominal = stretched_speed(length, std::max(speed, slowest));
-  for (std::size_t i = 0; i < axes; ++i) {
-    block.direction[i] = mm[i] / length;
-    if (mm[i] != 0) nominal = std::min(nominal, limits_.max_speed[i] / std::abs(block.direction[i]));
-  }
-  block.speed = {length, nominal, nominal, nominal, 0};
+  for (std::size_t i = 0; i < axes; ++i) block.direction[i] = mm[i] / length;
+  block.speed.length = length;
+  block.speed.nominal = nominal_speed(block, move.speed);
+  block.speed.entry = block.speed.exit = block.speed.nominal;
   block.speed.acceleration = acceleration_for(block);
   return block;
+}
+
+double Planner::nominal_speed(const Block& block, double asked) const {
+  double nominal = stretched_speed(block.speed.length, std::max(asked, slowest));
+  for (std::size_t i = 0; i < axes; ++i) {
+    const double part = std::abs(block.direction[i]);
+    if (part == 0) continue;
+    nominal = std::min(nominal, limits_.max_speed[i] / part);
+    if (limits_.step_rate > 0) {
+      nominal = std::min(nominal, limits_.step_rate / (part * limits_.steps_per_mm[i]));
+    }
+  }
+  return nominal;
 }
 
 double Planner::acceleration_for(const Block& block) const {
@@ -76,25 +96,18 @@ double Planner::acceleration_for(const Block& block) const {
 double Planner::stretched_speed(double length, double speed) const {
   const std::size_t waiting = blocks_.size() - (!blocks_.empty() && blocks_.front().started ? 1 : 0);
   const double time = length / speed;
-  if (waiting < short_queue_from || waiting > short_queue_to || time >= short_move) return speed;
-  return length / (time + 2 * (short_move - time) / static_cast<double>(waiting));
-}
-
-double Planner::speed_from_rest(const Block& block) const {
-  double speed = block.speed.nominal;
-  for (std::size_t i = 0; i < axes; ++i) {
-    if (block.direction[i] != 0) speed = std::min(speed, limits_.jerk[i] / std::abs(block.direction[i]));
-  }
-  return speed;
+  if (waiting < short_queue_from || waiting > short_queue_to || time >= limits_.least_time) return speed;
+  return length / (time + 2 * (limits_.least_time - time) / static_cast<double>(waiting));
 }
 
 double Planner::junction_speed(const Block& before, const Block& after) const {
-  double speed = std::min(before.speed.nominal, after.speed.nominal);
-  for (std::size_t i = 0; i < axes; ++i) {
-    const double jump = std::abs(after.direction[i] - before.direction[i]);
-    if (jump > 0) speed = std::min(speed, limits_.jerk[i] / jump);
-  }
-  return speed;
+  if (limits_.junction_deviation <= 0) return jerk_speed(before.shape(), after.shape(), limits_.jerk);
+  return std::max(slowest, deviation_speed(before.shape(), after.shape(), limits_.junction_deviation,
+                                           limits_.max_acceleration, after.speed.acceleration));
+}
+
+double Planner::first_speed(const Block& block) const {
+  return limits_.junction_deviation > 0 ? slowest : speed_from_rest(block.shape(), limits_.jerk);
 }
 
 // Backwards, every block may enter only as fast as it can still brake; forwards, only as fast as it can get.
@@ -117,20 +130,22 @@ void Planner::look_ahead() {
   }
 }
 
-std::optional<double> Planner::next_end() const {
+std::optional<double> Planner::next_event() const {
   if (blocks_.empty() || stuck_) return std::nullopt;
   return blocks_.front().start + blocks_.front().speed.seconds();
 }
 
-void Planner::advance(double now) {
+void Planner::advance_to(double now) {
   while (!blocks_.empty() && !stuck_ && blocks_.front().start <= now) {
     start_first();
     Block& block = blocks_.front();
     const double end = block.start + block.speed.seconds();
     if (stuck_ || end > now) return;
-    finish(block, 1);
+    tell(block, 1, end);
     last_end_ = end;
+    last_alone_ = block.alone;
     blocks_.pop_front();
+    sink_.queue_changed(end, blocks_.size());
     if (!blocks_.empty()) blocks_.front().start = end;
   }
 }
@@ -139,45 +154,78 @@ void Planner::start_first() {
   Block& block = blocks_.front();
   if (block.started) return;
   block.started = true;
+  block.alone = blocks_.size() == 1;
+  note_stop(block);
   const Factors& factors = block.mix.factors;
   const bool nothing = std::all_of(factors.begin(), factors.end(), [](auto f) { return f == 0; });
   stuck_ = nothing && block.steps[axis_e] != 0;
 }
 
-/// `done`: the part of the block that was carried out, 0…1.
-void Planner::finish(Block& block, double done) {
-  const auto place = [this] {
-    const auto mm = [this](Axis i) { return static_cast<double>(executed_[i]) / limits_.steps_per_mm[i]; };
-    return Position{mm(axis_x), mm(axis_y), mm(axis_z)};
+void Planner::note_stop(const Block& block) {
+  if (!last_alone_ || !last_laid_ || block.after_meant_stop || !extrudes_along(block.steps)) return;
+  const double seconds = block.start - last_end_;
+  sink_.starved({last_end_, place(), seconds, seconds > 0});
+}
+
+Position Planner::place() const {
+  const auto mm = [this](Axis i) { return static_cast<double>(executed_[i]) / limits_.steps_per_mm[i]; };
+  return {mm(axis_x), mm(axis_y), mm(axis_z)};
+}
+
+/// Tells the sink what it has not had yet of the part `done` of the block (0…1), which is over now.
+void Planner::tell(Block& block, double done, double now) {
+  if (done <= block.told) return;
+  const auto part_of = [](std::int64_t steps, double share) {
+    return static_cast<std::int64_t>(std::trunc(static_cast<double>(steps) * share));
   };
   ExecutedMove move;
   move.from = place();
-  std::int64_t fed = 0;
+  PerAxis<std::int64_t> steps{};
   for (std::size_t i = 0; i < axes; ++i) {
-    const auto steps = static_cast<std::int64_t>(std::trunc(static_cast<double>(block.steps[i]) * done));
-    executed_[i] += steps;
-    if (i == axis_e) fed = steps;
+    steps[i] = part_of(block.steps[i], done) - part_of(block.steps[i], block.told);
+    executed_[i] += steps[i];
   }
   move.to = place();
   move.mix = block.mix;
-  move.filament = block.filament * done;
-  if (fed != 0) move.feeder_steps = split_.split(fed, block.mix.factors);
+  move.filament = block.filament * (done - block.told);
+  if (steps[axis_e] != 0) move.feeder_steps = split_.split(steps[axis_e], block.mix.factors);
   for (std::size_t i = 0; i < max_feeders; ++i) feeder_steps_[i] += move.feeder_steps[i];
-  move.start = block.start;
-  move.end = block.start + block.speed.seconds() * done;
+  move.start = block.told > 0 ? block.told_at : block.start;
+  move.end = now;
+  const bool whole = block.told == 0 && done == 1;
+  move.speed = whole ? block.speed : block.speed.part(move.start - block.start, now - block.start);
+  block.told = done;
+  block.told_at = now;
+  last_laid_ = lays_bead(move);
   sink_.moved(move);
 }
 
 void Planner::abort(double now) {
-  advance(now);
+  advance_to(now);
   if (!blocks_.empty() && blocks_.front().started && !stuck_) {
     Block& block = blocks_.front();
-    finish(block, block.speed.distance(now - block.start) / block.speed.length);
+    tell(block, block.done_by(now), now);
   }
+  if (!blocks_.empty()) sink_.queue_changed(now, 0);
   blocks_.clear();
   put_off_ = 0;
   planned_ = executed_;
   last_end_ = now;
+  stop_meant_ = true;
+}
+
+void Planner::reset(double now) {
+  abort(now);
+  stuck_ = false;
+}
+
+void Planner::remix(const Mix& mix, double now) {
+  advance_to(now);
+  if (stuck_) return;
+  for (Block& block : blocks_) {
+    if (block.started) tell(block, block.done_by(now), now);
+    block.mix = mix;
+  }
 }
 
 void Planner::set_position(const PerAxis<std::int64_t>& steps) {

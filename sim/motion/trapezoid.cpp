@@ -31,4 +31,14 @@ double Trapezoid::distance(double time) const {
   return length - (exit * rest + acceleration * rest * rest / 2);
 }
 
+double Trapezoid::speed_at(double time) const {
+  const double rising = entry + acceleration * time, falling = exit + acceleration * (seconds() - time);
+  return std::min({rising, falling, peak()});
+}
+
+Trapezoid Trapezoid::part(double from, double to) const {
+  return {distance(to) - distance(from), speed_at(std::max(from, 0.0)), nominal,
+          speed_at(std::min(to, seconds())), acceleration};
+}
+
 }  // namespace unicursal::sim

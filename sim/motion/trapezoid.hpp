@@ -15,6 +15,9 @@ struct Trapezoid {
   double seconds() const;
   /// How far the move has come `time` seconds after its start.
   double distance(double time) const;
+  double speed_at(double time) const;
+  /// What happens between two times, as a trapezoid of its own.
+  Trapezoid part(double from, double to) const;
 };
 
 /// The speed from which `length` suffices to reach `end`, either way round.

@@ -34,18 +34,4 @@ class FeedLog : public MoveSink {
   PerFeeder<std::int64_t> idle_steps_{};
 };
 
-/// Hands each move to two takers, the first one first.
-class BothSinks : public MoveSink {
- public:
-  BothSinks(MoveSink& first, MoveSink& second) : first_(first), second_(second) {}
-  void moved(const ExecutedMove& move) override {
-    first_.moved(move);
-    second_.moved(move);
-  }
-
- private:
-  MoveSink& first_;
-  MoveSink& second_;
-};
-
 }  // namespace unicursal::sim

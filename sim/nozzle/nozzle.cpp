@@ -6,26 +6,37 @@ namespace unicursal::sim {
 
 namespace {
 
-bool moves_in_plane(const ExecutedMove& move) {
-  return move.from.x != move.to.x || move.from.y != move.to.y;
+Position between(const Position& a, const Position& b, double part) {
+  if (part >= 1) return b;
+  const auto mix = [part](double from, double to) { return from + part * (to - from); };
+  return {mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z)};
+}
+
+Bead bead_of(const ExecutedMove& move, const Outflow& flow) {
+  Bead bead{between(move.from, move.to, flow.from), between(move.from, move.to, flow.to), flow.total()};
+  for (std::size_t f = 0; f < max_feeders; ++f) bead.shares[f] = flow.volume[f] / bead.volume;
+  bead.start = move.start + flow.from * (move.end - move.start);
+  bead.end = move.start + flow.to * (move.end - move.start);
+  return bead;
 }
 
 }  // namespace
 
-Nozzle::Nozzle(double filament_diameter, BedSink& bed)
-    : filament_area_(std::numbers::pi * filament_diameter * filament_diameter / 4), bed_(bed) {}
+Nozzle::Nozzle(double filament_diameter, const Chamber& chamber, BedSink& bed)
+    : filament_area_(std::numbers::pi * filament_diameter * filament_diameter / 4),
+      chamber_(chamber),
+      bed_(bed) {}
 
 void Nozzle::moved(const ExecutedMove& move) {
-  if (lays_bead(move)) {
-    bed_.laid({move.from, move.to, move.filament * filament_area_, shares_of(move.mix.factors), move.start,
-               move.end});
-  } else if (moves_in_plane(move)) {
-    bed_.travelled(move.from, move.to);
+  PerFeeder<double> volume = shares_of(move.mix.factors);
+  for (std::size_t f = 0; f < max_feeders; ++f) fed_[f] += volume[f] *= move.filament * filament_area_;
+  const std::vector<Outflow> flows = chamber_.feed(volume);
+  const double begin = flows.empty() ? 1 : flows.front().from;
+  const Position first = between(move.from, move.to, begin);
+  if (first.x != move.from.x || first.y != move.from.y) bed_.travelled(move.from, first);
+  for (const Outflow& flow : flows) {
+    if (flow.total() > 0) bed_.laid(bead_of(move, flow));
   }
-}
-
-bool lays_bead(const ExecutedMove& move) {
-  return move.filament > 0 && moves_in_plane(move);
 }
 
 }  // namespace unicursal::sim

@@ -1,18 +1,19 @@
 // Between the feeders and the bed: what leaves the nozzle, where and of which mixture. Moves come in, beads
-// go out; one move may give several beads, since what leaves need not be what is fed at that moment. This
-// nozzle has no chamber: what leaves is what is fed. mm, mm³, printer seconds.
+// go out; what leaves is what the chamber gives, so one move may give several beads. Within a move the feed
+// goes with the way. mm, mm³, printer seconds.
 #pragma once
 
 #include "sim/motion/move.hpp"
+#include "sim/nozzle/chamber.hpp"
 
 namespace unicursal::sim {
 
-/// A straight strand laid on the bed.
+/// A straight strand laid on the bed; a drop where it begins and ends at one place.
 struct Bead {
   Position from, to;
   double volume = 0;
   PerFeeder<double> shares{};  ///< of the feeders in the plastic that arrived; they add up to 1
-  double start = 0, end = 0;
+  double start = 0, end = 0;   ///< within a move at even speed
 };
 
 /// Takes beads in the order in which they are laid, and moves that lay nothing.
@@ -27,19 +28,21 @@ class BedSink {
 class Nozzle : public MoveSink {
  public:
   /// `filament_diameter` in mm.
-  Nozzle(double filament_diameter, BedSink& bed);
+  Nozzle(double filament_diameter, const Chamber& chamber, BedSink& bed);
 
   void moved(const ExecutedMove& move) override;
 
   /// mm² of filament.
   double filament_area() const { return filament_area_; }
+  const Chamber& chamber() const { return chamber_; }
+  /// All that was fed, less what was drawn back.
+  const PerFeeder<double>& fed() const { return fed_; }
 
  private:
   double filament_area_;
+  Chamber chamber_;
   BedSink& bed_;
+  PerFeeder<double> fed_{};
 };
-
-/// A move that lays a bead: it feeds forward and goes somewhere in the plane.
-bool lays_bead(const ExecutedMove& move);
 
 }  // namespace unicursal::sim

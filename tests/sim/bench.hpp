@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/firmware/firmware.hpp"
+#include "sim/firmware/repetier.hpp"
 
 namespace unicursal::sim {
 
@@ -18,8 +18,10 @@ struct MoveList : MoveSink {
 struct Bench {
   using Replies = std::vector<std::string>;
 
-  explicit Bench(const Machine& machine = {})
-      : firmware(machine, sink, [this](std::string_view line) { replies.emplace_back(line); }) {}
+  explicit Bench(const Machine& machine = {}, std::string_view who = "marlin")
+      : made(make_firmware(machine, personality(who), sink,
+                           [this](std::string_view line) { replies.emplace_back(line); })) {}
+  explicit Bench(std::string_view who) : Bench(Machine{}, who) {}
 
   /// One line as it is, with its newline; what the printer answered to it without time passing.
   Replies send(const std::string& line) {
@@ -50,7 +52,8 @@ struct Bench {
 
   MoveList sink;
   Replies replies;
-  Firmware firmware;
+  std::unique_ptr<Firmware> made;
+  Firmware& firmware = *made;
 };
 
 }  // namespace unicursal::sim

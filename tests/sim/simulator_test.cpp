@@ -1,136 +1,20 @@
 // The simulator in a process of its own, at the other end of a real pseudo-terminal.
 #include <catch2/catch.hpp>
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <deque>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bench.hpp"
+#include "child.hpp"
 #include "folder.hpp"
-#include "sim/simulator.hpp"
+#include "sim/nozzle/chamber.hpp"
+#include "sim/raster.hpp"
 
 using namespace unicursal::sim;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int patience = 20000;  // ms before a test gives up on a silent child
-
-/// A running simulator. Ends it with SIGTERM unless it has ended before.
-class Child {
- public:
-  explicit Child(const SimulatorOptions& options) {
-    std::array<int, 2> ends;
-    REQUIRE(::pipe(ends.data()) == 0);
-    process_ = ::fork();
-    REQUIRE(process_ >= 0);
-    if (process_ == 0) ::_exit(serve(options, ends[1]));
-    ::close(ends[1]);
-    char byte;
-    while (::read(ends[0], &byte, 1) == 1 && byte != '\n') path_ += byte;
-    ::close(ends[0]);
-  }
-  ~Child() {
-    if (process_ > 0) stop();
-  }
-
-  const std::string& path() const { return path_; }
-  int wait() {
-    int status = 0;
-    ::waitpid(std::exchange(process_, -1), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  int stop() {
-    ::kill(process_, SIGTERM);
-    return wait();
-  }
-
- private:
-  static int serve(const SimulatorOptions& options, int told) {
-    try {
-      return run_simulator(options, [told](const std::string& path) {
-        const std::string line = path + "\n";
-        if (::write(told, line.data(), line.size()) < 0) ::_exit(9);
-        ::close(told);
-      });
-    } catch (const std::exception&) {
-      return 7;
-    }
-  }
-
-  pid_t process_ = -1;
-  std::string path_;
-};
-
-/// A host that keeps a window of 127 bytes.
-class Host {
- public:
-  explicit Host(const std::string& path) : port_(::open(path.c_str(), O_RDWR | O_NOCTTY)) {
-    REQUIRE(port_ >= 0);
-  }
-  ~Host() { hang_up(); }
-
-  void hang_up() {
-    if (port_ >= 0) ::close(std::exchange(port_, -1));
-  }
-  void write(const std::string& text) {
-    REQUIRE(::write(port_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
-  }
-  std::string read_line() {
-    for (;;) {
-      const auto end = pending_.find('\n');
-      if (end != std::string::npos) {
-        std::string line = pending_.substr(0, end);
-        pending_.erase(0, end + 1);
-        return line;
-      }
-      pollfd wait{port_, POLLIN, 0};
-      REQUIRE(::poll(&wait, 1, patience) == 1);
-      std::array<char, 4096> bytes;
-      const auto count = ::read(port_, bytes.data(), bytes.size());
-      REQUIRE(count > 0);
-      pending_.append(bytes.data(), static_cast<std::size_t>(count));
-    }
-  }
-  void expect(const std::string& wanted) {
-    while (read_line() != wanted) {
-    }
-  }
-  /// Sends commands[first…last) as lines first + 1, first + 2…, and returns when all have their ok.
-  void stream(const std::vector<std::string>& commands, std::size_t first, std::size_t last) {
-    std::size_t used = 0;
-    std::deque<std::size_t> in_flight;  // bytes of each line
-    while (first < last || !in_flight.empty()) {
-      std::string burst;
-      for (; first < last; ++first) {
-        const std::string line =
-            Bench::numbered(static_cast<std::int64_t>(first) + 1, commands[first]) + "\n";
-        if (used + line.size() > 127) break;
-        used += line.size();
-        in_flight.push_back(line.size());
-        burst += line;
-      }
-      if (!burst.empty()) write(burst);
-      if (!read_line().starts_with("ok")) continue;
-      used -= in_flight.front();
-      in_flight.pop_front();
-    }
-  }
-  void stream(const std::vector<std::string>& commands) { stream(commands, 0, commands.size()); }
-
- private:
-  int port_;
-  std::string pending_;
-};
 
 json read_json(const fs::path& file) {
   return json::parse(std::ifstream(file));
@@ -154,18 +38,33 @@ std::vector<std::string> small_print() {
 
 }  // namespace
 
+namespace {
+
+double volume_of(const RasterFrame& frame, RasterReader& reader) {
+  double volume = 0;
+  std::vector<RasterPixel> row(frame.columns);
+  for (std::uint64_t y = 0; y < frame.rows; ++y) {
+    reader.read_row(row);
+    for (const RasterPixel& pixel : row) volume += pixel.fill * frame.pixel_area() * frame.height;
+  }
+  return volume;
+}
+
+}  // namespace
+
 TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite of a damaged one") {
   const Folder folder;
   SimulatorOptions options;
   options.once = true;
   options.report = folder.path() / "report.json";
   options.pictures = folder.path() / "pictures";
+  options.rasters = folder.path() / "rasters";
   const auto commands = small_print();
   Child child(options);
   {
     Host host(child.path());
     host.expect("start");
-    host.expect("Marlin 2.1.2");
+    host.expect("Marlin 2.1.2.1");
     host.stream(commands, 0, 36);
     host.write("N37 G1 X50*1\n");
     host.expect("Error:checksum mismatch, Last Line: 36");
@@ -186,7 +85,14 @@ TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite o
   CHECK(report["warnings"].empty());
   REQUIRE(report["layers"].size() == 2);
   CHECK(report["layers"][1]["height"].get<double>() == Approx(0.2));
-  CHECK(report["layers"][0]["moves"] == 40);
+  CHECK(report["layers"][0]["beads"] >= 40);
+  const json& chamber = report["chamber"];
+  const double capacity = Chamber({}, 3).content()[0];
+  for (std::size_t f = 0; f < 3; ++f) {
+    const double left = chamber["content_mm3"][f].get<double>() - capacity;
+    CHECK(chamber["fed_mm3"][f].get<double>() ==
+          Approx(chamber["deposited_mm3"][f].get<double>() + left).epsilon(1e-6));
+  }
   CHECK(report["layers"][1]["travels"] == 1);
   const double asked = 2 * 20 * (0.7484 + 0.0168);
   CHECK(report["extruded_mm"].get<double>() == Approx(asked).epsilon(1e-4));
@@ -196,7 +102,19 @@ TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite o
   const double feeder_3 = report["mixtures"][0]["feeder_steps"][2];
   CHECK(feeder_3 == Approx(asked * 400 / 2).margin(2));
   CHECK(report["printing_seconds"].get<double>() > 2 * 20 * 20 / 25.0);
-  CHECK(fs::exists(*options.pictures / "deposit-0000.png"));
+  for (const char* name : {"deposit-0000.png", "part.png", "motion.png"}) {
+    CHECK(fs::exists(*options.pictures / name));
+  }
+  CHECK(report["motion"]["starvations"] == 0);
+  RasterReader reader(::open(options.rasters->c_str(), O_RDONLY));
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    const auto frame = reader.next();
+    REQUIRE(frame);
+    CHECK(frame->height == Approx(report["layers"][layer]["height"].get<double>()));
+    CHECK(volume_of(*frame, reader) ==
+          Approx(report["layers"][layer]["volume_mm3"].get<double>()).epsilon(1e-6));
+  }
+  CHECK_FALSE(reader.next());
   CHECK(fs::exists(*options.pictures / "deposit-0001.png"));
   CHECK_FALSE(fs::exists(*options.pictures / "deposit-0002.png"));
 }

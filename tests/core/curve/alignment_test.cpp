@@ -65,7 +65,7 @@ TEST_CASE("the gradient of the alignment is exact while cells stay") {
   for (std::size_t i = 0; i < curve.size(); ++i)
     segments.push_back({curve.vertices[i], curve.vertices[curve.after(i)]});
   LatticeOwners owners(lattice);
-  owners.assign(segments, 6);
+  owners.assign(segments);
   std::vector<Vec2> gradient(curve.size(), Vec2(0, 0)), ignored = gradient;
   REQUIRE(alignment.evaluate(curve, owners, 1, gradient) > 0);
   Random random(4);

@@ -44,6 +44,45 @@ TEST_CASE("segments outside are counted") {
   CHECK(segments_outside({{{1, 1}, {13, 1}, {11, 11}, {1, 11}}}, border) == 2);
 }
 
+TEST_CASE("a vertex's freedom is its share of the nearest distance by brute force") {
+  const Polygon island = square_with_hole();
+  const Curve curve = first_curve(island, 0.9, 5);
+  const BorderIndex border(island, 1.0);
+  const double reach = GENERATE(0.3, 2.0);
+  const auto clearance = [&](std::size_t i) {
+    const Vec2 &a = curve.vertices[i], &b = curve.vertices[curve.after(i)];
+    double clear = border.distance(a, b, reach);
+    for (std::size_t j = 0; j < curve.size(); ++j) {
+      if (j == i || curve.after(i) == j || curve.after(j) == i) continue;
+      clear =
+          std::min(clear, distance_between_segments(a, b, curve.vertices[j], curve.vertices[curve.after(j)]));
+    }
+    return clear;
+  };
+  Workers two(2);
+  const std::vector<double> free = freedom(curve, border, reach),
+                            shared = freedom(curve, border, reach, {}, &two);
+  CHECK(free == shared);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double expected = 0.45 * std::min(clearance(i), clearance(curve.before(i)));
+    REQUIRE(free[i] == Approx(expected).margin(1e-12));
+  }
+}
+
+TEST_CASE("a faired curve is the same for any number of threads") {
+  const Polygon island = square_with_hole();
+  FairingOptions options;
+  options.bead_width = 0.55;
+  options.target_length = area(island) / options.bead_width;
+  const Curve start = first_curve(island, 0.9, 5);
+  const Curve one = fair(start, island, options).curve;
+  Workers workers(3);
+  options.workers = &workers;
+  const Curve three = fair(start, island, options).curve;
+  REQUIRE(one.size() == three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) REQUIRE(one.vertices[i] == three.vertices[i]);
+}
+
 TEST_CASE("vertices that stay within their freedom cannot make a curve cross itself or the border") {
   const Polygon island = square_with_hole();
   Curve curve = first_curve(island, 0.9, 5);

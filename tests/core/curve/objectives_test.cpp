@@ -5,6 +5,7 @@
 
 #include "core/curve/coverage.hpp"
 #include "core/curve/shape_terms.hpp"
+#include "core/geometry/segment_diagram.hpp"
 #include "tests/core/support/shapes.hpp"
 
 using namespace unicursal::core;
@@ -63,7 +64,7 @@ TEST_CASE("the gradient of the smoothness is exact") {
 TEST_CASE("the gradient of the coverage is that of the lattice") {
   Random random(3);
   const Lattice lattice = sample(rectangle(10, 10), 0.11);
-  Coverage coverage(lattice, 3.0);
+  Coverage coverage(lattice);
   const Objective cover = [&](const Curve& c, std::vector<Vec2>& g) { return coverage.evaluate(c, 1, g); };
   // Owners are found in float precision; the value is summed in double.
   CHECK(worst_error(cover, wavy(random), random, 1e-4) < 2e-3);
@@ -72,10 +73,36 @@ TEST_CASE("the gradient of the coverage is that of the lattice") {
 TEST_CASE("coverage of a straight strand in a strip is the second moment of its width") {
   // A long thin loop in the middle of a 40 × 1 strip, ends at the borders: ∫ y² = length · w³/12.
   const Lattice lattice = sample(rectangle(40, 1), 0.02);
-  Coverage coverage(lattice, 2.0);
+  Coverage coverage(lattice);
   const Curve strand{{{0, 0.5}, {20, 0.5}, {40, 0.5}, {20, 0.5}}};
   std::vector<Vec2> gradient(4, Vec2(0, 0));
   CHECK(coverage.evaluate(strand, 1, gradient) == Approx(40.0 / 12).epsilon(1e-3));
+}
+
+TEST_CASE("with split squares a coarse lattice comes within a part in two hundred of the exact diagram") {
+  // Folds at spacings of about 1, five squares to each, whose borders cut the squares anywhere.
+  Curve folds;
+  for (int k = 0; k < 12; ++k) {
+    for (int i = 0; i <= 100; ++i) {
+      const double up = (k == 0 ? 0.5 : 1.5) + i / 100.0 * (k == 0 ? 59.0 : 58.0);
+      folds.vertices.emplace_back(k + 0.5 + 0.1 * std::sin(2 * k), k % 2 == 0 ? up : 61.0 - up);
+    }
+  }
+  for (int i = 1; i < 22; ++i) folds.vertices.emplace_back(11.5 - i * 0.5, 0.5);
+  const Polygon island = rectangle(12, 60);
+  double exact = 0;
+  const SegmentDiagram diagram = segment_diagram(folds.vertices, island);
+  for (const auto* cells : {&diagram.points, &diagram.segments}) {
+    for (const CellIntegrals& cell : *cells) exact += cell.second_moment;
+  }
+  const Lattice lattice = sample(island, 0.2);
+  Coverage coverage(lattice);
+  std::vector<Vec2> gradient(folds.size(), Vec2(0, 0));
+  const double value = coverage.evaluate(folds, 1, gradient);
+  // The samples' own spread about their squares' centres, which a point cannot know.
+  const double within = area(island) * 0.2 * 0.2 / 12;
+  INFO("exact " << exact << ", sampled " << value << ", within squares " << within);
+  CHECK(value + within == Approx(exact).epsilon(0.005));
 }
 
 TEST_CASE("smoothness of a regular polygon has its closed form") {

@@ -74,13 +74,13 @@ TEST_CASE("cells add up to the island and agree with a fine lattice") {
   for (std::size_t i = 0; i < path.size(); ++i) segments.push_back({path[i], path[(i + 1) % path.size()]});
   const Lattice lattice = sample(island, 0.01);
   LatticeOwners owners(lattice);
-  owners.assign(segments, 3.0);
+  owners.assign(segments);
   std::vector<double> areas(path.size(), 0);
   double moment = 0;
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    if (lattice.weight[k] <= 0) continue;
-    areas[static_cast<std::size_t>(owners.owner(k))] += lattice.weight[k];
-    moment += lattice.weight[k] * owners.distance2(k);
+    if (lattice.weight(k) <= 0) continue;
+    areas[static_cast<std::size_t>(owners.owner(k))] += lattice.weight(k);
+    moment += lattice.weight(k) * owners.distance2(k);
   }
   CHECK(sum.second_moment == Approx(moment).epsilon(1e-3));
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -89,6 +89,30 @@ TEST_CASE("cells add up to the island and agree with a fine lattice") {
     const double ends = diagram.points[i].area + diagram.points[(i + 1) % path.size()].area;
     REQUIRE(areas[i] > own - 0.01);
     REQUIRE(areas[i] < own + ends + 0.01);
+  }
+}
+
+TEST_CASE("a diagram in pieces is that of the whole curve, with any number of threads") {
+  // Enough vertices for several pieces; the hole makes them non-convex.
+  Ring path;
+  constexpr int count = 7000;
+  for (int k = 0; k < count; ++k) {
+    const double turn = 2 * std::numbers::pi * k / count;
+    path.push_back(Vec2(6, 6) + (4.4 + 0.8 * std::sin(40 * turn)) * Vec2(std::cos(turn), std::sin(turn)));
+  }
+  const Polygon island = square_with_hole();
+  Workers two(2);
+  const SegmentDiagram diagram = segment_diagram(path, island), shared = segment_diagram(path, island, &two);
+  const CellIntegrals sum = total(diagram);
+  CHECK(sum.area == Approx(area(island)).epsilon(1e-12));
+
+  // The curve and the island look the same turned by a quarter, the pieces do not.
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::size_t turned = (i + count / 4) % count;
+    REQUIRE(diagram.segments[i].area == Approx(diagram.segments[turned].area).margin(1e-9));
+    REQUIRE(diagram.points[i].second_moment == Approx(diagram.points[turned].second_moment).margin(1e-9));
+    REQUIRE(shared.segments[i].area == diagram.segments[i].area);
+    REQUIRE(shared.points[i].second_moment == diagram.points[i].second_moment);
   }
 }
 

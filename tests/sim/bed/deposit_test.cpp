@@ -9,8 +9,8 @@
 #include "../bench.hpp"
 #include "../folder.hpp"
 #include "sim/bed/bead_pictures.hpp"
-#include "sim/bed/colours.hpp"
 #include "sim/bed/deposit.hpp"
+#include "sim/motion/move_sinks.hpp"
 #include "sim/nozzle/feed_log.hpp"
 
 using namespace unicursal::sim;
@@ -25,7 +25,7 @@ Bead bead(Position from, Position to, double volume) {
 }  // namespace
 
 TEST_CASE("a layer's height is the way up from the layer before") {
-  Deposit deposit(nullptr);
+  Deposit deposit({});
   for (const double z : {0.3, 0.2, 0.4, 0.4, 0.65}) deposit.laid(bead({0, 0, z}, {10, 0, z}, 1));
   REQUIRE(deposit.layers().size() == 4);
   const auto height = [&](std::size_t i) { return deposit.layers()[i].height; };
@@ -37,7 +37,7 @@ TEST_CASE("a layer's height is the way up from the layer before") {
 }
 
 TEST_CASE("travels are counted when they are longer than one and a half bead widths") {
-  Deposit deposit(nullptr);
+  Deposit deposit({});
   deposit.travelled({0, 0, 5}, {10, 0, 5});
   deposit.laid(bead({10, 0, 0.2}, {20, 0, 0.2}, 0.8));  // 0.4 mm wide
   deposit.travelled({20, 0, 0.2}, {20.5, 0, 0.2});
@@ -54,11 +54,11 @@ TEST_CASE("travels are counted when they are longer than one and a half bead wid
 }
 
 TEST_CASE("what is laid is what was fed") {
-  Deposit deposit(nullptr);
-  Nozzle nozzle(1.75, deposit);
+  Deposit deposit({});
+  Nozzle nozzle(1.75, Chamber({}, 3), deposit);
   FeedLog feed;
-  BothSinks sinks(feed, nozzle);
-  Firmware firmware({}, sinks, [](std::string_view) {});
+  MoveSinks sinks({&feed, &nozzle});
+  Firmware firmware({}, personality("marlin"), sinks, [](std::string_view) {});
   const auto send = [&](const std::string& line) {
     firmware.receive(line + "\n");
     while (firmware.blocked()) firmware.advance(*firmware.next_event());
@@ -78,6 +78,11 @@ TEST_CASE("what is laid is what was fed") {
   const double area = std::numbers::pi * 1.75 * 1.75 / 4;
   CHECK(deposit.volume() == Approx(100 * 0.0523 * area).epsilon(1e-3));
   CHECK(deposit.volume() == Approx(feed.extruded() * area).epsilon(1e-12));
+  CHECK(deposit.dropped() == Approx(4 * area));
+  const PerFeeder<double> left = nozzle.chamber().content(), before = Chamber({}, 3).content();
+  for (std::size_t f = 0; f < 3; ++f) {
+    CHECK(nozzle.fed()[f] == Approx(deposit.by_feeder()[f] + left[f] - before[f]).epsilon(1e-6));
+  }
   CHECK(feed.fed_in_place() == Approx(4));
   CHECK(feed.retracted() == Approx(4));
   REQUIRE(feed.mixtures().size() == 2);
@@ -87,13 +92,6 @@ TEST_CASE("what is laid is what was fed") {
           feed.mixtures()[0].feeder_steps[f] + feed.mixtures()[1].feeder_steps[f] + feed.idle_steps()[f]);
   }
   CHECK(feed.mixtures()[0].feeder_steps[0] == std::llround(feed.mixtures()[0].extruded * 400));
-}
-
-TEST_CASE("filaments mix in linear light") {
-  CHECK(colour_of({1, 0, 0}) != colour_of({0, 1, 0}));
-  const auto blue = colour_of({1, 0, 0}), white = colour_of({0, 0, 1}), half = colour_of({0.5, 0, 0.5});
-  CHECK(half.r > (blue.r + white.r) / 2);  // light adds up; paint values would give the mean
-  CHECK(darker(white, 0.5).g < white.g);
 }
 
 namespace {
@@ -126,16 +124,18 @@ struct Pixels {
 TEST_CASE("each layer gives a picture with the bead where it lies; a prime line does not shrink later ones") {
   const Folder folder;
   {
-    BeadPictures pictures(folder.path(), 0.1);
-    Deposit deposit(&pictures);
+    clear_pictures(folder.path());
+    BeadStore store(folder.path());
+    Deposit deposit({&store});
     deposit.laid(bead({10, 10, 0.2}, {30, 10, 0.2}, 20 * 0.2 * 0.5));
     deposit.laid(bead({20, 10, 0.4}, {20, 20, 0.4}, 10 * 0.2 * 0.5));
-    pictures.draw();
+    draw_layers(store, folder.path(), 0.1);
+    draw_part(store, folder.path());
   }
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder.path())) files.push_back(entry.path().filename());
   std::sort(files.begin(), files.end());
-  CHECK(files == std::vector<fs::path>{"deposit-0000.png", "deposit-0001.png"});
+  CHECK(files == std::vector<fs::path>{"deposit-0000.png", "deposit-0001.png", "part.png"});
 
   // The first shows 20 × 10 mm of centre lines, the second only the upright bead of 10 mm, both with a
   // margin.

@@ -19,17 +19,21 @@ std::vector<std::string> assemble(LineAssembler& assembler, std::string_view byt
 
 }  // namespace
 
-TEST_CASE("the receive buffer holds 127 bytes and loses the rest") {
+TEST_CASE("the receive buffer holds 127 bytes, loses the rest, and marks where that happened") {
   ReceiveBuffer buffer;
-  buffer.push(std::string(100, 'a'));
-  buffer.push(std::string(40, 'b'));
+  for (int i = 0; i < 100; ++i) buffer.push({'a', false});
+  for (int i = 0; i < 40; ++i) buffer.push({'b', false});
   CHECK(buffer.lost() == 13);
   CHECK(buffer.room() == 0);
-  for (int i = 0; i < 100; ++i) CHECK(buffer.pop() == 'a');
-  buffer.push("xy");
-  for (int i = 0; i < 27; ++i) CHECK(buffer.pop() == 'b');
-  CHECK(buffer.pop() == 'x');
-  CHECK(buffer.pop() == 'y');
+  for (int i = 0; i < 100; ++i) CHECK(buffer.pop()->value == 'a');
+  for (const char byte : {'x', 'y'}) buffer.push({byte, false});
+  for (int i = 0; i < 27; ++i) {
+    const auto byte = buffer.pop();
+    CHECK((byte->value == 'b' && !byte->damaged));
+  }
+  const auto behind_gap = buffer.pop(), last = buffer.pop();
+  CHECK((behind_gap->value == 'x' && behind_gap->damaged));
+  CHECK((last->value == 'y' && !last->damaged));
   CHECK_FALSE(buffer.pop());
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "../bench.hpp"
 
@@ -20,11 +22,11 @@ PerAxis<std::int64_t> at(double x, double y = 0, double z = 0, double e = 0) {
 
 void plan(Planner& planner, double now, const PerAxis<std::int64_t>& target, double speed, const Mix& mix) {
   const auto steps = target[axis_e] - planner.planned_position()[axis_e];
-  planner.add(now, target, static_cast<double>(steps) / 400, speed, mix);
+  planner.push({target, static_cast<double>(steps) / 400, speed, mix}, now);
 }
 
 void run(Planner& planner) {
-  while (const auto end = planner.next_end()) planner.advance(*end);
+  while (const auto end = planner.next_event()) planner.advance_to(*end);
 }
 
 }  // namespace
@@ -77,8 +79,8 @@ TEST_CASE("no move enters faster than the one before leaves, or faster than acce
   double now = 0;
   for (int i = 0; i < 500; ++i) {
     if (!planner.has_room()) {
-      now = *planner.next_end();
-      planner.advance(now);
+      now = *planner.next_event();
+      planner.advance_to(now);
     }
     x += step(random);
     y += step(random);
@@ -104,7 +106,7 @@ TEST_CASE("a straight line in pieces takes as long as in one") {
   Planner a({}, pieces), b({}, whole);
   double now = 0;
   for (int i = 1; i <= 20; ++i) {
-    if (!a.has_room()) a.advance(now = *a.next_end());
+    if (!a.has_room()) a.advance_to(now = *a.next_event());
     plan(a, now, at(5.0 * i), 60, half_half);
   }
   plan(b, 0, at(100), 60, half_half);
@@ -153,7 +155,7 @@ TEST_CASE("the queue holds fifteen moves") {
     plan(planner, 0, at(i), 20, half_half);
   }
   CHECK_FALSE(planner.has_room());
-  planner.advance(*planner.next_end());
+  planner.advance_to(*planner.next_event());
   CHECK(planner.has_room());
   CHECK(list.moves.size() == 1);
 }
@@ -224,8 +226,122 @@ TEST_CASE("a mixture of zeros stops the machine for ever") {
   Planner planner({}, list);
   plan(planner, 0, at(10), 50, Mix{});
   plan(planner, 0, at(20, 0, 0, 1), 50, Mix{});
-  planner.advance(1000);
+  planner.advance_to(1000);
   CHECK(planner.stuck());
-  CHECK_FALSE(planner.next_end());
+  CHECK_FALSE(planner.next_event());
   CHECK(list.moves.size() == 1);
+}
+
+namespace {
+
+struct Events : MoveList {
+  std::vector<Starvation> starvations;
+  std::vector<std::pair<double, std::size_t>> fill;
+  void starved(const Starvation& starvation) override { starvations.push_back(starvation); }
+  void queue_changed(double time, std::size_t queued) override { fill.emplace_back(time, queued); }
+};
+
+}  // namespace
+
+TEST_CASE("a queue that runs dry in mid-curve is told with time, place and duration") {
+  Events events;
+  Planner planner({}, events);
+  plan(planner, 0, at(10, 0, 0, 1), 20, half_half);
+  const double dry = *planner.next_event();
+  planner.advance_to(dry + 3);
+  plan(planner, dry + 3, at(20, 0, 0, 2), 20, half_half);
+  run(planner);
+  REQUIRE(events.starvations.size() == 1);
+  CHECK(events.starvations[0].time == Approx(dry));
+  CHECK(events.starvations[0].place == Position{10, 0, 0});
+  CHECK(events.starvations[0].seconds == Approx(3 + start_delay));
+  CHECK(events.starvations[0].dry);
+}
+
+TEST_CASE("a move that comes while the last one brakes is a stop as well, of no time") {
+  Events events;
+  Planner planner({}, events);
+  plan(planner, 0, at(10, 0, 0, 1), 20, half_half);
+  plan(planner, start_delay + 0.2, at(20, 0, 0, 2), 20, half_half);
+  run(planner);
+  REQUIRE(events.starvations.size() == 1);
+  CHECK(events.starvations[0].seconds == 0);
+  CHECK_FALSE(events.starvations[0].dry);
+}
+
+TEST_CASE("no starvation without need") {
+  Events events;
+  Planner planner({}, events);
+  SECTION("while moves are queued") {
+    plan(planner, 0, at(10, 0, 0, 1), 20, half_half);
+    plan(planner, 0, at(20, 0, 0, 2), 20, half_half);
+  }
+  SECTION("before a travel") {
+    plan(planner, 0, at(10, 0, 0, 1), 20, half_half);
+    run(planner);
+    plan(planner, 100, at(20, 0, 0, 1), 20, half_half);
+  }
+  SECTION("where a command waits for the stop") {
+    plan(planner, 0, at(10, 0, 0, 1), 20, half_half);
+    planner.stop_is_meant();
+    run(planner);
+    plan(planner, 100, at(20, 0, 0, 2), 20, half_half);
+  }
+  run(planner);
+  CHECK(events.starvations.empty());
+}
+
+TEST_CASE("the queue's fill is told whenever it changes, and the steps of time do not matter") {
+  std::vector<std::pair<double, std::size_t>> fills[2];
+  std::vector<double> ends[2];
+  for (const int fine : {0, 1}) {
+    Events events;
+    Planner planner({}, events);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> step(-1, 1);
+    double now = 0, x = 100, y = 100, e = 0;
+    planner.set_position(at(x, y));
+    for (int i = 0; i < 400; ++i) {
+      const double next = now + 0.013 * (i % 3);
+      for (double t = now; fine == 1 && t < next; t += 0.001) planner.advance_to(t);
+      now = next;
+      planner.advance_to(now);
+      if (!planner.has_room()) continue;
+      plan(planner, now, at(x += step(random), y += step(random), 0, e += 0.02), 20, half_half);
+    }
+    run(planner);
+    fills[fine] = events.fill;
+    for (const ExecutedMove& move : events.moves) ends[fine].push_back(move.end);
+    std::size_t before = 0;
+    for (const auto& [time, queued] : events.fill) {
+      CHECK((queued == before + 1 || queued + 1 == before));
+      CHECK(queued <= Planner::usable_blocks);
+      before = queued;
+    }
+    CHECK(before == 0);
+  }
+  CHECK(ends[0] == ends[1]);
+  CHECK(fills[0] == fills[1]);
+}
+
+TEST_CASE("a board that cannot step faster moves slower") {
+  MoveList list;
+  MotionLimits limits;
+  limits.step_rate = 4000;  // 50 mm/s in x
+  Planner planner(limits, list);
+  plan(planner, 0, at(100), 120, half_half);
+  run(planner);
+  CHECK(list.moves[0].speed.peak() == Approx(50));
+}
+
+TEST_CASE("short moves are stretched towards 20 ms while the queue is short, and not when it is full") {
+  Events events;
+  Planner planner({}, events);
+  for (int i = 1; i <= 15; ++i) plan(planner, 0, at(i, 0, 0, 0.05 * i), 100, half_half);  // 10 ms each
+  run(planner);
+  // Two to seven are waiting (the running one does not): time + 2·(20 ms − time) ÷ waiting.
+  CHECK(events.moves[0].speed.nominal == Approx(100));
+  CHECK(events.moves[2].speed.nominal == Approx(1 / 0.020));
+  CHECK(events.moves[4].speed.nominal == Approx(1 / (0.010 + 0.020 / 3)));
+  CHECK(events.moves[10].speed.nominal == Approx(100));
 }

@@ -1,0 +1,216 @@
+#include "core/geometry/nearest_kernel.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define UNICURSAL_VECTORISED __attribute__((target_clones("avx2", "default")))
+#else
+#define UNICURSAL_VECTORISED
+#endif
+
+namespace unicursal::core {
+namespace {
+
+using Floats = float __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+using Quad = float __attribute__((vector_size(16)));
+using Doubles = double __attribute__((vector_size(32)));
+
+static_assert(Lattice::block_columns == 4 && Lattice::block_rows == 2);
+constexpr Floats square_x{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
+constexpr Floats square_y{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
+constexpr float same_direction = 0.5F;  ///< cosine above which two segments lie in the same direction
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// The nearest point of a segment, per sample.
+struct Foot {
+  Floats distance2, share, x, y;  ///< share of the way from the segment's start; x, y from the sample
+  Ints owner;
+};
+
+#define UNICURSAL_INLINE inline __attribute__((always_inline))
+
+UNICURSAL_INLINE Foot foot_on(const TileSegment& s, std::int32_t index, const Floats& x, const Floats& y) {
+  const Floats zero{}, one = zero + 1.0F;
+  const Floats px = x - s.ax, py = y - s.ay;
+  Floats t = (px * s.ux + py * s.uy) * s.inverse;
+  t = t < zero ? zero : t;
+  t = t > one ? one : t;
+  const Floats qx = t * s.ux - px, qy = t * s.uy - py;
+  return {qx * qx + qy * qy, t, qx, qy, Ints{} + index};
+}
+
+UNICURSAL_INLINE void take(Foot& best, const Foot& foot, const Ints& where) {
+  best.distance2 = where ? foot.distance2 : best.distance2;
+  best.share = where ? foot.share : best.share;
+  best.x = where ? foot.x : best.x;
+  best.y = where ? foot.y : best.y;
+  best.owner = where ? foot.owner : best.owner;
+}
+
+UNICURSAL_INLINE Foot nowhere() {
+  const Floats zero{};
+  return {zero + infinite, zero, zero, zero, Ints{} - 1};
+}
+
+UNICURSAL_INLINE Floats root(const Floats& v) {
+  Floats result;
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) result[k] = std::sqrt(v[k]);
+  return result;
+}
+
+UNICURSAL_INLINE void add(std::array<float, 4>* sums, const Foot& foot, const Floats& mass) {
+  const Floats x = mass * foot.x, y = mass * foot.y, end_x = foot.share * x, end_y = foot.share * y;
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) {
+    if (!(mass[k] > 0)) continue;
+    Quad sum;
+    std::array<float, 4>& place = sums[foot.owner[k]];
+    std::memcpy(&sum, place.data(), sizeof sum);
+    sum += Quad{x[k], y[k], end_x[k], end_y[k]};
+    std::memcpy(place.data(), &sum, sizeof sum);
+  }
+}
+
+/// The nearest of the listed segments that are not the owner's neighbours along the curve and lie in another
+/// direction: more of the owner's own strand comes as near without a border of its own.
+UNICURSAL_INLINE Foot competitor(const TileScan& tile, std::uint32_t begin, std::uint32_t end,
+                                 const Floats& x, const Floats& y, const Foot& own) {
+  Ints place{};
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) {
+    place[k] = own.owner[k] < 0 ? 0 : tile.along[own.owner[k]];
+  }
+  const Floats zero{};
+  Foot other = nowhere();
+  for (std::uint32_t e = begin; e < end; ++e) {
+    const std::int32_t index = tile.entries[e];
+    const Ints forth = place - tile.along[index], gap = forth < 0 ? -forth : forth;
+    const Foot foot = foot_on(tile.segments[index], index, x, y);
+    const Floats along = own.x * foot.x + own.y * foot.y;
+    const Ints aside =
+        (along < zero) | (along * along < same_direction * same_direction * own.distance2 * foot.distance2);
+    take(other, foot, (foot.distance2 < other.distance2) & aside & (gap > 1) & (gap < tile.around - 1));
+  }
+  return other;
+}
+
+/// The line where both segments are equally far cuts the square; distances change across it as their
+/// directions say. Returns the other's share, 0 to ½, and lowers the mean squared distance accordingly.
+UNICURSAL_INLINE Floats split(const Foot& own, const Foot& other, float pitch, Floats& mean) {
+  const Floats zero{};
+  const Ints both = (own.distance2 > zero) & (other.distance2 < zero + infinite);
+  const Floats near = root(both ? own.distance2 : zero + 1.0F),
+               far = root(both ? other.distance2 : zero + 1.0F);
+  const Floats slope_x = own.x / near - other.x / far, slope_y = own.y / near - other.y / far;
+  const Floats spread =
+      pitch * ((slope_x < zero ? -slope_x : slope_x) + (slope_y < zero ? -slope_y : slope_y));
+  Floats share = 0.5F - (far - near) / (spread > zero ? spread : zero + 1.0F);
+  share = (share > zero) & (spread > zero) & both ? share : zero;
+  mean = own.distance2 - share * share * spread * (near + far) * 0.5F;
+  return share;
+}
+
+}  // namespace
+
+UNICURSAL_VECTORISED
+double scan_blocks(const TileScan& tile) {
+  const Floats zero{};
+  const Ints all = Ints{} - 1;
+  double moment = 0;
+  for (std::size_t b = 0; b < tile.count; ++b) {
+    const Lattice::Block& block = tile.blocks[b];
+    Floats x = block.x + tile.pitch * square_x, y = block.y + tile.pitch * square_y;
+    Floats mass = zero + tile.pitch * tile.pitch;
+    if (block.border >= 0) {
+      const Lattice::BorderBlock& border = tile.borders[block.border];
+      std::memcpy(&x, border.x.data(), sizeof x);
+      std::memcpy(&y, border.y.data(), sizeof y);
+      std::memcpy(&mass, border.weight.data(), sizeof mass);
+    }
+    const std::uint32_t begin = tile.start[b], end = tile.start[b + 1];
+    Foot own = nowhere();
+    for (std::uint32_t e = begin; e < end; ++e) {
+      const std::int32_t index = tile.entries[e];
+      const Foot foot = foot_on(tile.segments[index], index, x, y);
+      take(own, foot, foot.distance2 < own.distance2);
+    }
+    if (begin == end) mass = zero;
+    own.owner = mass > zero ? own.owner : all;
+    std::memcpy(tile.owner + Lattice::lanes * b, &own.owner, sizeof own.owner);
+    Floats mean = own.distance2;
+    if (tile.along != nullptr) {
+      const Foot other = competitor(tile, begin, end, x, y, own);
+      const Floats share = split(own, other, tile.pitch, mean);
+      add(tile.sums, other, share * mass);
+      add(tile.sums, own, (1.0F - share) * mass);
+    } else {
+      add(tile.sums, own, mass);
+    }
+    const Floats weighed = mass * mean;
+    for (std::size_t k = 0; k < Lattice::lanes; ++k) moment += mass[k] > 0 ? weighed[k] : 0.0F;
+  }
+  return moment;
+}
+
+UNICURSAL_VECTORISED
+void distances_from(float x, float y, const float* ax, const float* ay, const float* ux, const float* uy,
+                    const float* inverse, std::size_t count, float* distance2) {
+  for (std::size_t k = 0; k < count; k += 8) {
+    Floats sx, sy, vx, vy, vi;
+    std::memcpy(&sx, ax + k, sizeof sx);
+    std::memcpy(&sy, ay + k, sizeof sy);
+    std::memcpy(&vx, ux + k, sizeof vx);
+    std::memcpy(&vy, uy + k, sizeof vy);
+    std::memcpy(&vi, inverse + k, sizeof vi);
+    const Floats zero{}, one = zero + 1.0F;
+    const Floats px = x - sx, py = y - sy;
+    Floats t = (px * vx + py * vy) * vi;
+    t = t < zero ? zero : t;
+    t = t > one ? one : t;
+    const Floats qx = t * vx - px, qy = t * vy - py;
+    const Floats d = qx * qx + qy * qy;
+    std::memcpy(distance2 + k, &d, sizeof d);
+  }
+}
+
+UNICURSAL_VECTORISED
+void distances_to_segments(double x, double y, const SegmentArraysView& segments, std::size_t count,
+                           double* distance2) {
+  const Doubles zero{}, one = zero + 1.0;
+  for (std::size_t k = 0; k < count; k += 4) {
+    Doubles sx, sy, vx, vy, vi;
+    std::memcpy(&sx, segments.ax + k, sizeof sx);
+    std::memcpy(&sy, segments.ay + k, sizeof sy);
+    std::memcpy(&vx, segments.ux + k, sizeof vx);
+    std::memcpy(&vy, segments.uy + k, sizeof vy);
+    std::memcpy(&vi, segments.inverse + k, sizeof vi);
+    const Doubles px = x - sx, py = y - sy;
+    Doubles t = (px * vx + py * vy) * vi;
+    t = t < zero ? zero : t;
+    t = t > one ? one : t;
+    const Doubles qx = t * vx - px, qy = t * vy - py;
+    const Doubles d = qx * qx + qy * qy;
+    std::memcpy(distance2 + k, &d, sizeof d);
+  }
+}
+
+UNICURSAL_VECTORISED
+void distances_to_points(double ax, double ay, double ux, double uy, double inverse,
+                         const PointArrays& points, std::size_t count, double* distance2) {
+  const Doubles zero{}, one = zero + 1.0;
+  for (std::size_t k = 0; k < count; k += 4) {
+    Doubles x, y;
+    std::memcpy(&x, points.x + k, sizeof x);
+    std::memcpy(&y, points.y + k, sizeof y);
+    const Doubles px = x - ax, py = y - ay;
+    Doubles t = (px * ux + py * uy) * inverse;
+    t = t < zero ? zero : t;
+    t = t > one ? one : t;
+    const Doubles qx = t * ux - px, qy = t * uy - py;
+    const Doubles d = qx * qx + qy * qy;
+    std::memcpy(distance2 + k, &d, sizeof d);
+  }
+}
+
+}  // namespace unicursal::core

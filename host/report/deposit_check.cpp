@@ -1,0 +1,83 @@
+#include "host/report/deposit_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace unicursal::host {
+
+DepositCheck::DepositCheck(std::vector<gcode::Mixture> mixtures,
+                           std::optional<std::filesystem::path> pictures)
+    : mixtures_(std::move(mixtures)), pictures_(std::move(pictures)) {}
+
+DepositCheck::~DepositCheck() {
+  finish();
+}
+
+void DepositCheck::watch(int descriptor) {
+  thread_ = std::thread([this, descriptor] { read_all(descriptor); });
+}
+
+void DepositCheck::expect(TargetLayer target) {
+  const std::lock_guard lock(mutex_);
+  expected_.push_back(std::move(target));
+}
+
+void DepositCheck::finish() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void DepositCheck::read_all(int descriptor) {
+  sim::RasterReader reader(descriptor);
+  try {
+    while (const auto frame = reader.next()) take(*frame, reader);
+  } catch (const std::exception& error) {
+    // Closing the stream lets the simulator go on without it.
+    problem_ = std::string("what was laid could not be judged to the end: ") + error.what();
+  }
+}
+
+void DepositCheck::take(const sim::RasterFrame& frame, sim::RasterReader& reader) {
+  const auto rows = [&reader](std::span<sim::RasterPixel> pixels) { reader.read_row(pixels); };
+  const std::optional<TargetLayer> target = target_at(frame.z);
+  if (!target || target->zones.empty()) {
+    std::vector<sim::RasterPixel> row(frame.columns);
+    for (std::uint64_t r = 0; r < frame.rows; ++r) rows(row);
+    return;
+  }
+  JudgedLayer layer = judge(*target, frame, rows, mixtures_, pictures_.has_value());
+  if (pictures_) write_pictures(target->index, layer);
+  layers_[target->index] += layer.findings;
+  total_ += layer.findings;
+}
+
+/// The planned layer that lies there; those below it are done with, since the printer goes upwards.
+std::optional<TargetLayer> DepositCheck::target_at(double z) {
+  const std::lock_guard lock(mutex_);
+  const auto here = std::find_if(expected_.begin(), expected_.end(), [z](const TargetLayer& target) {
+    return std::abs(target.top - z) < target.height / 4;
+  });
+  if (here == expected_.end()) return std::nullopt;
+  TargetLayer target = std::move(*here);
+  expected_.erase(expected_.begin(), here + 1);
+  return target;
+}
+
+void DepositCheck::write_pictures(std::size_t index, const JudgedLayer& layer) {
+  picture::write_png(*pictures_ / fmt::format("gaps-{:04}.png", index), *layer.gaps);
+  picture::write_png(*pictures_ / fmt::format("mixtures-{:04}.png", index), *layer.mixtures);
+}
+
+nlohmann::json DepositCheck::to_json() const {
+  nlohmann::json layers = nlohmann::json::array();
+  for (const auto& [index, findings] : layers_) {
+    nlohmann::json layer = host::to_json(findings);
+    layer["layer"] = index;
+    layers.push_back(std::move(layer));
+  }
+  return {{"layers", layers}, {"total", host::to_json(total_)}};
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,63 @@
+// Judges the layers of a dry run while it runs: the planned layers come from one side, the rasters of what
+// was laid from the other, as a stream. Memory holds the layers that have been planned and not yet laid, and
+// one raster.
+//
+//   DepositCheck check(mixtures, pictures);
+//   check.watch(descriptor);        // reads in a thread of its own
+//   check.expect(target);           // before the layer's first line is sent
+//   check.finish();                 // when the simulator has ended
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/report/deposit_judge.hpp"
+
+namespace unicursal::host {
+
+class DepositCheck {
+ public:
+  /// `mixtures` by material: as the printer is to mix them. `pictures`: a folder that exists, for
+  /// gaps-NNNN.png and mixtures-NNNN.png.
+  DepositCheck(std::vector<gcode::Mixture> mixtures, std::optional<std::filesystem::path> pictures);
+  /// Waits for the end of the stream.
+  ~DepositCheck();
+  DepositCheck(const DepositCheck&) = delete;
+  DepositCheck& operator=(const DepositCheck&) = delete;
+
+  /// Takes the descriptor over. Once.
+  void watch(int descriptor);
+  void expect(TargetLayer target);
+  /// Waits for the end of the stream, which comes when the simulator ends.
+  void finish();
+
+  // After finish():
+  const DepositFindings& total() const { return total_; }
+  /// Layers that were laid, with their findings; a layer that was begun and not ended is among them.
+  nlohmann::json to_json() const;
+  /// Why judging ended early, if it did.
+  const std::optional<std::string>& problem() const { return problem_; }
+
+ private:
+  void read_all(int descriptor);
+  void take(const sim::RasterFrame& frame, sim::RasterReader& reader);
+  std::optional<TargetLayer> target_at(double z);
+  void write_pictures(std::size_t index, const JudgedLayer& layer);
+
+  std::vector<gcode::Mixture> mixtures_;
+  std::optional<std::filesystem::path> pictures_;
+  std::mutex mutex_;  ///< guards expected_
+  std::vector<TargetLayer> expected_;
+  std::map<std::size_t, DepositFindings> layers_;
+  DepositFindings total_;
+  std::optional<std::string> problem_;
+  std::thread thread_;
+};
+
+}  // namespace unicursal::host

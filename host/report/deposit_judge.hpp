@@ -1,0 +1,40 @@
+// One layer as the simulator laid it against the zones that it was to fill. Places are the raster's pixels
+// whose middle lies in the part; where the simulator's raster does not reach, nothing was laid. mm, mm².
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/picture/image.hpp"
+#include "firmware_gcode/mixing/mixture.hpp"
+#include "host/report/deposit_findings.hpp"
+#include "host/report/scan.hpp"
+#include "sim/raster.hpp"
+
+namespace unicursal::host {
+
+/// What a layer was to be, in the bed's frame.
+struct TargetLayer {
+  std::size_t index = 0;
+  double top = 0;  ///< where the nozzle runs
+  double height = 0;
+  std::vector<LabelledPolygon> zones;  ///< labelled by material
+};
+
+/// Gives the simulator's rows from the lowest up.
+using RowSource = std::function<void(std::span<sim::RasterPixel>)>;
+
+struct JudgedLayer {
+  DepositFindings findings;
+  std::optional<picture::Image> gaps;      ///< what is missing and what is too much
+  std::optional<picture::Image> mixtures;  ///< the right ones in their colours, the wrong ones marked
+};
+
+/// `mixtures` by material: as the printer was to mix them. Reads every row.
+JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, const RowSource& rows,
+                  const std::vector<gcode::Mixture>& mixtures, bool draw);
+
+}  // namespace unicursal::host

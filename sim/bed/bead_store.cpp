@@ -1,0 +1,66 @@
+#include "sim/bed/bead_store.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <system_error>
+
+#include "core/picture/filaments.hpp"
+
+namespace unicursal::sim {
+
+namespace {
+
+constexpr double widest_drawn = 5;  // mm: what a nozzle that stands still piles up is drawn no wider
+
+[[noreturn]] void fail(const std::filesystem::path& file) {
+  throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), file.string());
+}
+
+}  // namespace
+
+double StoredBead::length() const {
+  return std::hypot(x1 - x0, y1 - y0);
+}
+
+BeadStore::BeadStore(const std::filesystem::path& folder) : path_(folder / ".deposit.beads") {
+  file_.reset(std::fopen(path_.c_str(), "w+b"));
+  if (!file_) fail(path_);
+}
+
+BeadStore::~BeadStore() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+void BeadStore::bead(std::size_t layer, const DepositedLayer& about, const Bead& bead, double width) {
+  layers_.resize(std::max(layers_.size(), layer + 1));
+  layers_[layer].z = about.z;
+  layers_[layer].height = about.height;
+  ++layers_[layer].beads;
+  const double drawn = std::min(width, widest_drawn);
+  widest_ = std::max(widest_, drawn);
+  for (Extents* extents : {&all_, &above_}) {
+    if (layer == 0 && extents == &above_) continue;
+    extents->include(bead.from);
+    extents->include(bead.to);
+  }
+  const auto narrow = [](double mm) { return static_cast<float>(mm); };
+  const StoredBead stored{narrow(bead.from.x), narrow(bead.from.y), narrow(bead.to.x),
+                          narrow(bead.to.y),   narrow(drawn),       picture::mixed_filaments(bead.shares)};
+  if (std::fwrite(&stored, sizeof stored, 1, file_.get()) != 1) fail(path_);
+}
+
+void BeadStore::for_each(const std::function<void(std::size_t layer, const StoredBead& bead)>& use) {
+  std::rewind(file_.get());
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    for (std::uint64_t i = 0; i < layers_[layer].beads; ++i) {
+      StoredBead bead{};
+      if (std::fread(&bead, sizeof bead, 1, file_.get()) != 1) fail(path_);
+      use(layer, bead);
+    }
+  }
+  std::fseek(file_.get(), 0, SEEK_END);
+}
+
+}  // namespace unicursal::sim

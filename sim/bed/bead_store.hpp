@@ -1,0 +1,59 @@
+// Every bead of a print, waiting in a file to be drawn when the part's extent is known. The file lies in the
+// pictures' folder and is removed in the end; memory holds a few bytes for each layer. mm.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/picture/image.hpp"
+#include "sim/bed/deposit.hpp"
+
+namespace unicursal::sim {
+
+struct StoredBead {
+  float x0, y0, x1, y1, width;
+  picture::Colour colour;
+
+  double length() const;
+};
+
+struct StoredLayer {
+  double z = 0, height = 0;
+  std::uint64_t beads = 0;
+};
+
+class BeadStore : public BeadSink {
+ public:
+  /// Throws std::system_error when the file cannot be made, and when the disk is full later on.
+  explicit BeadStore(const std::filesystem::path& folder);
+  ~BeadStore() override;
+  BeadStore(const BeadStore&) = delete;
+  BeadStore& operator=(const BeadStore&) = delete;
+
+  void bead(std::size_t layer, const DepositedLayer& about, const Bead& bead, double width) override;
+
+  /// In the order of printing. `use` gets a layer's number and each of its beads.
+  void for_each(const std::function<void(std::size_t layer, const StoredBead& bead)>& use);
+
+  const std::vector<StoredLayer>& layers() const { return layers_; }
+  const Extents& all() const { return all_; }      ///< of the centre lines
+  const Extents& above() const { return above_; }  ///< the same without the first layer
+  double widest() const { return widest_; }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::vector<StoredLayer> layers_;
+  Extents all_, above_;
+  double widest_ = 0;
+};
+
+}  // namespace unicursal::sim

@@ -1,0 +1,208 @@
+#include "sim/faults/fault.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace unicursal::sim {
+
+namespace {
+
+enum class Value { none, chance, seconds, optional_seconds, text };
+
+struct KindFacts {
+  FaultKind kind;
+  std::string_view name;
+  Value value;
+  std::string_view what;
+};
+
+using K = FaultKind;
+
+constexpr std::array kinds{
+    KindFacts{K::bit_flip, "bitflip", Value::chance, "a byte to the printer has one bit wrong"},
+    KindFacts{K::lost_byte, "lostbyte", Value::chance, "a byte to the printer is lost"},
+    KindFacts{K::reply_flip, "replyflip", Value::chance, "a byte from the printer has one bit wrong"},
+    KindFacts{K::lost_reply, "lostreply", Value::chance, "a byte from the printer is lost"},
+    KindFacts{K::merged_lines, "merge", Value::chance,
+              "a line to the printer loses its end and joins the next"},
+    KindFacts{K::false_alarm, "falsealarm", Value::chance, "the printer asks again for a line that was good"},
+    KindFacts{K::lost_ok, "lostok", Value::chance, "an ok never comes"},
+    KindFacts{K::double_ok, "doubleok", Value::chance, "an ok comes twice"},
+    KindFacts{K::broken_ok, "brokenok", Value::chance, "an ok comes misspelt"},
+    KindFacts{K::lost_resend, "lostresend", Value::chance, "a request to resend never comes"},
+    KindFacts{K::double_resend, "doubleresend", Value::chance, "a request to resend comes twice"},
+    KindFacts{K::noise, "noise", Value::chance, "a line of noise comes before a reply"},
+    KindFacts{K::bad_utf8, "badutf8", Value::chance, "a line that is no valid UTF-8 comes before a reply"},
+    KindFacts{K::nul, "nul", Value::chance, "a line with NUL bytes comes before a reply"},
+    KindFacts{K::slow, "slow", Value::seconds, "every reply comes up to SECONDS late"},
+    KindFacts{K::stall, "stall", Value::seconds, "the firmware neither reads nor answers for SECONDS"},
+    KindFacts{K::silence, "silence", Value::none, "the firmware never answers again"},
+    KindFacts{K::disconnect, "disconnect", Value::optional_seconds,
+              "the cable is pulled, and comes back after SECONDS if given"},
+    KindFacts{K::reset, "reset", Value::none, "the board resets"},
+    KindFacts{K::heater_failure, "heaterfail", Value::none, "the nozzle's heater gives no more heat"},
+    KindFacts{K::bed_failure, "bedfail", Value::none, "the bed's heater gives no more heat"},
+    KindFacts{K::runaway, "runaway", Value::none, "the nozzle's heater cannot be switched off any more"},
+    KindFacts{K::thermistor, "thermistor", Value::none, "the nozzle's thermistor falls out"},
+    KindFacts{K::runout, "runout", Value::none, "a feeder runs out of filament, and the printer says so"},
+    KindFacts{K::say, "say", Value::text, "the printer says TEXT"},
+    KindFacts{K::fatal, "fatal", Value::text, "the firmware stops itself with the error TEXT"},
+};
+
+[[noreturn]] void refuse(std::string_view text, const std::string& why) {
+  throw std::invalid_argument(fmt::format("the fault \"{}\" {}", text, why));
+}
+
+const KindFacts& facts_of(FaultKind kind) {
+  return *std::find_if(kinds.begin(), kinds.end(), [kind](const KindFacts& f) { return f.kind == kind; });
+}
+
+const KindFacts& kind_named(std::string_view name, std::string_view fault) {
+  std::string names;
+  for (const KindFacts& facts : kinds) {
+    if (facts.name == name) return facts;
+    names += (names.empty() ? "" : ", ") + std::string(facts.name);
+  }
+  refuse(fault, fmt::format("is of no known kind; the kinds are {}", names));
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+  return first == std::string_view::npos ? std::string_view{} : text.substr(first, last - first + 1);
+}
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+double seconds_from(std::string_view text, std::string_view fault) {
+  constexpr double longest = 1e7;
+  const auto value = number<double>(text);
+  if (!value || !(*value >= 0 && *value <= longest)) {
+    refuse(fault, fmt::format("needs a number of seconds instead of \"{}\"", text));
+  }
+  return *value;
+}
+
+void read_moment(std::string_view moment, std::string_view text, Fault& fault) {
+  const auto equals = moment.find('=');
+  const std::string_view which = moment.substr(0, equals);
+  const std::string_view value = equals == std::string_view::npos ? "" : moment.substr(equals + 1);
+  if (which == "t") {
+    fault.time = seconds_from(value, text);
+  } else if (which == "line") {
+    fault.line = number<std::int64_t>(value);
+    if (!fault.line) refuse(text, "needs the number of a line behind line=");
+  } else if (which == "command" && !value.empty()) {
+    fault.command = std::string(value);
+  } else {
+    refuse(text, "has a moment that is none of @t=SECONDS, @line=NUMBER and @command=WORD");
+  }
+}
+
+void read_chance(std::string_view value, std::string_view text, Fault& fault) {
+  if (value.empty() && fault.has_moment()) return;
+  const auto chance = number<double>(value);
+  if (!chance || !(*chance >= 0 && *chance <= 1)) {
+    refuse(text, "needs a chance from 0 to 1, as in bitflip:1e-4, or a moment");
+  }
+  fault.chance = *chance;
+}
+
+void read_value(Value kind, std::string_view value, std::string_view text, Fault& fault) {
+  switch (kind) {
+    case Value::none:
+      if (!value.empty()) refuse(text, "takes no value");
+      return;
+    case Value::chance:
+      return read_chance(value, text, fault);
+    case Value::optional_seconds:
+      if (value.empty()) return;
+      [[fallthrough]];
+    case Value::seconds:
+      fault.seconds = seconds_from(value, text);
+      return;
+    case Value::text:
+      if (value.empty()) refuse(text, "needs a text, as in say://action:pause@t=60");
+      fault.text = std::string(value);
+  }
+}
+
+}  // namespace
+
+std::string_view name(FaultKind kind) {
+  return facts_of(kind).name;
+}
+
+std::string fault_help() {
+  std::string help;
+  for (const KindFacts& facts : kinds) {
+    static constexpr std::array<std::string_view, 5> values{"", ":CHANCE", ":SECONDS", "[:SECONDS]", ":TEXT"};
+    help += fmt::format("  {:<22}{}\n",
+                        std::string(facts.name) + std::string(values[static_cast<std::size_t>(facts.value)]),
+                        facts.what);
+  }
+  return help;
+}
+
+Fault parse_fault(std::string_view text) {
+  text = trimmed(text);
+  const auto at = text.rfind('@');
+  const std::string_view before = text.substr(0, at);
+  const auto colon = before.find(':');
+  const KindFacts& facts = kind_named(before.substr(0, colon), text);
+  Fault fault;
+  fault.kind = facts.kind;
+  if (at != std::string_view::npos) read_moment(text.substr(at + 1), text, fault);
+  read_value(facts.value, colon == std::string_view::npos ? "" : before.substr(colon + 1), text, fault);
+  if (facts.kind == K::slow && fault.has_moment()) refuse(text, "holds all the time and takes no moment");
+  const bool always = facts.value == Value::chance || facts.kind == K::slow;
+  if (!always && !fault.has_moment()) refuse(text, "needs a moment, as in reset@t=60 or reset@line=100");
+  return fault;
+}
+
+FaultPlan parse_faults(std::string_view text, const std::string& file) {
+  FaultPlan plan;
+  for (std::size_t number_of_line = 1; !text.empty(); ++number_of_line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = trimmed(text.substr(0, std::min(end, text.find('#'))));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    try {
+      if (line.starts_with("seed ")) {
+        const auto seed = number<std::uint64_t>(trimmed(line.substr(5)));
+        if (!seed) refuse(line, "needs a whole number as its seed");
+        plan.seed = *seed;
+      } else if (!line.empty()) {
+        plan.faults.push_back(parse_fault(line));
+      }
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("{}:{}: {}", file, number_of_line, error.what()));
+    }
+  }
+  return plan;
+}
+
+FaultPlan read_faults(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad()) {
+    throw std::system_error(errno, std::generic_category(), "cannot read the faults in " + file.string());
+  }
+  return parse_faults(text, file.string());
+}
+
+}  // namespace unicursal::sim

@@ -1,0 +1,68 @@
+#include "sim/firmware/personality.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace unicursal::sim {
+
+namespace {
+
+constexpr double eight_bit_boot = 1.5;       // s: the boot loader waits for a new firmware first
+constexpr double eight_bit_step_rate = 4e4;  // steps/s
+
+Personality marlin() {
+  Personality one;
+  one.name = "marlin";
+  one.chatter = {"start",
+                 "PowerUp",
+                 "Marlin 2.1.2.1",
+                 "",
+                 "echo: Simulated printer with a mixing extruder",
+                 "echo: Free Memory: 65536  PlannerBufferBytes: 2048",
+                 "echo:Hardcoded Default Settings Loaded"};
+  return one;
+}
+
+Personality marlin_8bit() {
+  Personality one = marlin();
+  one.name = "marlin-8bit";
+  one.mix_scale = 128;
+  one.step_rate = eight_bit_step_rate;
+  one.boot_seconds = eight_bit_boot;
+  one.resets_on_open = true;
+  one.chatter.push_back("//action:notification Printer ready");
+  return one;
+}
+
+Personality marlin_advanced_ok() {
+  Personality one = marlin();
+  one.name = "marlin-advanced-ok";
+  one.advanced_ok = true;
+  return one;
+}
+
+Personality repetier() {
+  Personality one;
+  one.name = "repetier";
+  one.family = Personality::Family::repetier;
+  one.direct_mixing = false;
+  one.step_rate = eight_bit_step_rate;
+  one.boot_seconds = eight_bit_boot;
+  one.resets_on_open = true;
+  one.chatter = {"start", "Info:PowerUp", "Free RAM:2048", "SelectExtruder:0"};
+  return one;
+}
+
+}  // namespace
+
+const Personality& personality(std::string_view name) {
+  static const std::array<Personality, 4> all{marlin(), marlin_8bit(), marlin_advanced_ok(), repetier()};
+  std::string names;
+  for (const Personality& one : all) {
+    if (one.name == name) return one;
+    names += (names.empty() ? "" : ", ") + std::string(one.name);
+  }
+  throw std::invalid_argument("there is no personality \"" + std::string(name) + "\"; there are " + names);
+}
+
+}  // namespace unicursal::sim

@@ -1,0 +1,198 @@
+#include "sim/lockstep.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace unicursal::sim {
+
+namespace {
+
+constexpr double ns = 1e-9;
+constexpr std::size_t longest_message = 128;
+/// How long bytes that a host has written may take to reach the other end of the terminal, ms. Microseconds
+/// as a rule; this is for a computer that is very busy.
+constexpr int byte_patience = 30000;
+
+[[noreturn]] void fail(const std::string& what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+}  // namespace
+
+Lockstep::Lockstep(const SimulatorOptions& options, Printer& printer,
+                   std::function<void(const std::string&)> ready)
+    : options_(options),
+      printer_(printer),
+      ready_(std::move(ready)),
+      terminal_(std::make_unique<Terminal>(options.link)) {
+  listen();
+  ready_(terminal_->path());
+}
+
+Lockstep::~Lockstep() {
+  std::error_code ignored;
+  std::filesystem::remove(*options_.control, ignored);
+}
+
+void Lockstep::listen() {
+  const std::string path = options_.control->string();
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) {
+    errno = ENAMETOOLONG;
+    fail("cannot make the control socket " + path);
+  }
+  std::memcpy(address.sun_path, path.data(), path.size());
+  if (std::filesystem::is_socket(std::filesystem::symlink_status(path))) std::filesystem::remove(path);
+  listener_ = Descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (listener_.get() < 0 ||
+      ::bind(listener_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(listener_.get(), 1) != 0) {
+    fail("cannot make the control socket " + path);
+  }
+}
+
+void Lockstep::run() {
+  while (!stopped_ && accept_host()) {
+    serve();
+    if (printer_.unplugged())
+      replug();
+    else
+      take_rest();
+    if (options_.once && used_) break;
+  }
+}
+
+/// False when a signal comes first.
+bool Lockstep::readable(int descriptor) {
+  pollfd waits[2] = {{stop_.descriptor(), POLLIN, 0}, {descriptor, POLLIN, 0}};
+  while (::poll(waits, 2, -1) < 0 && errno == EINTR) {
+  }
+  if (waits[0].revents != 0) stopped_ = true;
+  return !stopped_;
+}
+
+bool Lockstep::accept_host() {
+  if (!readable(listener_.get())) return false;
+  host_ = Descriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+  pending_.clear();
+  heard_ = told_ = 0;
+  return host_.get() >= 0;
+}
+
+void Lockstep::serve() {
+  bool opened = false;
+  while (terminal_) {
+    const auto wait = next_wait();
+    if (!wait) return;
+    if (!std::exchange(opened, true)) printer_.opened(dtr_low_);
+    take_bytes(wait->bytes);
+    printer_.advance(wait->until);
+    answer();
+  }
+}
+
+std::optional<Lockstep::Wait> Lockstep::next_wait() {
+  const auto message = read_message();
+  if (!message) return std::nullopt;
+  std::istringstream words(*message);
+  std::string word;
+  std::int64_t until = 0, bytes = 0;
+  const bool whole = static_cast<bool>(words >> word >> until >> bytes);
+  if (!whole || word != "wait" || bytes < static_cast<std::int64_t>(heard_)) {
+    throw std::runtime_error("the host said \"" + *message + "\" on the control socket, which means nothing");
+  }
+  constexpr double for_ever = std::numeric_limits<double>::infinity();
+  return Wait{until < 0 ? for_ever : static_cast<double>(until) * ns, static_cast<std::uint64_t>(bytes)};
+}
+
+/// Nothing when the host has closed the socket, or when a signal came.
+std::optional<std::string> Lockstep::read_message() {
+  for (;;) {
+    const auto end = pending_.find('\n');
+    if (end != std::string::npos) {
+      std::string message = pending_.substr(0, end);
+      pending_.erase(0, end + 1);
+      return message;
+    }
+    if (pending_.size() > longest_message)
+      throw std::runtime_error("the host talks nonsense on the control socket");
+    if (!readable(host_.get())) return std::nullopt;
+    std::array<char, longest_message> bytes;
+    const auto count = ::read(host_.get(), bytes.data(), bytes.size());
+    if (count <= 0) return std::nullopt;
+    pending_.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+}
+
+/// All that the host says it has written, however long the terminal takes to pass it on.
+void Lockstep::take_bytes(std::uint64_t total) {
+  while (heard_ < total) {
+    pollfd wait{terminal_->master(), POLLIN, 0};
+    if (::poll(&wait, 1, byte_patience) <= 0) {
+      throw std::runtime_error(
+          fmt::format("the host says it has written {} bytes, but only {} came", total, heard_));
+    }
+    const auto bytes = terminal_->read();
+    if (!bytes) return;
+    heard_ += bytes->size();
+    used_ = true;
+    printer_.write(*bytes);
+  }
+}
+
+/// After the host has hung up; its last words may still be in the terminal.
+void Lockstep::take_rest() {
+  dtr_low_ = terminal_->drops_dtr();
+  for (auto bytes = terminal_->read(); bytes && !bytes->empty(); bytes = terminal_->read()) {
+    printer_.write(*bytes);
+    used_ = true;
+  }
+  terminal_->clear();
+}
+
+void Lockstep::answer() {
+  const bool idle = !printer_.has_output() && !printer_.next_event() && !printer_.unplugged();
+  const std::string bytes = printer_.take_output();
+  told_ += bytes.size();
+  hand_over(bytes);
+  const char* state = printer_.unplugged() ? " gone" : idle ? " idle" : "";
+  if (printer_.unplugged()) terminal_.reset();
+  const std::string message =
+      fmt::format("at {} {}{}\n", static_cast<std::int64_t>(std::llround(printer_.now() / ns)), told_, state);
+  if (::send(host_.get(), message.data(), message.size(), MSG_NOSIGNAL) < 0) host_ = Descriptor();
+}
+
+void Lockstep::hand_over(std::string bytes) {
+  for (terminal_->write(bytes); !bytes.empty(); terminal_->write(bytes)) {
+    pollfd wait{terminal_->master(), POLLOUT, 0};
+    if (::poll(&wait, 1, byte_patience) <= 0) return;  // a host that does not read
+  }
+}
+
+/// A host that comes back does so after the cable.
+void Lockstep::replug() {
+  stopped_ = stopped_ || !std::isfinite(printer_.plug_time());
+  if (stopped_) return;
+  printer_.advance(printer_.plug_time());
+  printer_.plug_in();
+  dtr_low_ = true;
+  terminal_ = std::make_unique<Terminal>(options_.link);
+  ready_(terminal_->path());
+}
+
+}  // namespace unicursal::sim

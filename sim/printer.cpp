@@ -1,0 +1,128 @@
+#include "sim/printer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace unicursal::sim {
+
+namespace {
+constexpr std::size_t longest_delivery = 1024;  // bytes handed to the computer at once
+}
+
+Printer::Printer(const Machine& machine, const Personality& personality, const WireModel& wire,
+                 const FaultPlan& faults, MoveSink& sink)
+    : wire_(wire),
+      faults_(faults),
+      firmware_(make_firmware(machine, personality, sink, [this](std::string_view line) { say(line); })) {
+  firmware_->watch_lines([this](std::string_view line) { return faults_.received(line); });
+}
+
+void Printer::opened(bool dtr_rises) {
+  if (!std::exchange(powered_, true)) {
+    firmware_->boot();
+  } else if (dtr_rises && firmware_->personality().resets_on_open) {
+    wire_.cut();
+    firmware_->reset();
+  }
+}
+
+void Printer::write(std::string_view bytes) {
+  if (!unplugged()) wire_.write(now_, faults_.to_printer(bytes));
+}
+
+void Printer::say(std::string_view line) {
+  const double at = firmware_->now() + faults_.delay();
+  if (!unplugged()) wire_.speak(at, faults_.from_printer(line));
+}
+
+std::optional<double> Printer::next_event() const {
+  std::optional<double> next;
+  const auto consider = [&next](std::optional<double> time) {
+    if (time) next = std::min(next.value_or(*time), *time);
+  };
+  consider(firmware_->next_event());
+  consider(wire_.next_arrival());
+  consider(wire_.next_delivery());
+  consider(faults_.next_time());
+  return next;
+}
+
+bool Printer::busy() const {
+  return wire_.next_arrival() || wire_.next_delivery() || firmware_->blocked();
+}
+
+void Printer::advance(double until) {
+  deliver();
+  const bool was_unplugged = unplugged();
+  const auto something = [&] { return has_output() || unplugged() != was_unplugged; };
+  while (!something()) {
+    const auto next = next_event();
+    if (!next || *next > until) break;
+    step(*next);
+  }
+  if (something()) return;
+  if (until < std::numeric_limits<double>::infinity() && until > now_) step(until);
+}
+
+/// Everything that is due by `time`, which nothing else precedes.
+void Printer::step(double time) {
+  now_ = std::max(now_, time);
+  receive(std::nextafter(now_, 0.0));  // the beginning of a line may have filled the buffer before
+  firmware_->advance(now_);
+  receive(now_);
+  for (const Fault& fault : faults_.due(now_)) strike(fault);
+  deliver();
+}
+
+void Printer::receive(double until) {
+  const std::vector<WireByte> arrived = wire_.arrive(until);
+  if (!arrived.empty()) firmware_->receive(arrived);
+}
+
+void Printer::deliver() {
+  if (!unplugged()) output_ += wire_.deliver(now_, longest_delivery);
+}
+
+void Printer::strike(const Fault& fault) {
+  constexpr double for_ever = std::numeric_limits<double>::infinity();
+  Heater& nozzle = firmware_->nozzle();
+  switch (fault.kind) {
+    case FaultKind::stall:
+      return firmware_->stall(fault.seconds);
+    case FaultKind::silence:
+      return firmware_->stall(for_ever);
+    case FaultKind::disconnect:
+      wire_.cut();
+      plug_at_ = fault.seconds > 0 ? now_ + fault.seconds : for_ever;
+      return;
+    case FaultKind::reset:
+      return firmware_->reset();
+    case FaultKind::heater_failure:
+      return nozzle.break_down(now_, Heater::Defect::open);
+    case FaultKind::bed_failure:
+      return firmware_->bed().break_down(now_, Heater::Defect::open);
+    case FaultKind::runaway:
+      return nozzle.break_down(now_, Heater::Defect::closed);
+    case FaultKind::thermistor:
+      return nozzle.pull_thermistor(now_);
+    case FaultKind::runout:
+      say("//action:out_of_filament T0");
+      return say("//action:paused filament_runout 0");
+    case FaultKind::say:
+      return say(fault.text);
+    case FaultKind::fatal:
+      return firmware_->die(fault.text);
+    default:
+      return;  // these strike at bytes and lines
+  }
+}
+
+void Printer::run_down() {
+  while (const auto next = wire_.next_arrival()) step(*next);
+  firmware_->run_down();
+  now_ = std::max(now_, firmware_->now());
+}
+
+}  // namespace unicursal::sim

@@ -1,0 +1,232 @@
+// What a simulated printer makes of whole jobs, in two encodings of the same curves:
+//   bench_laying [--speed MM/S] [--acceleration MM/S²] [--layers N] JOB.toml …
+// "own area": every segment gets the plastic of its own area, the feeders turn at a constant rate (paper
+// §4.2); "constant": every segment gets the mean bead width of its layers, so the nozzle runs at a constant
+// speed (what Figure 21 compares with). Same curves, same volume, same deposit model. --speed chooses the
+// flow so that the mean speed would be that on a machine without inertia; otherwise it is the job's. The
+// firmware is driven directly, always full, so no link can be to blame. Gaps are told for the whole layer and
+// for what lies more than a bead width inside its border, which no width of a bead can mend.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/region.hpp"
+#include "host/engine/run.hpp"
+#include "host/report/motion_findings.hpp"
+#include "sim/bed/deposit.hpp"
+#include "sim/firmware/repetier.hpp"
+#include "sim/motion/motion_log.hpp"
+#include "sim/motion/move_sinks.hpp"
+
+namespace {
+
+using namespace unicursal;
+
+constexpr double raster_pixel = 0.05;  // mm
+constexpr double border_tolerance = 0.01;
+
+struct Options {
+  std::optional<double> speed, acceleration;
+  std::size_t layers = static_cast<std::size_t>(-1);
+};
+
+struct Curves {
+  std::vector<host::PlannedLayer> layers;
+  double length = 0, area = 0, height = 0;  ///< mm, mm², mm
+
+  double width() const { return area / length; }
+};
+
+struct Laying {
+  double speed = 0;                  ///< mean, above the first layer, where the prime line lies
+  double instants = 0, seconds = 0;  ///< shares of them in which the flow is within 5 %
+  double slow = 0;                   ///< mm³/s: the flow below which 5 % of the seconds are
+  host::DepositFindings whole, inner;
+};
+
+Curves plan(const host::PreparedJob& job, std::size_t most_layers) {
+  host::LookaheadOptions options = host::lookahead_options(job);
+  options.count = std::min(options.count, most_layers);
+  host::Lookahead lookahead(*job.part, options);
+  Curves curves;
+  while (auto layer = lookahead.wait()) {
+    for (const core::IslandPlan& island : layer->plans) {
+      for (const core::PlannedCurve& curve : island.curves) {
+        curves.length += curve.path.total_length();
+        curves.area += curve.path.total_area();
+      }
+    }
+    curves.height = layer->layer.height;
+    curves.layers.push_back(std::move(*layer));
+  }
+  return curves;
+}
+
+/// Judges each finished layer, whole and without its rim.
+class Judges : public sim::RasterSink {
+ public:
+  Judges(const host::PreparedJob& job, const Curves& curves, std::vector<gcode::Mixture> mixtures,
+         Laying& laying)
+      : job_(job), curves_(curves), mixtures_(std::move(mixtures)), laying_(laying) {}
+
+  void layer(const sim::LayerRaster& raster) override {
+    for (const host::PlannedLayer& planned : curves_.layers) {
+      host::TargetLayer target = host::target_of(job_, planned);
+      if (std::abs(target.top - raster.frame().z) > target.height / 4) continue;
+      laying_.whole += judged(target, raster);
+      core::Region all;
+      for (const auto& zone : target.zones) all = core::unite(all, {zone.polygon});
+      target.zones.clear();
+      for (const auto& polygon : core::offset(all, -curves_.width(), border_tolerance)) {
+        target.zones.push_back({polygon, 0});
+      }
+      if (!target.zones.empty()) laying_.inner += judged(target, raster);
+    }
+  }
+
+ private:
+  host::DepositFindings judged(const host::TargetLayer& target, const sim::LayerRaster& raster) const {
+    std::uint64_t row = 0;
+    const auto rows = [&](std::span<sim::RasterPixel> pixels) { raster.read_row(row++, pixels); };
+    return host::judge(target, raster.frame(), rows, mixtures_, false).findings;
+  }
+
+  const host::PreparedJob& job_;
+  const Curves& curves_;
+  std::vector<gcode::Mixture> mixtures_;
+  Laying& laying_;
+};
+
+double share_near(const std::map<double, double>& seconds_by_flow, double nominal) {
+  double near = 0, all = 0;
+  for (const auto& [flow, seconds] : seconds_by_flow) {
+    all += seconds;
+    if (std::abs(flow / nominal - 1) <= host::MotionFindings::tolerance) near += seconds;
+  }
+  return all > 0 ? near / all : 0;
+}
+
+/// The flow below which the nozzle runs for that share of the time.
+double slowest_of(const std::map<double, double>& seconds_by_flow, double share) {
+  double left = 0;
+  for (const auto& [flow, seconds] : seconds_by_flow) left += share * seconds;
+  for (const auto& [flow, seconds] : seconds_by_flow) {
+    if ((left -= seconds) < 0) return flow;
+  }
+  return 0;
+}
+
+sim::Machine machine_of(const gcode::Printer& printer, std::optional<double> acceleration) {
+  sim::Machine machine;
+  machine.bed = printer.bed;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    machine.limits.max_speed[axis] = printer.max_speed[axis];
+    machine.limits.max_acceleration[axis] =
+        axis < 2 ? acceleration.value_or(printer.max_acceleration[axis]) : printer.max_acceleration[axis];
+  }
+  return machine;
+}
+
+void send(sim::Firmware& firmware, const gcode::Chunk& chunk) {
+  for (const std::string& line : chunk.lines) {
+    if (!host::is_command(line)) continue;
+    firmware.receive(line + "\n");
+    while (firmware.blocked()) firmware.advance(*firmware.next_event());
+  }
+}
+
+Laying lay(const host::PreparedJob& job, const Curves& curves, const Options& options) {
+  gcode::PrintSettings settings = host::print_settings(job);
+  gcode::Encoder encoder(job.job.profile.printer, settings);
+  std::vector<gcode::Mixture> mixtures;
+  for (std::size_t i = 0; i < settings.materials.size(); ++i) mixtures.push_back(encoder.intended(i));
+
+  Laying laying;
+  const gcode::Printer& printer = job.job.profile.printer;
+  Judges judges(job, curves, mixtures, laying);
+  sim::Spread spread({printer.bed[0], printer.bed[1]}, raster_pixel);
+  sim::Deposit deposit({nullptr, &spread, &judges});
+  sim::Nozzle nozzle(printer.filament_diameter, sim::Chamber({printer.dead_volume, printer.mixing_volume}, 3),
+                     deposit);
+  sim::MotionLog log(nozzle.filament_area());
+  sim::MoveSinks sinks({&nozzle, &log});
+  const auto firmware = sim::make_firmware(machine_of(printer, options.acceleration),
+                                           sim::personality("marlin"), sinks, [](std::string_view) {});
+  send(*firmware, encoder.start());
+  for (const host::PlannedLayer& layer : curves.layers)
+    send(*firmware, encoder.layer(host::placed(job, layer)));
+  send(*firmware, encoder.finish());
+  firmware->run_down();
+  deposit.finish();
+
+  double length = 0, seconds = 0;
+  for (std::size_t i = deposit.layers().size() > 1 ? 1 : 0; i < deposit.layers().size(); ++i) {
+    length += deposit.layers()[i].length;
+    seconds += deposit.layers()[i].seconds;
+  }
+  laying.speed = length / seconds;
+  laying.instants = share_near(log.flows(), settings.flow);
+  laying.seconds = share_near(log.second_flows(), settings.flow);
+  laying.slow = slowest_of(log.second_flows(), 1 - host::MotionFindings::hold_share);
+  return laying;
+}
+
+void print(const char* encoding, const Laying& l) {
+  fmt::print(
+      "  {:10} {:6.2f} mm/s; flow within 5 % in {:.1f} % of the seconds ({:.1f} % of the instants), above "
+      "{:.2f} in 95 %\n",
+      encoding, l.speed, 100 * l.seconds, 100 * l.instants, l.slow);
+  fmt::print(
+      "             gaps {:.2f} mm² ({:.3f} %), inside {:.2f} mm² ({:.3f} %); overfill {:.3f} %, "
+      "height deviation {:.3f}\n",
+      l.whole.gaps, 100 * l.whole.gap_fraction(), l.inner.gaps, 100 * l.inner.gap_fraction(),
+      100 * l.whole.overfill_fraction(), l.whole.fill_deviation());
+}
+
+void measure(const char* file, const Options& options) {
+  host::PreparedJob job = host::prepare(host::load_job(file));
+  const Curves curves = plan(job, options.layers);
+  if (curves.length == 0) throw std::runtime_error(std::string(file) + ": no curve to lay");
+  if (options.speed) job.job.flow = *options.speed * curves.width() * curves.height;
+  const double nominal = job.job.flow / (curves.width() * curves.height);
+  fmt::print("\n{}: {} layers, {:.0f} mm of bead {:.3f} mm apart, {:.2f} mm³/s, nominally {:.2f} mm/s\n",
+             file, curves.layers.size(), curves.length, curves.width(), job.job.flow, nominal);
+  const Laying own = lay(job, curves, options);
+  print("own area", own);
+  job.job.line_width = curves.width();
+  const Laying constant = lay(job, curves, options);
+  print("constant", constant);
+  fmt::print("  gaps of own areas ÷ of constant width: {:.2f}, inside {:.2f}\n",
+             own.whole.gaps / constant.whole.gaps, own.inner.gaps / constant.inner.gaps);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  try {
+    for (int i = 1; i < argc; ++i) {
+      const auto is = [&](const char* name) { return std::strcmp(argv[i], name) == 0 && i + 1 < argc; };
+      if (is("--speed")) {
+        options.speed = std::strtod(argv[++i], nullptr);
+      } else if (is("--acceleration")) {
+        options.acceleration = std::strtod(argv[++i], nullptr);
+      } else if (is("--layers")) {
+        options.layers = std::strtoull(argv[++i], nullptr, 10);
+      } else {
+        measure(argv[i], options);
+      }
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_laying: {}\n", error.what());
+    return 2;
+  }
+  return 0;
+}

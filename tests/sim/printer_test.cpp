@@ -1,0 +1,366 @@
+// The whole printer with its cable, and every fault at work in it.
+#include "sim/printer.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+#include "bench.hpp"
+
+using namespace unicursal::sim;
+
+namespace {
+
+/// A printer that has booted, and a host that writes and listens.
+class Desk {
+ public:
+  explicit Desk(const std::vector<std::string>& faults = {}, std::string_view who = "marlin",
+                const WireModel& wire = {250000, Usb::none}, std::uint64_t seed = 1)
+      : printer(Machine{}, personality(who), wire, plan(faults, seed), moves) {
+    printer.opened();
+    listen(2);
+    heard.clear();
+  }
+
+  /// For so many printer seconds.
+  void listen(double seconds) {
+    const double until = printer.now() + seconds;
+    while (printer.now() < until && !printer.unplugged()) {
+      printer.advance(until);
+      heard += printer.take_output();
+    }
+  }
+  void send(const std::string& text, double seconds = 1) {
+    printer.write(text);
+    listen(seconds);
+  }
+  void send(std::int64_t number, const std::string& command) {
+    send(Bench::numbered(number, command) + "\n");
+  }
+
+  std::size_t count(const std::string& line) const {
+    std::istringstream all(heard);
+    std::size_t found = 0;
+    for (std::string one; std::getline(all, one);) found += one == line ? 1 : 0;
+    return found;
+  }
+  bool said(const std::string& text) const { return heard.find(text) != std::string::npos; }
+  const LineCounts& lines() const { return printer.firmware().counts(); }
+  std::uint64_t struck(const std::string& name) const {
+    const auto found = printer.faults().counts().find(name);
+    return found == printer.faults().counts().end() ? 0 : found->second;
+  }
+
+  MoveList moves;
+  Printer printer;
+  std::string heard;
+
+ private:
+  static FaultPlan plan(const std::vector<std::string>& faults, std::uint64_t seed) {
+    FaultPlan plan;
+    plan.seed = seed;
+    for (const std::string& fault : faults) plan.faults.push_back(parse_fault(fault));
+    return plan;
+  }
+};
+
+}  // namespace
+
+// ---- cable and boot
+
+TEST_CASE("what is sent while the board boots is lost") {
+  MoveList moves;
+  Printer printer(Machine{}, personality("marlin-8bit"), {250000, Usb::none}, {}, moves);
+  printer.opened();
+  printer.write("G28\n");
+  printer.advance(1.4);
+  CHECK_FALSE(printer.has_output());
+  printer.advance(10);
+  CHECK(printer.take_output() == "start\n");
+  CHECK(printer.now() == Approx(1.5).margin(0.01));
+  for (; printer.next_event(); printer.take_output()) printer.advance(100);
+  CHECK(printer.firmware().counts().received == 0);
+  CHECK(printer.firmware().counts().while_booting == 4);
+}
+
+TEST_CASE("an answer takes the line's time both ways, and the chip's") {
+  const auto seconds = [](const WireModel& wire) {
+    Desk desk({}, "marlin", wire);
+    const double before = desk.printer.now();
+    desk.printer.write("G90\n");
+    desk.printer.advance(100);
+    CHECK(desk.printer.take_output() == "ok\n");
+    return desk.printer.now() - before;
+  };
+  CHECK(seconds({250000, Usb::none}) == Approx(7 * 10 / 250000.0));
+  CHECK(seconds({115200, Usb::none}) == Approx(7 * 10 / 115200.0));
+  CHECK(seconds({250000, Usb::ftdi}) == Approx(5 * 10 / 250000.0 + 0.016));
+  CHECK(seconds({250000, Usb::cdc}) <= 0.00128);
+}
+
+TEST_CASE(
+    "300 lines without waiting: most bytes are lost in silence, and the next newline provokes a resend") {
+  Desk desk;
+  std::string blast;
+  for (int i = 1; i <= 300; ++i) blast += Bench::numbered(i, fmt::format("G1 X{} F600", i % 2 * 150)) + "\n";
+  desk.send(blast, 600);
+  CHECK(desk.printer.firmware().buffer().lost() > blast.size() / 2);
+  CHECK_FALSE(desk.said("Error"));
+  desk.heard.clear();
+  desk.listen(3600);
+  CHECK(desk.heard.empty());
+  desk.send("\n");
+  CHECK(desk.said("Resend: "));
+}
+
+TEST_CASE("a board with its reset on DTR resets when DTR rises, others do not") {
+  Desk eight_bit({}, "marlin-8bit"), thirty_two({}, "marlin");
+  for (Desk* desk : {&eight_bit, &thirty_two}) {
+    desk->printer.opened(false);
+    desk->listen(3);
+    CHECK_FALSE(desk->said("start"));
+    desk->printer.opened(true);
+    desk->listen(3);
+  }
+  CHECK(eight_bit.count("start") == 1);
+  CHECK_FALSE(thirty_two.said("start"));
+}
+
+TEST_CASE("time may pass in any portions") {
+  const auto story = [](double portion) {
+    Desk desk({"bitflip:0.002", "noise:0.05"}, "marlin-advanced-ok");
+    desk.printer.write("M155 S1\nM104 S50\nG28\nG1 X20 F1200\nM105\n");
+    for (double until = desk.printer.now(); until < 30; until += portion) {
+      while (desk.printer.now() < until) {
+        desk.printer.advance(until);
+        desk.heard += desk.printer.take_output();
+      }
+    }
+    desk.listen(35 - desk.printer.now());
+    return desk.heard;
+  };
+  CHECK(story(30) == story(0.37));
+}
+
+// ---- faults on the way to the printer
+
+TEST_CASE(
+    "bit flips: damaged lines are asked for again, unless the checksum cannot see it; those are counted") {
+  Desk desk({"bitflip:0.02"});
+  std::uint64_t sent = 0;
+  for (std::int64_t number = 1; desk.struck("bitflip") < 3000; ++sent) {
+    desk.send(Bench::numbered(number, "G1 X10 Y10") + "\n", 0.01);
+    number = desk.printer.firmware().last_line() + 1;
+    if (number > 100000) number = 1;
+  }
+  CHECK(desk.lines().checksum_errors > 500);
+  CHECK(desk.lines().disguised > 0);      // an N that became another letter
+  CHECK(desk.lines().unseen_damage > 0);  // two flips of the same bit
+  CHECK(desk.lines().unseen_damage < sent / 100);
+}
+
+TEST_CASE("damage that an 8-bit exclusive or cannot see is taken, and counted apart") {
+  std::string line = Bench::numbered(1, "G1 X12 Y12") + "\n";
+  std::vector<WireByte> bytes;
+  for (const char byte : line) bytes.push_back({byte, false});
+  for (const char axis : {'X', 'Y'}) {  // the same bit in both: X12 Y12 becomes X02 Y02
+    WireByte& tens = bytes[line.find(axis) + 1];
+    tens = {static_cast<char>(tens.value ^ 1), true};
+  }
+  MoveList moves;
+  const auto firmware = make_firmware(Machine{}, personality("marlin"), moves, [](std::string_view) {});
+  firmware->receive(bytes);
+  CHECK(firmware->counts().accepted == 1);
+  CHECK(firmware->counts().unseen_damage == 1);
+  firmware->run_down();
+  CHECK(moves.moves.at(0).to.x == 2);
+}
+
+TEST_CASE("lost bytes: the line no longer fits its checksum") {
+  Desk desk({"lostbyte@line=1"});
+  desk.send(1, "G90");
+  desk.send(2, "M83");  // its first byte is the one that is lost, so that it looks like a line without number
+  CHECK(desk.struck("lostbyte") == 1);
+  CHECK(desk.lines().accepted == 1);
+  CHECK(desk.lines().disguised == 1);
+}
+
+TEST_CASE("merged lines: one that lost its end takes the next one with it") {
+  Desk desk({"merge@line=1"});
+  desk.send(1, "G90");
+  desk.send(2, "M83");
+  CHECK(desk.count("ok") == 1);
+  desk.send(3, "M84");
+  CHECK(desk.struck("merge") == 1);
+  CHECK(desk.said("Error:"));
+  CHECK(desk.said("Resend: 2"));
+}
+
+TEST_CASE("false alarms: a good line is asked for again") {
+  Desk desk({"falsealarm@line=2"});
+  desk.send(1, "G90");
+  desk.send(2, "M83");
+  CHECK(desk.said("Error:checksum mismatch, Last Line: 1\nResend: 2\nok\n"));
+  desk.send(2, "M83");
+  CHECK(desk.lines().accepted == 2);
+}
+
+// ---- faults on the way back
+
+TEST_CASE("oks are lost, doubled, misspelt") {
+  const auto [fault, oks] = GENERATE(table<std::string, std::size_t>({
+      {"lostok@line=2", 2},
+      {"doubleok@line=2", 4},
+  }));
+  Desk desk({fault});
+  for (int i = 1; i <= 3; ++i) desk.send(i, "G90");
+  CHECK(desk.count("ok") == oks);
+}
+
+TEST_CASE("a misspelt ok is none") {
+  Desk desk({"brokenok:1"});
+  for (int i = 1; i <= 40; ++i) desk.send(i, "G90");
+  CHECK(desk.struck("brokenok") == 40);
+  CHECK(desk.count("ok") < 20);
+  CHECK(desk.lines().accepted == 40);
+}
+
+TEST_CASE("requests to resend are lost, or doubled") {
+  const auto [fault, resends] = GENERATE(table<std::string, std::size_t>({
+      {"lostresend:1", 0},
+      {"doubleresend:1", 2},
+  }));
+  Desk desk({fault});
+  desk.send("N1 G28*0\n");
+  CHECK(desk.count("Resend: 1") == resends);
+  CHECK(desk.count("ok") == 1);
+}
+
+TEST_CASE("noise, invalid UTF-8 and NULs come between lines, and the lines stay whole") {
+  const std::string fault = GENERATE("noise:1", "badutf8:1", "nul:1");
+  Desk desk({fault});
+  for (int i = 1; i <= 20; ++i) desk.send(i, "G90");
+  CHECK(desk.count("ok") == 20);
+  CHECK(desk.heard.size() > 20 * 5);
+  if (fault == "nul:1") CHECK(desk.heard.find('\0') != std::string::npos);
+  if (fault == "badutf8:1") CHECK(desk.said("\xff\xfe"));
+}
+
+TEST_CASE("bytes of replies are flipped or lost") {
+  Desk flipped({"replyflip:0.2"}), lost({"lostreply:0.2"});
+  for (int i = 1; i <= 100; ++i) {
+    flipped.send(i, "G90");
+    lost.send(i, "G90");
+  }
+  CHECK(flipped.heard.size() == 300);
+  CHECK(flipped.count("ok") < 80);
+  CHECK(lost.heard.size() < 270);
+  CHECK(lost.heard.size() > 210);
+}
+
+TEST_CASE("slow replies come up to so many seconds late, in order") {
+  Desk desk({"slow:2"});
+  const double before = desk.printer.now();
+  for (int i = 0; i < 20; ++i) desk.printer.write("M114\n");
+  desk.listen(60);
+  CHECK(desk.count("ok") == 20);
+  CHECK(desk.struck("slow") == 40 + 7);
+  CHECK(before > 0);
+}
+
+// ---- things that happen to the printer
+
+TEST_CASE("a stall: nothing is read or answered, moves go on, then all is made up for") {
+  Desk desk({"stall:5@line=2"});
+  desk.send(1, "G91");
+  desk.send(Bench::numbered(2, "G1 X10 F600") + "\n", 0.01);
+  desk.heard.clear();
+  desk.send(3, "M114");
+  desk.listen(2);
+  CHECK(desk.heard.empty());
+  CHECK(desk.moves.moves.size() == 1);
+  desk.listen(3);
+  CHECK(desk.said("X:10.00"));
+}
+
+TEST_CASE("silence: it never answers again") {
+  Desk desk({"silence@line=2"});
+  desk.send(1, "G90");
+  desk.send(2, "G90");
+  desk.heard.clear();
+  for (int i = 3; i < 10; ++i) desk.send(i, "G90");
+  desk.listen(3600);
+  CHECK(desk.heard.empty());
+}
+
+TEST_CASE("a cable that is pulled loses what was on its way, while the printer works on") {
+  Desk desk({"disconnect:10@line=2"});
+  desk.send(1, "G91");
+  desk.send(Bench::numbered(2, "G1 X10 F600") + "\n", 5);
+  REQUIRE(desk.printer.unplugged());
+  const double pulled = desk.printer.now();
+  CHECK(desk.printer.plug_time() == Approx(pulled + 10));
+  desk.printer.write("M112\n");
+  desk.printer.advance(desk.printer.plug_time());
+  CHECK(desk.moves.moves.size() == 1);
+  CHECK_FALSE(desk.printer.has_output());
+  desk.printer.plug_in();
+  desk.heard.clear();
+  desk.send("M114\n");
+  CHECK(desk.said("X:10.00"));  // a 32-bit board on USB has not been reset by that
+}
+
+TEST_CASE("a reset in mid-print: it says start and has forgotten the line number") {
+  Desk desk({"reset@line=2"});
+  desk.send(1, "G90");
+  desk.send(2, "G90");
+  CHECK(desk.count("start") == 1);
+  desk.heard.clear();
+  desk.send(3, "G90");
+  CHECK(desk.said("Last Line: 0\nResend: 1\nok\n"));
+}
+
+TEST_CASE("heaters and thermistor break at their moment, and the firmware stops itself with the reason") {
+  const auto [fault, reason] = GENERATE(table<std::string, std::string>({
+      {"heaterfail@t=400", "Error:Thermal Runaway, system stopped! Heater_ID: 0"},
+      {"bedfail@t=400", "Error:Thermal Runaway, system stopped! Heater_ID: bed"},
+      {"runaway@t=400", "Error:MAXTEMP triggered, system stopped! Heater_ID: 0"},
+      {"thermistor@t=400", "Error:MINTEMP triggered, system stopped! Heater_ID: 0"},
+  }));
+  Desk desk({fault});
+  desk.send("M104 S210\nM140 S60\n", 390);
+  CHECK_FALSE(desk.said("Error:"));
+  desk.listen(200);
+  CHECK(desk.count(reason) == 1);
+  CHECK(desk.count("//action:poweroff") == 1);
+}
+
+TEST_CASE("filament runs out, and the host is told so by actions") {
+  Desk desk({"runout@line=2"});
+  desk.send(1, "G90");
+  desk.send(2, "G90");
+  CHECK(desk.count("//action:out_of_filament T0") == 1);
+}
+
+TEST_CASE("words and ends of one's own, at every command of a kind") {
+  Desk desk({"say://action:pause@command=G28", "fatal:Fan stopped@t=100"});
+  desk.send("G28\n", 10);
+  desk.send(Bench::numbered(1, "G28 X") + "\n", 10);
+  desk.send("G280\n", 10);
+  CHECK(desk.count("//action:pause") == 2);
+  desk.listen(100);
+  CHECK(desk.said("Error:Fan stopped\nError:Printer halted. kill() called!\n"));
+}
+
+TEST_CASE("the same seed strikes the same way, another one does not, and one fault more changes nothing") {
+  const auto errors = [](const std::vector<std::string>& faults, std::uint64_t seed) {
+    Desk desk(faults, "marlin", {250000, Usb::none}, seed);
+    std::vector<std::string> heard;
+    for (int i = 1; i <= 200; ++i) desk.send(fmt::format("M117 {}\n", i));
+    return desk.heard;
+  };
+  CHECK(errors({"lostok:0.1"}, 3) == errors({"lostok:0.1"}, 3));
+  CHECK(errors({"lostok:0.1"}, 3) != errors({"lostok:0.1"}, 4));
+  CHECK(errors({"lostok:0.1"}, 3) == errors({"lostok:0.1", "replyflip:0"}, 3));
+}
