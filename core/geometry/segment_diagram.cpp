@@ -322,15 +322,23 @@ class Judge {
   Vec2 nearest_point(const Site& site, const Vec2& p) const {
     if (!site.segment) return point(site.index);
     const Segment& s = segments_[site.index];
-    return s.a + std::clamp((p - s.a).dot(s.b - s.a) / (s.b - s.a).squaredNorm(), 0.0, 1.0) * (s.b - s.a);
+    return s.a + std::clamp(along(site.index, p), 0.0, 1.0) * (s.b - s.a);
   }
 
-  /// Nothing else is nearer than the three sites.
-  bool is_vertex(const Vertex& v, const Site& site) const {
+  double distance(const Site& site, const Vec2& p) const { return (nearest_point(site, p) - p).norm(); }
+
+  /// The sites themselves are equally far, not only the lines through them.
+  bool meets(const Vertex& v, const std::array<Site, 3>& sites) const {
     if (!(v.error < vertex_tolerance) || !v.position.allFinite()) return false;
-    const double own = (nearest_point(site, v.position) - v.position).norm();
-    const Site other = nearest(v.position);
-    return (nearest_point(other, v.position) - v.position).norm() > own - vertex_tolerance;
+    const double own = distance(sites[0], v.position);
+    return std::abs(distance(sites[1], v.position) - own) < 2 * vertex_tolerance &&
+           std::abs(distance(sites[2], v.position) - own) < 2 * vertex_tolerance;
+  }
+
+  /// And nothing else is nearer.
+  bool is_vertex(const Vertex& v, const std::array<Site, 3>& sites) const {
+    return meets(v, sites) &&
+           distance(nearest(v.position), v.position) > distance(sites[0], v.position) - vertex_tolerance;
   }
 
   /// The Voronoi vertex of a face, computed from its sites in one order whatever CGAL's is.
@@ -348,17 +356,18 @@ class Judge {
   /// hardly turn may send Newton's method to the wrong root. Then start again from the circle through the
   /// sites' nearest points.
   Vec2 improved(const Vec2& rounded, const Site& a, const Site& b, const Site& c) const {
+    const std::array sites{a, b, c};
     const Vertex usual = polished(rounded, a, b, c);
     const double moved = (usual.position - rounded).norm();
-    const double near = most_polishing_move * (nearest_point(a, rounded) - rounded).norm();
-    if (usual.error < vertex_tolerance && (moved <= near || is_vertex(usual, a))) return usual.position;
+    const bool near = moved <= most_polishing_move * distance(a, rounded);
+    if (near ? meets(usual, sites) : is_vertex(usual, sites)) return usual.position;
     const Vec2 centre = (middle(a) + middle(b) + middle(c)) / 3;
     Vec2 p = centre;
     for (int round = 0; round < most_restarts; ++round) {
       p = start_near(p, a, b, c);
       if (!p.allFinite()) break;
       const Vertex again = polished(p, a, b, c);
-      if (is_vertex(again, a)) return again.position;
+      if (is_vertex(again, sites)) return again.position;
     }
     return rounded.allFinite() ? rounded : centre;
   }
@@ -460,11 +469,18 @@ class Judge {
         if (d < best) best = d, index = i;
       });
     }
-    const Segment& s = segments_[index];
-    const double t = (p - s.a).dot(s.b - s.a) / (s.b - s.a).squaredNorm();
-    if (t <= 0) return {index, false};
-    if (t >= 1) return {(index + 1) % curve_.size(), false};
-    return {index, true};
+    const double t = along(index, p);
+    if (t > 0 && t < 1) return {index, true};
+    // At a vertex both of its segments are as near, but for rounding.
+    const std::size_t n = curve_.size(), next = (index + 1) % n, before = (index + n - 1) % n;
+    if (t <= 0) return along(before, p) < 1 ? Site{before, true} : Site{index, false};
+    return along(next, p) > 0 ? Site{next, true} : Site{next, false};
+  }
+
+  /// Where the foot of `p` lies on a segment: 0 at its start, 1 at its end.
+  double along(std::size_t segment, const Vec2& p) const {
+    const Vec2 d = segments_[segment].b - segments_[segment].a;
+    return (p - segments_[segment].a).dot(d) / d.squaredNorm();
   }
 
   void add_border() {

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/curve/clearance.hpp"
+#include "core/curve/resample.hpp"
 #include "core/geometry/lattice_owners.hpp"
 #include "tests/core/support/shapes.hpp"
 
@@ -164,4 +166,35 @@ TEST_CASE("cells add up however little neighbours turn and however short they ar
       for (const CellIntegrals& cell : *cells) REQUIRE(cell.area > -1e-7);
     }
   }
+}
+
+TEST_CASE("cells add up where everything lies on one grid: borders along borders, ties everywhere") {
+  Random random(17);
+  int checked = 0;
+  for (int round = 0; round < 150; ++round) {
+    std::vector<Ring> inner, outer;
+    const auto add = [&](double x, double y, double width, double height) {
+      inner.push_back({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}});
+      const double m = 1;
+      outer.push_back(
+          {{x - m, y - m}, {x + width + m, y - m}, {x + width + m, y + height + m}, {x - m, y + height + m}});
+    };
+    const auto number = [&](std::size_t below) { return static_cast<double>(1 + random.below(below)); };
+    add(0, 0, 6, 6);
+    for (std::size_t k = random.below(6); k > 0; --k)
+      add(number(10) - 6, number(10) - 6, number(8), number(8));
+    Curve curve{enclosed(inner, FillRule::non_zero).front().outer};
+    const Region islands = enclosed(outer, FillRule::non_zero);
+    if (self_intersections(curve) > 0 || islands.size() != 1) continue;
+    while (random.below(2) == 0) curve = subdivided(curve);
+    const Polygon island{islands.front().outer, {}};
+    const SegmentDiagram diagram = segment_diagram(curve.vertices, island);
+    CAPTURE(round, curve.size());
+    REQUIRE(total(diagram).area == Approx(area(island)).epsilon(1e-12));
+    for (const auto* cells : {&diagram.points, &diagram.segments}) {
+      for (const CellIntegrals& cell : *cells) REQUIRE(cell.area > -1e-9);
+    }
+    ++checked;
+  }
+  CHECK(checked > 80);
 }
