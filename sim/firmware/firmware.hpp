@@ -98,8 +98,6 @@ class Firmware {
   void watch_commands(CommandWatch watch) { command_watch_ = std::move(watch); }
   /// Neither reads nor answers for so long; moves go on.
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
-  /// Finds fault with a line that was good: the next one is asked for again.
-  void ask_again() { refuse(LineVerdict::Kind::wrong_checksum); }
   /// Stops itself for good and says why.
   virtual void die(const std::string& reason);
 
