@@ -39,7 +39,7 @@ struct FairingOptions {
   double alignment =
       0.05;  ///< weight of (33) on the curve as it comes, square bead widths; compare γ_Obj (54)
   double fine_alignment =
-      0.005;  ///< on the subdivided curve: what is aligned stays so, and coverage evens out
+      0.002;  ///< on the subdivided curve: what is aligned stays so, and coverage evens out
   std::vector<OrientationZone> zones;  ///< of the orientation objectives
   double evenness = 1;         ///< weight of (53) in isotropic zones, square bead widths; compare γ_Obj (54)
   double likeness = 0.006;     ///< the same in anisotropic zones

@@ -1,4 +1,4 @@
-// Curves of neighbouring zones joined into one closed curve (paper §3.1, zoning).
+// Curves that run side by side joined into one closed curve (paper §3.1, zoning; end of §4.2, perimeters).
 //
 // Departure from the paper: instead of counting crossings of zone borders among other objectives of a random
 // search (55), every material zone gets its own closed curve, and neighbours are joined in one place each. A
@@ -9,13 +9,15 @@
 #include <vector>
 
 #include "core/curve/curve.hpp"
+#include "core/curve/joints.hpp"
 #include "core/geometry/polygon.hpp"
 
 namespace unicursal::core {
 
 /// One curve through all of them: where two run side by side, a stretch of about a bead width is taken out of
-/// both and the ends are joined crosswise. Nothing when some pair cannot be joined without touching another
-/// strand or the island's border. Preconditions: the curves are simple, disjoint and inside `island`.
-std::optional<Curve> joined(std::vector<Curve> curves, const Polygon& island, double bead_width);
+/// both and the ends are joined by bridges. Nothing when some curve cannot be reached without touching
+/// another strand or the island's border. Preconditions: the curves are simple, disjoint and inside `island`.
+std::optional<Curve> joined(std::vector<Curve> curves, const Polygon& island, double bead_width,
+                            const JointPrice& price = {});
 
 }  // namespace unicursal::core

@@ -16,6 +16,7 @@
 #include "core/graph/cell_graph.hpp"
 #include "core/planner/measure.hpp"
 #include "core/planner/stopwatch.hpp"
+#include "core/planner/with_perimeters.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -24,9 +25,11 @@ namespace {
 constexpr double seed_distance_in_widths = 2.05;  ///< d ÷ bead width; more cells cost time and crowd strands
 constexpr double rows_of_nodes_above = 1.86;      ///< d ÷ bead width; below, zigzags of nodes fit better
 constexpr double needle_growth = 1.75;            ///< of the needles' length with d ÷ bead width
-constexpr double longest_needle = 2;              ///< in the paper's lengths
-constexpr double fewest_cells = 2.5;              ///< an island of less gets a contour
-constexpr int tries = 8;                          ///< with other seeds, before a contour is taken instead
+// Of the asked length, what the chords of a tour may come to: a tour that is too long crowds its strands.
+constexpr double aligned_length = 0.95, free_length = 1.2;
+constexpr double longest_needle = 2;  ///< in the paper's lengths
+constexpr double fewest_cells = 2.5;  ///< an island of less gets a contour
+constexpr int tries = 8;              ///< with other seeds, before a contour is taken instead
 constexpr double least_half_width = 0.15, most_half_width = 0.3;  ///< bead widths, half of what can be passed
 constexpr std::size_t most_pieces = 50;  ///< of materials in one island, to be joined one by one
 constexpr double speck = 0.05;           ///< square bead widths; no curve of its own below that
@@ -60,7 +63,7 @@ GraphOptions graph_options(const Wishes& wishes, double d, const IslandWork& wor
 
 void optimise(Tour& tour, const FillableRegion& part, const Wishes& wishes, IslandWork& work) {
   ShuffleOptions options = work.settings.shuffle;
-  options.weights.length = area(part.region) / work.width() * (wishes.aligned ? 0.95 : 1.2);
+  options.weights.length = area(part.region) / work.width() * (wishes.aligned ? aligned_length : free_length);
   if (wishes.aligned) {
     options.hot = work.settings.aligned_hot;
     options.cold = work.settings.aligned_cold;
@@ -170,6 +173,40 @@ std::optional<Draft> draft_by_material(const FillableRegion& part, IslandWork& w
   return sum;
 }
 
+/// Contours and fill in one curve. `pieces` are the parts of one material each; a single one stands for all.
+std::optional<Draft> draft_with_perimeters(const FillableRegion& part, const std::vector<Polygon>& pieces,
+                                           int count, IslandWork& work) {
+  Draft sum;
+  const FillRegion fill = [&](const FillableRegion& region) -> std::optional<Curve> {
+    std::optional<Draft> draft = first_draft(region, work);
+    if (draft) fair_draft(*draft, region, work);
+    if (!draft || !draft->faired) return std::nullopt;
+    sum.split_and_reconnect += draft->split_and_reconnect;
+    sum.doubled_edges += draft->doubled_edges;
+    return std::move(draft->curve);
+  };
+  std::optional<Outlined> one =
+      with_perimeters(part.region, pieces, {count, work.width(), half_width(work.options)}, fill);
+  if (!one || !sound(one->curve, part.region, work.width())) return std::nullopt;
+  sum.curve = std::move(one->curve);
+  sum.faired = true;
+  sum.perimeters = one->perimeters;
+  return sum;
+}
+
+/// As many contours as can be had: by material, else around all of them, else half as many, down to none.
+std::optional<Draft> draft_with_perimeters(const FillableRegion& part, bool by_material, IslandWork& work) {
+  const std::vector<Polygon> pieces =
+      by_material ? material_pieces(work.island, work.zones, work.width()) : std::vector<Polygon>{};
+  for (int count = work.options.perimeters; count > 0; count /= 2) {
+    if (pieces.size() > 1 && pieces.size() <= most_pieces) {
+      if (std::optional<Draft> found = draft_with_perimeters(part, pieces, count, work)) return found;
+    }
+    if (std::optional<Draft> found = draft_with_perimeters(part, {part.region}, count, work)) return found;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 double half_width(const PlanOptions& options) {
@@ -183,7 +220,9 @@ bool sound(const Curve& curve, const Polygon& region, double bead_width) {
 }
 
 std::optional<Draft> draft(const FillableRegion& part, bool by_material, IslandWork& work) {
-  if (by_material && work.island.zones.size() > 1) {
+  by_material = by_material && work.island.zones.size() > 1;
+  if (std::optional<Draft> found = draft_with_perimeters(part, by_material, work)) return found;
+  if (by_material) {
     if (std::optional<Draft> found = draft_by_material(part, work)) return found;
   }
   std::optional<Draft> found = first_draft(part, work);

@@ -33,6 +33,7 @@ struct Draft {
   Curve curve;
   std::size_t split_and_reconnect = 0, doubled_edges = 0;
   bool faired = false;
+  int perimeters = 0;  ///< contours laid
 };
 
 /// mm: half the least width that can be laid.
@@ -41,8 +42,9 @@ double half_width(const PlanOptions& options);
 /// At least 5 vertices, simple, inside.
 bool sound(const Curve& curve, const Polygon& region, double bead_width);
 
-/// One closed curve through the region. With `by_material` each material gets its own curve where there is
-/// room, and they are joined. Nothing when not even a contour fits.
+/// One closed curve through the region, with the contours that the options ask for. With `by_material` each
+/// material gets its own curve where there is room, and they are joined. Nothing when not even a contour
+/// fits.
 std::optional<Draft> draft(const FillableRegion& part, bool by_material, IslandWork& work);
 
 }  // namespace unicursal::core

@@ -1,6 +1,7 @@
 #include "core/planner/fillable.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace unicursal::core {
 namespace {
@@ -11,7 +12,7 @@ constexpr double inner_margin = 0.06;    ///< between a region's border and its 
 constexpr double corner_area = 0.25;     ///< a thin piece of no more than this is a corner, not a spike
 constexpr double thin_piece = 1.5;       ///< what is narrower than two beads counts as thin above this area
 constexpr double thin_share = 0.04;      ///< of the region's area: above it the region is thin
-constexpr double least_domain = 1e-3;    ///< a smaller domain is rounding dust
+constexpr double least_domain = 1e-3;    ///< a smaller domain, or hole of one, is rounding dust
 
 Region without_thin_pieces(const Polygon& island, const Region& thin, double least_area) {
   Region cut;
@@ -25,7 +26,11 @@ Region without_thin_pieces(const Polygon& island, const Region& thin, double lea
 Region domains_of(const Region& region, double half_width, double w) {
   Region domains = offset(offset(region, -half_width, arc_tolerance * w), half_width - inner_margin * w,
                           arc_tolerance * w);
-  std::erase_if(domains, [&](const Polygon& domain) { return area(domain) < least_domain * w * w; });
+  const double least = least_domain * w * w;
+  std::erase_if(domains, [&](const Polygon& domain) { return area(domain) < least; });
+  // Where growing back closes a gap; a hole round a real one has at least the margin's width.
+  for (Polygon& domain : domains)
+    std::erase_if(domain.holes, [&](const Ring& hole) { return std::abs(signed_area(hole)) < least; });
   return domains;
 }
 

@@ -26,6 +26,7 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, IslandWork& 
   planned.self_intersections = self_intersections(draft.curve);
   planned.outside_segments = segments_outside(draft.curve, BorderIndex(part.region, w));
   planned.faired = draft.faired;
+  planned.perimeters = draft.perimeters;
   planned.split_and_reconnect = draft.split_and_reconnect;
   planned.doubled_edges = draft.doubled_edges;
   const Holes holes = look_for_holes(draft.curve, part.region, w, &work.workers);

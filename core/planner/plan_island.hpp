@@ -28,6 +28,7 @@ struct PlanOptions {
   double bead_width = 0;                ///< mm; the curve's length aims at area ÷ bead_width
   std::optional<double> seed_distance;  ///< mm, the paper's d; follows from the bead width when absent
   double min_bead_width = 0;            ///< mm; what is narrower than this cannot be laid
+  int perimeters = 0;                   ///< contours around the fill, in the same closed curve
   int threads = 1;         ///< that share one island's work; the result is the same for any number
   std::uint64_t seed = 0;  ///< of the random jitter; differ it from layer to layer
   Preset preset = Preset::best;
@@ -67,7 +68,9 @@ struct PlannedCurve {
   BeadPath path;
   double area = 0;  ///< mm², of the piece of the island that this curve fills
   CurveObjectives objectives;
-  bool faired = false;                 ///< the geometric optimiser's result was sound and is what `path` is
+  bool faired = false;  ///< the geometric optimiser's result was sound and is what `path` is
+  int perimeters =
+      0;  ///< contours really laid; fewer than asked for where they do not fit or cannot be joined
   std::size_t zone_crossings = 0;      ///< times the curve passes between material zones
   std::size_t self_intersections = 0;  ///< pairs of non-neighbouring segments that meet; 0 by construction
   std::size_t outside_segments = 0;  ///< segments that touch or cross the island's border; 0 by construction

@@ -13,7 +13,7 @@ struct Settings {
   double edge_alignment = 0.1;  ///< weight of the alignment of edges against that of chords
   // Where directions are asked for, strands order themselves at one temperature and freeze below it.
   double aligned_hot = 0.3, aligned_cold = 0.15;
-  int one_direction_sweeps = 4;  ///< times as many where there is one direction: order is far to go to
+  int one_direction_sweeps = 10;  ///< times as many where there is one direction: order is far to go to
 };
 
 /// `quality` scales how long the optimisers run; 1 is the default, more is better and slower.

@@ -103,6 +103,7 @@ gcode::PrintSettings print_settings(const PreparedJob& prepared) {
 LookaheadOptions lookahead_options(const PreparedJob& prepared) {
   LookaheadOptions options;
   options.plan.bead_width = prepared.job.bead_width;
+  options.plan.perimeters = prepared.job.perimeters;
   options.plan.seed_distance = prepared.job.seed_distance;
   options.plan.min_bead_width = prepared.job.profile.printer.bead_width_range[0];
   options.planner = prepared.planner;

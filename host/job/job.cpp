@@ -154,16 +154,18 @@ void read_flow(const Section& part, Job& job) {
   }
 }
 
+void read_perimeters(const Section& part, Job& job) {
+  const double count =
+      part.number_or("perimeters", 0, between(0, 100, ""), "write a whole number of contours");
+  job.perimeters = static_cast<int>(count);
+  if (count != job.perimeters) part.fail("perimeters", "is no whole number", "write for example 1");
+}
+
 /// Keys that later versions follow; their values are checked all the same.
 void read_future_keys(const Section& part, Job& job) {
   const auto warn = [&](std::string_view key) {
     job.warnings.push_back(fmt::format("{}: {} is not yet followed", job.file.string(), part.path(key)));
   };
-  const double perimeters =
-      part.number_or("perimeters", 0, between(0, 100, ""), "write a whole number of contours");
-  if (perimeters != static_cast<int>(perimeters))
-    part.fail("perimeters", "is no whole number", "write for example 1");
-  if (perimeters > 0) warn("perimeters");
   if (const toml::node* seam = part.find("seam")) {
     if (part.choice("seam", *seam, {"hidden", "scattered", "aligned", "none-extra-travel"}) !=
         "none-extra-travel") {
@@ -206,6 +208,7 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
   job.line_width = read_deposit(part, job.profile.printer);
   read_bead_width(part, job);
   read_flow(part, job);
+  read_perimeters(part, job);
   read_future_keys(part, job);
   ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders, job.warnings);
   job.source.zones = std::move(zones.zones);

@@ -33,6 +33,7 @@ struct Job {
   core::PartSource source;  ///< zones name materials by index
   double bead_width = 0;
   std::optional<double> seed_distance;
+  int perimeters = 0;  ///< contours around the fill
   double flow = 2;
   std::optional<double> line_width;  ///< of a thin line that shows the curve; absent: beads fill their area
   Placement place;

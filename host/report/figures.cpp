@@ -23,6 +23,7 @@ void add(Figures& sum, const core::PlannedCurve& curve) {
   sum.zone_crossings += curve.zone_crossings;
   sum.self_intersections += curve.self_intersections;
   sum.outside_segments += curve.outside_segments;
+  ++sum.curves_by_perimeters[curve.perimeters];
   sum.split_and_reconnect += curve.split_and_reconnect;
   sum.doubled_edges += curve.doubled_edges;
   sum.farthest = std::max(sum.farthest, curve.farthest);
@@ -66,6 +67,7 @@ Figures& operator+=(Figures& sum, const Figures& more) {
   sum.objectives.length += more.objectives.length;
   sum.objectives.smoothness += more.objectives.smoothness;
   sum.objectives.alignment += more.objectives.alignment;
+  for (const auto& [count, curves] : more.curves_by_perimeters) sum.curves_by_perimeters[count] += curves;
   sum.zone_crossings += more.zone_crossings;
   sum.self_intersections += more.self_intersections;
   sum.outside_segments += more.outside_segments;
@@ -82,6 +84,8 @@ Figures& operator+=(Figures& sum, const Figures& more) {
 }
 
 nlohmann::json to_json(const Figures& f) {
+  nlohmann::json perimeters = nlohmann::json::object();
+  for (const auto& [count, curves] : f.curves_by_perimeters) perimeters[std::to_string(count)] = curves;
   return {
       {"islands", f.islands},
       {"empty_islands", f.empty_islands},
@@ -100,6 +104,7 @@ nlohmann::json to_json(const Figures& f) {
         {"length", f.objectives.length},
         {"smoothness", f.objectives.smoothness},
         {"alignment", f.length > 0 ? f.objectives.alignment / f.length : 0.0}}},
+      {"curves_by_perimeters", perimeters},
       {"zone_crossings", f.zone_crossings},
       {"self_intersections", f.self_intersections},
       {"outside_segments", f.outside_segments},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/planner/plan_island.hpp"
@@ -14,9 +15,10 @@ struct Figures {
   std::size_t empty_islands = 0;  ///< too thin for any curve
   std::size_t curves = 0;
   std::size_t vertices = 0;
-  double length = 0;                 ///< of the curves
-  double area = 0;                   ///< that their segments fill
-  core::CurveObjectives objectives;  ///< sums; the normalised one is computed from them
+  double length = 0;                                ///< of the curves
+  double area = 0;                                  ///< that their segments fill
+  core::CurveObjectives objectives;                 ///< sums; the normalised one is computed from them
+  std::map<int, std::size_t> curves_by_perimeters;  ///< contours laid, and by how many curves
   std::size_t zone_crossings = 0;
   std::size_t self_intersections = 0;
   std::size_t outside_segments = 0;

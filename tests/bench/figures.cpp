@@ -24,7 +24,8 @@ struct Worst {
               vertices = 0;
   double farthest = 0, far_area = 0, unfilled = 0, spacing = 0, small_spacing = 0, coverage = 0,
          area_error = 0, alignment = 0, isotropy = 0, anisotropy = 0, variation = 0;
-  std::size_t crossings = 0;
+  std::size_t crossings = 0, judged = 0;
+  double mean_coverage = 0, mean_alignment = 0, mean_isotropy = 0, mean_anisotropy = 0, mean_variation = 0;
   double area = 0, length = 0;
   core::StageTime graph, cycle, fairing, widths;
 };
@@ -53,6 +54,12 @@ void add(Worst& w, const core::Island& island, const core::IslandPlan& plan, dou
       w.isotropy = std::max(w.isotropy, curve.objectives.isotropy);
       w.anisotropy = std::max(w.anisotropy, curve.objectives.anisotropy);
       w.variation = std::max(w.variation, curve.objectives.width_variation);
+      ++w.judged;
+      w.mean_coverage += curve.objectives.normalised_coverage;
+      w.mean_alignment += curve.objectives.alignment;
+      w.mean_isotropy += curve.objectives.isotropy;
+      w.mean_anisotropy += curve.objectives.anisotropy;
+      w.mean_variation += curve.objectives.width_variation;
       w.crossings = std::max(w.crossings, curve.zone_crossings);
     }
   }
@@ -83,9 +90,18 @@ void print(const std::string& name, const Worst& w, double bead_width, const hos
              100 * (w.area / w.length / bead_width - 1));
   fmt::print("    worst island / worst small island               {:.2f} % / {:.0f} %\n", 100 * w.spacing,
              100 * w.small_spacing);
-  fmt::print("  worst E = E_CVT ÷ (A·w²)                          {:.4f}\n", w.coverage);
-  fmt::print("  worst ali, W (E_iso), E_aniso, CV, crossings      {:.4f}, {:.1e}, {:.3f}, {:.4f}, {}\n",
-             w.alignment, w.isotropy, w.anisotropy, w.variation, w.crossings);
+  const double n = static_cast<double>(std::max<std::size_t>(w.judged, 1));
+  fmt::print("  E = E_CVT ÷ (A·w²), mean / worst                  {:.4f} / {:.4f}\n", w.mean_coverage / n,
+             w.coverage);
+  fmt::print("  W = E_iso of isotropic zones, rad²                {:.1e} / {:.1e}\n", w.mean_isotropy / n,
+             w.isotropy);
+  fmt::print("  ali, squared angle to the asked directions, rad²  {:.3f} / {:.3f}\n", w.mean_alignment / n,
+             w.alignment);
+  fmt::print("  E_aniso of anisotropic zones, rad²                {:.3f} / {:.3f}\n", w.mean_anisotropy / n,
+             w.anisotropy);
+  fmt::print("  CV of the bead width over windows of one w        {:.4f} / {:.4f}\n", w.mean_variation / n,
+             w.variation);
+  fmt::print("  crossings of material borders a curve, at most    {}\n", w.crossings);
   fmt::print("  segment areas and unfilled area against the island {:.1e}\n", w.area_error);
   fmt::print("  split-and-reconnect / doubled edges               {} / {}\n", w.reconnected, w.doubled);
   fmt::print(

@@ -75,18 +75,24 @@ TEST_CASE("Patterns are read into their types") {
 }
 
 TEST_CASE("Keys of later versions warn and the rest of the job stands") {
-  for (const char* key : {"perimeters = 2", "seam = \"hidden\"", "flow = \"auto\""}) {
+  for (const char* key : {"seam = \"hidden\"", "flow = \"auto\""}) {
     const Job job = load(replaced(sample_job, "flow = 3.0", key));
     INFO(key);
     REQUIRE(job.warnings.size() == 1);
     CHECK(job.warnings[0].find("not yet followed") != std::string::npos);
     CHECK(job.flow > 0);
   }
-  CHECK(load(replaced(sample_job, "flow = 3.0", "perimeters = 0")).warnings.empty());
   const Job gradient = load(replaced(sample_job, "mixture = \"sea\"",
                                      "mixture = { from = \"sun\", to = \"sea\", along = [1, 0, 0] }"));
   CHECK(gradient.warnings.size() == 1);
   CHECK(gradient.materials.size() == 1);
+}
+
+TEST_CASE("Perimeters are none unless asked for") {
+  CHECK(load(sample_job).perimeters == 0);
+  const Job job = load(replaced(sample_job, "flow = 3.0", "perimeters = 2"));
+  CHECK(job.perimeters == 2);
+  CHECK(job.warnings.empty());
 }
 
 TEST_CASE("Zones of equal mixture share a material, whatever its name and scale") {
