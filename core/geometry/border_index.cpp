@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace unicursal::core {
 namespace {
 
-/// Does the ray from `p` towards −x cross the edge a → b? Half-open in y, so that vertices count once.
-bool crosses_left_ray(const Vec2& a, const Vec2& b, const Vec2& p) {
-  if ((a.y() > p.y()) == (b.y() > p.y())) return false;
-  return p.x() > (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x();
+/// How an edge a → b counts that is met on the way towards +x: downwards it is entered, upwards left.
+int step(const Vec2& a, const Vec2& b) {
+  return a.y() > b.y() ? 1 : -1;
+}
+
+/// The same for the ray from −x to `p`. Half-open in y, so that vertices count once.
+int steps_on_left_ray(const Vec2& a, const Vec2& b, const Vec2& p) {
+  if ((a.y() > p.y()) == (b.y() > p.y())) return 0;
+  return p.x() > (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x() ? step(a, b) : 0;
 }
 
 }  // namespace
@@ -74,11 +80,11 @@ BorderIndex::BorderIndex(const Polygon& polygon, double pitch) : pitch_(pitch) {
   each_square(
       [&](std::ptrdiff_t square, std::size_t e) { entries_[fill[static_cast<std::size_t>(square)]++] = e; });
 
-  inside_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
+  winding_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
   for (std::ptrdiff_t row = 0; row < rows_; ++row) {
-    // Parity at the lower left corner of each square, by the edges that cross this line to its left.
+    // Winding number at the lower left corner of each square, by the edges that cross this line to its left.
     const double y = origin_.y() + static_cast<double>(row) * pitch_;
-    std::vector<double> crossings;
+    std::vector<std::pair<double, int>> crossings;
     const std::ptrdiff_t below = std::max<std::ptrdiff_t>(row - 1, 0);
     std::vector<std::size_t> seen;
     for (std::ptrdiff_t r : {below, row}) {
@@ -92,14 +98,15 @@ BorderIndex::BorderIndex(const Polygon& polygon, double pitch) : pitch_(pitch) {
     for (std::size_t e : seen) {
       const Vec2 &a = edges_[e].a, &b = edges_[e].b;
       if ((a.y() > y) == (b.y() > y)) continue;
-      crossings.push_back((b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()) + a.x());
+      crossings.emplace_back((b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()) + a.x(), step(a, b));
     }
     std::sort(crossings.begin(), crossings.end());
     std::size_t passed = 0;
+    int winding = 0;
     for (std::ptrdiff_t column = 0; column < columns_; ++column) {
       const double x = origin_.x() + static_cast<double>(column) * pitch_;
-      while (passed < crossings.size() && crossings[passed] < x) ++passed;
-      inside_[static_cast<std::size_t>(row * columns_ + column)] = passed % 2;
+      while (passed < crossings.size() && crossings[passed].first < x) winding += crossings[passed++].second;
+      winding_[static_cast<std::size_t>(row * columns_ + column)] = static_cast<std::int16_t>(winding);
     }
   }
 }
@@ -118,28 +125,27 @@ BorderIndex::Range BorderIndex::range(const Box& box) const {
   return {row_of(box.min.y()), row_of(box.max.y()), column_of(box.min.x()), column_of(box.max.x())};
 }
 
-bool BorderIndex::contains(const Vec2& point) const {
+int BorderIndex::winding(const Vec2& point) const {
   const double right = origin_.x() + static_cast<double>(columns_) * pitch_;
   const double upper = origin_.y() + static_cast<double>(rows_) * pitch_;
   if (!(point.x() > origin_.x() && point.y() > origin_.y() && point.x() < right && point.y() < upper))
-    return false;
+    return 0;
   // From the square's known corner go up to the point's height, then right to the point.
   const std::ptrdiff_t row = row_of(point.y()), column = column_of(point.x());
   const auto square = static_cast<std::size_t>(row * columns_ + column);
-  bool inside = inside_[square] != 0;
-  if (start_[square] == start_[square + 1]) return inside;
+  int winding = winding_[square];
   const Vec2 corner = origin_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
   for (std::size_t k = start_[square]; k < start_[square + 1]; ++k) {
     const Vec2 &a = edges_[entries_[k]].a, &b = edges_[entries_[k]].b;
     // Up along x = corner.x from corner.y to point.y …
     if ((a.x() >= corner.x()) != (b.x() >= corner.x())) {
       const double y = (b.y() - a.y()) * (corner.x() - a.x()) / (b.x() - a.x()) + a.y();
-      if (y > corner.y() && y <= point.y()) inside = !inside;
+      if (y > corner.y() && y <= point.y()) winding += a.x() < b.x() ? 1 : -1;
     }
     // … then right along y = point.y.
-    if (crosses_left_ray(a, b, point) != crosses_left_ray(a, b, {corner.x(), point.y()})) inside = !inside;
+    winding += steps_on_left_ray(a, b, point) - steps_on_left_ray(a, b, {corner.x(), point.y()});
   }
-  return inside;
+  return winding;
 }
 
 double BorderIndex::distance(const Vec2& a, const Vec2& b, double limit) const {

@@ -29,7 +29,11 @@ class BorderIndex {
   std::size_t ring_size(std::size_t ring) const { return first_edge_[ring + 1] - first_edge_[ring]; }
 
   /// Even-odd rule; points on the border may go either way.
-  bool contains(const Vec2& point) const;
+  bool contains(const Vec2& point) const { return winding(point) % 2 != 0; }
+
+  /// How often the rings run around a point, counter-clockwise: 1 inside and 0 outside of a sound polygon;
+  /// anything where rounding let a border overlap itself. Summed over the plane it gives the signed area.
+  int winding(const Vec2& point) const;
 
   /// Calls visit(edge number) at least once for every edge that meets the box; may repeat edges.
   template <typename Visit>
@@ -59,9 +63,9 @@ class BorderIndex {
   Vec2 origin_{0, 0};
   double pitch_;
   std::ptrdiff_t columns_ = 1, rows_ = 1;
-  std::vector<std::size_t> start_;    ///< per square, into entries_
-  std::vector<std::size_t> entries_;  ///< edge numbers
-  std::vector<std::uint8_t> inside_;  ///< of each square's left lower corner
+  std::vector<std::size_t> start_;     ///< per square, into entries_
+  std::vector<std::size_t> entries_;   ///< edge numbers
+  std::vector<std::int16_t> winding_;  ///< of each square's left lower corner
 };
 
 /// Distance between two closed segments, zero when they meet.

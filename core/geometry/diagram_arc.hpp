@@ -7,35 +7,31 @@
 
 namespace unicursal::core {
 
-/// A stretch of a cell's border: a straight line, or a parabola over a directrix.
-struct Arc {
-  Vec2 from{0, 0}, to{0, 0};
-  bool parabola = false;
-  Vec2 base{0, 0}, along{0, 0}, focus{0, 0};  ///< parabola: a point and the unit direction of the directrix
+constexpr double rounding_slack = 1e-9;  ///< mm, between things that rounding may make touch or not
 
-  Vec2 at(double s) const { return parabola ? on_parabola(x_at(s)) : Vec2(from + s * (to - from)); }
-  Vec2 derivative(double s) const {
-    if (!parabola) return to - from;
-    const Vec2 f = local(focus);
-    const double slope = (x_at(s) - f.x()) / f.y();
-    return (x_at(1) - x_at(0)) * (along + slope * perpendicular(along));
+/// A stretch of a cell's border as a quadratic Bézier curve, which a straight line and a parabola both are.
+/// It starts and ends exactly where its neighbours do, however badly rounded these points are: cells close,
+/// and what one loses the next one gains.
+struct Arc {
+  Vec2 from{0, 0}, control{0, 0}, to{0, 0};
+
+  Vec2 at(double s) const {
+    return (1 - s) * ((1 - s) * from + s * control) + s * ((1 - s) * control + s * to);
   }
-  Vec2 local(const Vec2& p) const { return {(p - base).dot(along), (p - base).dot(perpendicular(along))}; }
-  double x_at(double s) const {
-    const double x0 = local(from).x(), x1 = local(to).x();
-    return x0 + s * (x1 - x0);
-  }
-  Vec2 on_parabola(double x) const {
-    const Vec2 f = local(focus);
-    const double y = ((x - f.x()) * (x - f.x()) + f.y() * f.y()) / (2 * f.y());
-    return base + x * along + y * perpendicular(along);
-  }
+  Vec2 derivative(double s) const { return 2 * ((1 - s) * (control - from) + s * (to - control)); }
 };
 
-/// Parameters in (0, 1) where an arc passes through a straight edge.
+Arc line(const Vec2& from, const Vec2& to);
+
+/// The parabola of the points as far from `focus` as from the line through `base` along the unit vector
+/// `along`, both ends on it; a straight line where there is none.
+Arc parabola(const Vec2& from, const Vec2& to, const Vec2& focus, const Vec2& base, const Vec2& along);
+
+/// Parameters in (0, 1) where an arc passes through a straight edge, or past its ends within the slack: a cut
+/// too many does no harm.
 std::vector<double> crossings(const Arc& arc, const Vec2& a, const Vec2& b);
 
-/// A box that holds the arc.
+/// A box that holds the arc and the slack around it.
 Box bounds(const Arc& arc);
 
 }  // namespace unicursal::core

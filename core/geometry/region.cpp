@@ -8,7 +8,9 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double grid = 1e6;  ///< grid steps per mm
+constexpr double grid = 1e6;             ///< grid steps per mm
+constexpr double vertices_in_reach = 4;  ///< on straight borders, of the first step of an offset
+constexpr double between_steps = 0.1;    ///< of the tolerance, for what a step leaves to the next
 
 ClipperLib::Path to_path(const Ring& ring) {
   ClipperLib::Path path;
@@ -66,6 +68,29 @@ Region combine(const Region& a, const Region& b, ClipperLib::ClipType type) {
   return to_region(tree);
 }
 
+Region offset_once(const Region& region, double distance, double tolerance) {
+  ClipperLib::ClipperOffset shifter(2.0, tolerance * grid);
+  shifter.AddPaths(to_paths(region), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
+  ClipperLib::PolyTree tree;
+  shifter.Execute(tree, distance * grid);
+  return to_region(tree);
+}
+
+/// mm between vertices, if the border ran straight around the region.
+double vertex_distance(const Region& region) {
+  std::size_t vertices = 0;
+  for (const Polygon& polygon : region) {
+    vertices += polygon.outer.size();
+    for (const Ring& hole : polygon.holes) vertices += hole.size();
+  }
+  return vertices > 0 ? 2 * bounds(region).size().sum() / static_cast<double>(vertices) : 0.0;
+}
+
+void simplify(Polygon& polygon, double tolerance) {
+  polygon.outer = simplified(polygon.outer, tolerance);
+  for (Ring& hole : polygon.holes) hole = simplified(hole, tolerance);
+}
+
 }  // namespace
 
 Region enclosed(const std::vector<Ring>& rings, FillRule rule) {
@@ -99,11 +124,16 @@ Region subtract(const Region& a, const Region& b) {
 }
 
 Region offset(const Region& region, double distance, double tolerance) {
-  ClipperLib::ClipperOffset shifter(2.0, tolerance * grid);
-  shifter.AddPaths(to_paths(region), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
-  ClipperLib::PolyTree tree;
-  shifter.Execute(tree, distance * grid);
-  return to_region(tree);
+  // Clipper's time grows with the square of the vertices within reach. Steps that grow keep them few: the
+  // first ones take away the detail that the later ones would stumble over.
+  Region result = region;
+  double left = std::abs(distance);
+  for (double step = vertices_in_reach * vertex_distance(region); step > 0 && left > 2 * step; step *= 2) {
+    result = offset_once(result, std::copysign(step, distance), tolerance);
+    for (Polygon& polygon : result) simplify(polygon, between_steps * tolerance);
+    left -= step;
+  }
+  return offset_once(result, std::copysign(left, distance), tolerance);
 }
 
 Region opened(const Region& region, double radius, double tolerance) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -19,7 +20,6 @@
 #include "core/geometry/clip.hpp"
 #include "core/geometry/diagram_arc.hpp"
 #include "core/geometry/diagram_frame.hpp"
-#include "core/geometry/random.hpp"
 #include "core/geometry/segment_grid.hpp"
 
 namespace unicursal::core {
@@ -37,10 +37,10 @@ constexpr double vertex_tolerance =
     1e-8;  ///< mm, by which the distances of a vertex's three sites may differ
 constexpr double least_turn =
     1e-12;  ///< sine between two borders below which their meeting point is left as it is
-constexpr double area_tolerance = 3e-10;  ///< of the island's area, by which the cells' sum may differ
-constexpr double least_shake =
-    1e-7;  ///< mm, of a curve whose cells do not add up; ten times that at each attempt
-constexpr int most_shakes = 3;
+constexpr double least_mean =
+    0.99;  ///< squared, of two directions' sum, for neighbours that do not turn back
+constexpr double off_lines =
+    1e-11;  ///< mm, by which the diagram is taken to lie beside the border: beyond rounding, no area
 constexpr double far_away = 20;       ///< diagonals of a piece to the sites that close its diagram
 constexpr double piece_size = 1500;   ///< segments in a piece of the island
 constexpr double small_curve = 2.0;   ///< pieces; below it the island is not divided
@@ -49,7 +49,8 @@ constexpr double first_halo = 0.9;    ///< mean spacings around a piece where se
 constexpr double headroom = 1.1;      ///< of a look that has to reach farther
 constexpr std::size_t pieces_in_memory = 64;
 
-/// A vertex of the curve, or the open segment that leaves it.
+/// A vertex of the curve, or the open segment that leaves it. Points far away that close the diagram count on
+/// from the last vertex.
 struct Site {
   std::size_t index = 0;
   bool segment = false;
@@ -150,11 +151,11 @@ class Judge {
       const auto face = edge->first;
       const auto other = face->neighbor(edge->second);
       if (graph.is_infinite(face) || graph.is_infinite(other)) continue;
-      const auto left = site_of(face->vertex(Graph::ccw(edge->second))->site());
-      const auto right = site_of(face->vertex(Graph::cw(edge->second))->site());
+      const Site left = site_of(face->vertex(Graph::ccw(edge->second))->site());
+      const Site right = site_of(face->vertex(Graph::cw(edge->second))->site());
       // A far site's borders lie outside the island.
-      if (left && right)
-        boundaries.push_back(ordered({*left, *right, centre.at(&*other), centre.at(&*face)}));
+      if (left.index < curve_.size() && right.index < curve_.size())
+        boundaries.push_back(ordered({left, right, centre.at(&*other), centre.at(&*face)}));
     }
     // CGAL's order depends on addresses; sums must not.
     std::sort(boundaries.begin(), boundaries.end());
@@ -177,29 +178,30 @@ class Judge {
     for (const std::size_t i : near_) ends.emplace_back(place(i), place((i + 1) % curve_.size()));
     graph.insert_segments(points.begin(), points.end(), ends.begin(), ends.end());
     const double far = far_away * (box.size().norm() + 1);
-    const Vec2 c = box.center();
     for (const Vec2& way : {Vec2(1, 0.1), Vec2(-0.1, 1), Vec2(-1, -0.1), Vec2(0.1, -1)}) {
-      graph.insert(Graph::Site_2::construct_site_2({c.x() + far * way.x(), c.y() + far * way.y()}));
+      const Vec2 p = box.center() + far * way;
+      vertex_at_.emplace(key_of(p.x(), p.y()), curve_.size() + far_.size());
+      far_.push_back(p);
+      graph.insert(Graph::Site_2::construct_site_2({p.x(), p.y()}));
     }
   }
 
-  std::optional<std::size_t> vertex_of(const Kernel::Point_2& p) const {
+  const Vec2& point(std::size_t index) const {
+    return index < curve_.size() ? curve_[index] : far_[index - curve_.size()];
+  }
+
+  std::size_t vertex_of(const Kernel::Point_2& p) const {
     const auto [first, last] = vertex_at_.equal_range(key_of(p.x(), p.y()));
-    for (auto i = first; i != last; ++i) {
-      if (curve_[i->second] == Vec2(p.x(), p.y())) return i->second;
-    }
-    return std::nullopt;
+    const auto found =
+        std::find_if(first, last, [&](const auto& v) { return point(v.second) == Vec2(p.x(), p.y()); });
+    assert(found != last);
+    return found->second;
   }
 
-  std::optional<Site> site_of(const Graph::Site_2& site) const {
-    if (site.is_point()) {
-      const auto v = vertex_of(site.point());
-      if (!v) return std::nullopt;
-      return Site{*v, false};
-    }
-    const auto a = vertex_of(site.source()), b = vertex_of(site.target());
-    if (!a || !b) return std::nullopt;
-    return Site{(*a + 1) % curve_.size() == *b ? *a : *b, true};
+  Site site_of(const Graph::Site_2& site) const {
+    if (site.is_point()) return {vertex_of(site.point()), false};
+    const std::size_t a = vertex_of(site.source()), b = vertex_of(site.target());
+    return {(a + 1) % curve_.size() == b ? a : b, true};
   }
 
   /// Of a vertex, among those of the piece.
@@ -262,7 +264,7 @@ class Judge {
   };
 
   Residual distance_of(const Site& site, const Vec2& p) const {
-    const Vec2 off = p - curve_[site.index];
+    const Vec2 off = p - point(site.index);
     if (!site.segment) {
       const double d = off.norm();
       return {d, d > 0 ? Vec2(off / d) : Vec2(0, 0)};
@@ -277,23 +279,11 @@ class Judge {
   }
 
   Residual difference(const Site& l, const Site& r, const Vec2& p) const {
-    if (l.segment != r.segment) {
-      const Site &point = l.segment ? r : l, &segment = l.segment ? l : r;
-      if (ends_in(segment.index, point.index)) {
-        // The border to one's own segment is the line at right angles through the common vertex.
-        const Vec2 u = direction(segment.index);
-        return {(p - curve_[point.index]).dot(u), u};
-      }
-    }
-    if (l.segment && r.segment) {
-      const bool forth = (l.index + 1) % curve_.size() == r.index,
-                 back = (r.index + 1) % curve_.size() == l.index;
-      const Vec2 t = direction(l.index) + direction(r.index);
-      if ((forth || back) && t.squaredNorm() > 1) {
-        // Neighbours: their bisector is at right angles to the mean direction, however little they turn.
-        const Vec2 unit = t.normalized();
-        return {(p - curve_[forth ? r.index : l.index]).dot(unit), unit};
-      }
+    // Their border is the line at right angles to the curve there, however little neighbours turn.
+    const std::optional<Joint> end = joint(l, r);
+    if (end && end->direction.squaredNorm() > least_mean) {
+      const Vec2 unit = end->direction.normalized();
+      return {(p - end->end).dot(unit), unit};
     }
     const Residual a = distance_of(l, p), b = distance_of(r, p);
     return {a.value - b.value, a.gradient - b.gradient};
@@ -304,18 +294,24 @@ class Judge {
     double error = 0;  ///< mm, by how much the three distances differ
   };
 
-  /// CGAL's vertices are rounded, badly so where three sites nearly line up; what lies between two versions
-  /// of a border would be counted twice or not at all. Newton's method restores what double precision can
-  /// give.
+  /// CGAL's vertices are rounded, badly so where three sites nearly line up. Newton's method restores what
+  /// double precision can give, with the two of the three conditions that differ most: neighbours that hardly
+  /// turn are as good as one site for any third.
   Vertex polished(Vec2 p, const Site& a, const Site& b, const Site& c) const {
     Vertex best{p, std::numeric_limits<double>::infinity()};
-    for (int step = 0; step < most_polishing_steps; ++step) {
-      const Residual r = difference(a, b, p), s = difference(a, c, p);
-      const double error = std::max(std::abs(r.value), std::abs(s.value));
+    for (int step = 0; step < most_polishing_steps && p.allFinite(); ++step) {
+      const std::array all{difference(a, b, p), difference(b, c, p), difference(c, a, p)};
+      double error = 0, determinant = 0;
+      std::size_t first = 0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        error = std::max(error, std::abs(all[k].value));
+        const double turn = cross(all[k].gradient, all[(k + 1) % 3].gradient);
+        if (std::abs(turn) > std::abs(determinant)) determinant = turn, first = k;
+      }
       if (!(error < best.error)) break;
       best = {p, error};
-      const double determinant = cross(r.gradient, s.gradient);
       if (std::abs(determinant) < least_turn) break;
+      const Residual &r = all[first], &s = all[(first + 1) % 3];
       p -= Vec2(r.value * s.gradient.y() - s.value * r.gradient.y(),
                 s.value * r.gradient.x() - r.value * s.gradient.x()) /
            determinant;
@@ -324,7 +320,7 @@ class Judge {
   }
 
   Vec2 nearest_point(const Site& site, const Vec2& p) const {
-    if (!site.segment) return curve_[site.index];
+    if (!site.segment) return point(site.index);
     const Segment& s = segments_[site.index];
     return s.a + std::clamp((p - s.a).dot(s.b - s.a) / (s.b - s.a).squaredNorm(), 0.0, 1.0) * (s.b - s.a);
   }
@@ -339,15 +335,13 @@ class Judge {
 
   /// The Voronoi vertex of a face, computed from its sites in one order whatever CGAL's is.
   Vec2 vertex_of(const Graph& graph, Graph::Finite_faces_iterator face) const {
-    std::array<std::optional<Site>, 3> sites;
+    std::array<Site, 3> sites;
     for (int i = 0; i < 3; ++i) sites[static_cast<std::size_t>(i)] = site_of(face->vertex(i)->site());
     const auto first = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
     const auto at = [&](int i) { return face->vertex((first + i) % 3)->site(); };
     const auto p = graph.geom_traits().construct_svd_vertex_2_object()(at(0), at(1), at(2));
-    const Vec2 rounded(p.x(), p.y());
-    if (!sites[0] || !sites[1] || !sites[2]) return rounded;
-    const auto site = [&](int i) { return *sites[static_cast<std::size_t>((first + i) % 3)]; };
-    return improved(rounded, site(0), site(1), site(2));
+    const auto site = [&](int i) { return sites[static_cast<std::size_t>((first + i) % 3)]; };
+    return improved({p.x(), p.y()}, site(0), site(1), site(2));
   }
 
   /// Two points and a parallel segment make CGAL's formula divide by almost nothing, and neighbours that
@@ -358,28 +352,43 @@ class Judge {
     const double moved = (usual.position - rounded).norm();
     const double near = most_polishing_move * (nearest_point(a, rounded) - rounded).norm();
     if (usual.error < vertex_tolerance && (moved <= near || is_vertex(usual, a))) return usual.position;
-    Vec2 p = (middle(a) + middle(b) + middle(c)) / 3;
+    const Vec2 centre = (middle(a) + middle(b) + middle(c)) / 3;
+    Vec2 p = centre;
     for (int round = 0; round < most_restarts; ++round) {
       p = start_near(p, a, b, c);
       if (!p.allFinite()) break;
       const Vertex again = polished(p, a, b, c);
       if (is_vertex(again, a)) return again.position;
     }
-    return rounded;
+    return rounded.allFinite() ? rounded : centre;
+  }
+
+  /// A common end of two sites, and the direction of the curve there.
+  struct Joint {
+    Vec2 end, direction;
+  };
+
+  std::optional<Joint> joint(const Site& l, const Site& r) const {
+    if (l.segment && r.segment) {
+      const bool forth = (l.index + 1) % curve_.size() == r.index,
+                 back = (r.index + 1) % curve_.size() == l.index;
+      if (!forth && !back) return std::nullopt;
+      return Joint{curve_[forth ? r.index : l.index], direction(l.index) + direction(r.index)};
+    }
+    const Site &segment = l.segment ? l : r, &end = l.segment ? r : l;
+    if (!segment.segment || !ends_in(segment.index, end.index)) return std::nullopt;
+    return Joint{curve_[end.index], direction(segment.index)};
   }
 
   /// A guess at the vertex: the centre of a circle that touches the sites where they are nearest to `p`.
   Vec2 start_near(const Vec2& p, const Site& a, const Site& b, const Site& c) const {
     for (const auto& [l, r, third] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
-      if (!l.segment || !r.segment) continue;
-      const bool forth = (l.index + 1) % curve_.size() == r.index,
-                 back = (r.index + 1) % curve_.size() == l.index;
-      if (!forth && !back) continue;
-      // Neighbours touch the circle in their common vertex.
-      const Vec2 v = curve_[forth ? r.index : l.index];
-      const Vec2 m = perpendicular(direction(l.index) + direction(r.index)).normalized();
-      const Vec2 off = v - nearest_point(third, p);
-      return v - off.squaredNorm() / (2 * m.dot(off)) * m;
+      const std::optional<Joint> end = joint(l, r);
+      if (!end) continue;
+      // The circle touches both there.
+      const Vec2 m = perpendicular(end->direction).normalized();
+      const Vec2 off = end->end - nearest_point(third, p);
+      return end->end - off.squaredNorm() / (2 * m.dot(off)) * m;
     }
     const Vec2 q = nearest_point(a, p), u = nearest_point(b, p) - q, v = nearest_point(c, p) - q;
     const double u2 = u.squaredNorm(), v2 = v.squaredNorm();
@@ -387,21 +396,16 @@ class Judge {
   }
 
   Vec2 middle(const Site& site) const {
-    return site.segment ? Vec2((segments_[site.index].a + segments_[site.index].b) / 2) : curve_[site.index];
+    return site.segment ? Vec2((segments_[site.index].a + segments_[site.index].b) / 2) : point(site.index);
   }
 
   Arc arc_between(const Site& l, const Site& r, const Vec2& from, const Vec2& to) const {
-    Arc arc{from, to, false, {0, 0}, {0, 0}, {0, 0}};
-    if (l.segment == r.segment) return arc;
+    if (l.segment == r.segment) return line(from, to);
     const Site& point = l.segment ? r : l;
     const Site& segment = l.segment ? l : r;
-    if (ends_in(segment.index, point.index)) return arc;
+    if (ends_in(segment.index, point.index)) return line(from, to);
     const Segment& s = segments_[segment.index];
-    arc.base = s.a;
-    arc.along = (s.b - s.a).normalized();
-    arc.focus = curve_[point.index];
-    arc.parabola = std::abs(arc.local(arc.focus).y()) > 1e-12 * (s.b - s.a).norm();
-    return arc;
+    return parabola(from, to, curve_[point.index], s.a, direction(segment.index));
   }
 
   /// Both cells' share of the border between them, clipped by the island.
@@ -418,16 +422,32 @@ class Judge {
       const BorderEdge& edge = border_.edges()[e];
       for (const double s : crossings(arc, edge.a, edge.b)) {
         cuts.push_back(s);
-        pieces_[e].push_back((arc.at(s) - edge.a).dot(edge.b - edge.a) / (edge.b - edge.a).squaredNorm());
+        cut_border(e, arc.at(s));
+      }
+      // Whether it reaches the border is a matter of rounding, and not the same for edges that coincide.
+      for (const Vec2& end : {arc.from, arc.to}) {
+        if (distance_to_segment(end, edge.a, edge.b) < rounding_slack) cut_border(e, end);
       }
     }
     std::sort(cuts.begin(), cuts.end());
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-      if (!border_.contains(arc.at((cuts[k] + cuts[k + 1]) / 2))) continue;
+      const int winding = border_.winding(arc.at((cuts[k] + cuts[k + 1]) / 2) + aside());
+      if (winding == 0) continue;
       note_ends(left, arc, cuts[k], cuts[k + 1]);
-      integrate(left, arc, cuts[k], cuts[k + 1], 1);
-      integrate(right, arc, cuts[k], cuts[k + 1], -1);
+      integrate(left, arc, cuts[k], cuts[k + 1], winding);
+      integrate(right, arc, cuts[k], cuts[k + 1], -winding);
     }
+  }
+
+  /// Where cells' borders run along the island's border, both must go to the same side of each other: as if
+  /// the whole diagram lay a little aside.
+  static Vec2 aside() { return off_lines * Vec2(0.8090169943749475, 0.5877852522924731); }
+
+  /// Notes that a cell's border comes to edge `e` at `p`; once too often does no harm.
+  void cut_border(std::size_t e, const Vec2& p) {
+    const BorderEdge& edge = border_.edges()[e];
+    const Vec2 along = edge.b - edge.a;
+    pieces_[e].push_back(std::clamp((p - edge.a).dot(along) / along.squaredNorm(), 0.0, 1.0));
   }
 
   Site nearest(const Vec2& p) const {
@@ -457,13 +477,13 @@ class Judge {
       cuts.push_back(0);
       cuts.push_back(1);
       std::sort(cuts.begin(), cuts.end());
-      const Arc arc{edge.a, edge.b, false, {0, 0}, {0, 0}, {0, 0}};
+      const Arc arc = line(edge.a, edge.b);
       for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
         if (cuts[k + 1] <= cuts[k]) continue;
         const Vec2 middle = arc.at((cuts[k] + cuts[k + 1]) / 2);
         // Along the lines between pieces, edges outside the island run back and forth.
-        if (cut_off && !frame_.island->contains(middle)) continue;
-        const Site site = nearest(middle);
+        if (cut_off && frame_.island->winding(middle) == 0) continue;
+        const Site site = nearest(middle - aside());
         note_ends(site, arc, cuts[k], cuts[k + 1]);
         if (has(site)) integrate(site, arc, cuts[k], cuts[k + 1], 1);
       }
@@ -488,6 +508,7 @@ class Judge {
   BorderIndex border_;
   std::vector<std::vector<double>> pieces_;  ///< per border edge, where cells' borders meet it
   std::unordered_multimap<std::uint64_t, std::size_t> vertex_at_;
+  std::vector<Vec2> far_;  ///< the points that close the diagram
   PieceCells result_;
 };
 
@@ -578,21 +599,9 @@ void add(CellIntegrals& sum, const CellIntegrals& more) {
   sum.second_moment += more.second_moment;
 }
 
-double total_area(const SegmentDiagram& diagram) {
-  double sum = 0;
-  for (const auto* cells : {&diagram.points, &diagram.segments}) {
-    for (const CellIntegrals& cell : *cells) sum += cell.area;
-  }
-  return sum;
-}
+}  // namespace
 
-Ring shaken(Ring curve, double distance, std::uint64_t seed) {
-  Random random(seed);
-  for (Vec2& v : curve) v += distance * Vec2(random.uniform(-1, 1), random.uniform(-1, 1));
-  return curve;
-}
-
-SegmentDiagram diagram_once(const Ring& curve, const Polygon& island, Workers* workers) {
+SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island, Workers* workers) {
   const CurveIndex all(curve);
   const Pieces pieces(all, island);
   Workers serial(1);
@@ -611,25 +620,6 @@ SegmentDiagram diagram_once(const Ring& curve, const Polygon& island, Workers* w
     }
   }
   return diagram;
-}
-
-}  // namespace
-
-SegmentDiagram segment_diagram(const Ring& curve, const Polygon& island, Workers* workers) {
-  const double whole = area(island);
-  SegmentDiagram best;
-  double least_error = std::numeric_limits<double>::infinity(), shake = 0;
-  for (int attempt = 0; attempt <= most_shakes; ++attempt) {
-    SegmentDiagram diagram = diagram_once(
-        attempt == 0 ? curve : shaken(curve, shake, static_cast<std::uint64_t>(attempt)), island, workers);
-    const double error = std::abs(total_area(diagram) - whole);
-    // What shaking does not mend lies in the border: a ring that touches itself within rounding.
-    const bool better = error < least_error / 2;
-    if (error < least_error) least_error = error, best = std::move(diagram);
-    if (!better || least_error < area_tolerance * whole) break;
-    shake = attempt == 0 ? least_shake : 10 * shake;
-  }
-  return best;
 }
 
 }  // namespace unicursal::core

@@ -5,9 +5,9 @@
 // not as k = 10 straight pieces. All integrals run along the cells' borders (Green) with Gauss points enough
 // to be exact for the polynomials that occur, in a form that vanishes along lines towards the site.
 //
-// Symmetric curves (straight strands side by side, their vertices in line) have places as far from many sites
-// as from three, and rounding may take them apart wrongly. The cells' areas must add up to the island's;
-// where they do not, vertices are moved by 1e-7 mm or a little more and all is computed again.
+// Areas add up to that of the island to 1e-12 whatever the rounding: neighbouring cells share the very arcs
+// between them, and arcs count as often as the island's border winds around them, which clipping on a grid
+// makes −1 in places where it turns the sides of a spike around.
 #pragma once
 
 #include <vector>

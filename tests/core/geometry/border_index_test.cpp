@@ -19,6 +19,28 @@ TEST_CASE("inside by the grid is inside by the even-odd rule") {
   }
 }
 
+TEST_CASE("winding numbers count overlaps, and overlaps the wrong way round as well") {
+  // Two squares that overlap, a hole in the first, and a tail whose sides have changed places.
+  const Polygon odd{{{0, 0}, {6, 0}, {6, 2.6}, {9, 2.4}, {9, 2.6}, {6, 2.4}, {6, 6}, {0, 6}},
+                    {{{4, 4}, {8, 4}, {8, 5.5}, {4, 5.5}}, {{1, 1}, {1, 2}, {2, 2}, {2, 1}}}};
+  const double pitch = GENERATE(0.1, 0.5, 1.0, 20.0);
+  const BorderIndex border(odd, pitch);
+  CHECK(border.winding({3, 3}) == 1);
+  CHECK(border.winding({5, 5}) == 2);
+  CHECK(border.winding({7, 5}) == 1);
+  CHECK(border.winding({1.5, 1.5}) == 0);
+  CHECK(border.winding({8.9, 2.5}) == 1);
+  CHECK(border.winding({6.1, 2.5}) == -1);
+  CHECK(border.winding({7, 3}) == 0);
+  // Summed over the plane they give the signed area.
+  Random random(5);
+  const int count = 200000;
+  const double signed_sum = signed_area(odd.outer) + signed_area(odd.holes[0]) + signed_area(odd.holes[1]);
+  double sum = 0;
+  for (int k = 0; k < count; ++k) sum += border.winding({random.uniform(0, 9), random.uniform(0, 6)});
+  CHECK(sum / count * 54 == Approx(signed_sum).epsilon(0.02));
+}
+
 TEST_CASE("points far away are outside") {
   const BorderIndex border(rectangle(2, 1), 0.3);
   CHECK_FALSE(border.contains({1e9, 0.5}));

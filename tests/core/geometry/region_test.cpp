@@ -76,3 +76,29 @@ TEST_CASE("simplified rings stay within the tolerance") {
     REQUIRE(d <= 0.01 + 1e-12);
   }
 }
+
+TEST_CASE("an offset of thousands of vertices keeps its distance, smooth outline or rough") {
+  // In one step Clipper takes minutes over the rough ones.
+  const double noise = GENERATE(0.0, 1e-3, 0.1, 0.3), distance = GENERATE(-1.0, 0.5);
+  const double tolerance = 0.01;
+  Random random(4);
+  Ring outer;
+  const int sides = 3000;
+  for (int k = 0; k < sides; ++k) {
+    const double turn = 2 * std::numbers::pi * k / sides;
+    outer.push_back((3 + noise * random.uniform(-1, 1)) * Vec2(std::cos(turn), std::sin(turn)));
+  }
+  const Region shifted = offset({{outer, {}}}, distance, tolerance);
+  REQUIRE(shifted.size() == 1);
+  REQUIRE(shifted.front().holes.empty());
+  for (const Vec2& p : shifted.front().outer) {
+    double nearest = 10;
+    for (std::size_t i = 0; i < outer.size(); ++i)
+      nearest = std::min(nearest, distance_to_segment(p, outer[i], outer[(i + 1) % outer.size()]));
+    REQUIRE(nearest == Approx(std::abs(distance)).margin(3 * tolerance));
+  }
+  if (noise == 0) {
+    const double radius = 3 + distance;
+    CHECK(area(shifted) == Approx(std::numbers::pi * radius * radius).epsilon(0.01));
+  }
+}

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/planner/zones_along.hpp"
+#include "tests/core/support/plan_faults.hpp"
 #include "tests/core/support/shapes.hpp"
 
 using namespace unicursal::core;
@@ -18,22 +19,8 @@ PlanOptions options_for(double w, std::uint64_t seed = 1) {
   return options;
 }
 
-/// What holds for every island whatever its shape: closed simple curves wholly inside, nothing lost.
 void check_plan(const IslandPlan& plan, const Polygon& outline, double w) {
-  double filled = 0;
-  for (const PlannedCurve& curve : plan.curves) {
-    REQUIRE(curve.self_intersections == 0);
-    REQUIRE(curve.outside_segments == 0);
-    REQUIRE(curve.faired);
-    REQUIRE(curve.path.size() >= 5);
-    REQUIRE(curve.path.total_area() == Approx(curve.area).epsilon(1e-9));
-    for (const Bead& bead : curve.path.beads) {
-      REQUIRE(bead.area >= -1e-9);
-      REQUIRE(contains(outline, bead.position));
-    }
-    filled += curve.area;
-  }
-  REQUIRE(filled + plan.unfilled_area == Approx(area(outline)).margin(1e-5 * w * w + 1e-9 * area(outline)));
+  REQUIRE(fault_of(plan, outline, std::vector<Zone>(4), w) == "");
 }
 
 }  // namespace
@@ -174,24 +161,4 @@ TEST_CASE("zones too thin for a curve of their own are crossed by the island's o
   check_plan(plan, island.outline, 0.45);
   REQUIRE(plan.curves.size() == 1);
   CHECK(plan.curves.front().zone_crossings > 40);
-}
-
-TEST_CASE("random islands with holes: sound plans, nothing lost") {
-  Random random(77);
-  for (int k = 0; k < 40; ++k) {
-    const Polygon island = random_island(random, random.uniform(0.3, 7), 6);
-    CAPTURE(k, area(island));
-    check_plan(plan_island(whole(island), one_zone(), options_for(0.5, static_cast<std::uint64_t>(k))),
-               island, 0.5);
-  }
-}
-
-TEST_CASE("thousands of random islands: sound plans, nothing lost", "[long]") {
-  Random random(78);
-  for (int k = 0; k < 3000; ++k) {
-    const Polygon island = random_island(random, random.uniform(0.2, 6), 8);
-    CAPTURE(k, area(island));
-    check_plan(plan_island(whole(island), one_zone(), options_for(0.5, static_cast<std::uint64_t>(k))),
-               island, 0.5);
-  }
 }
