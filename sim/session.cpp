@@ -96,10 +96,10 @@ bool Session::wait_for_host() {
 void Session::open() {
   if (!std::exchange(started_, true)) start_ = Clock::now();
   printer_.opened(dtr_low_);
-  if (paced() || !printer_.busy()) return;
+  if (paced() || !printer_.firmware().booting()) return;
   pollfd wait{stop_.descriptor(), POLLIN, 0};
   if (::poll(&wait, 1, static_cast<int>(boot_pause.count())) > 0) stopped_ = true;
-  while (!stopped_ && printer_.busy()) leap();
+  while (!stopped_ && printer_.firmware().booting() && !printer_.unplugged()) leap();
 }
 
 /// Until the host hangs up, the cable is pulled or a signal comes.

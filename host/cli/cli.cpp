@@ -191,6 +191,15 @@ class CommandLine {
     app->add_option("-o,--output", outputs_, ".txt (x y width), .svg or .png; may be given several times")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was measured as JSON")->type_name("FILE");
+    app->add_option("--preset", preset_, "weights of the optimisers: best (the default) or paper")
+        ->check(CLI::IsMember({"best", "paper"}));
+    app->add_option("--quality", quality_, "how long the optimisers run; 1 is the default, more is better")
+        ->check(finite_number(0.01, 1000));
+    app->add_option("--budget", budget_, "s of planning, after which what there is is finished")
+        ->check(finite_number(0, 1e6))
+        ->type_name("SECONDS");
+    app->add_option("--replay", replay_, "spend the effort again that an earlier --report tells: same bytes")
+        ->type_name("FILE");
   }
 
   void declare_simulate() {
@@ -228,8 +237,17 @@ class CommandLine {
   }
 
   CurveCommand curve_command() const {
-    CurveCommand command{job_.job, path_if(job_.profile), layer_, island_, {}, path_if(job_.report)};
+    CurveCommand command;
+    command.job = job_.job;
+    command.profile = path_if(job_.profile);
+    command.layer = layer_;
+    command.island = island_;
+    command.report = path_if(job_.report);
     command.outputs.assign(outputs_.begin(), outputs_.end());
+    command.preset = preset_ == "paper" ? core::Preset::paper : core::Preset::best;
+    command.quality = quality_;
+    command.budget = budget_;
+    command.replay = path_if(replay_);
     return command;
   }
 
@@ -257,6 +275,9 @@ class CommandLine {
     return command;
   }
 
+  std::string preset_ = "best", replay_;
+  double quality_ = 1;
+  std::optional<double> budget_;
   CLI::App app_{"One closed space-filling curve per layer, for printers with three feeders and one nozzle.",
                 "unicursal"};
   JobArguments job_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/planner/plan_island.hpp"
 #include "host/cli/cli.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
@@ -46,6 +47,10 @@ struct CurveCommand {
   std::size_t island = 0;  ///< 0: the largest
   std::vector<std::filesystem::path> outputs;
   std::optional<std::filesystem::path> report;
+  core::Preset preset = core::Preset::best;
+  double quality = 1;                           ///< how long the optimisers run
+  std::optional<double> budget;                 ///< s of planning; what there is then is finished
+  std::optional<std::filesystem::path> replay;  ///< a report whose effort is to be spent again
 };
 
 struct SimulateCommand {

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <chrono>
+#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
@@ -10,7 +13,37 @@
 namespace unicursal::host {
 namespace {
 
-PlannedLayer plan_one(const PreparedJob& prepared, std::size_t island) {
+core::DataError no_effort(const std::filesystem::path& file) {
+  return core::DataError(file.string(), "effort", "is no list of whole numbers",
+                         "name a file that `unicursal curve --report` has written");
+}
+
+/// The effort that an earlier report tells.
+core::Effort effort_in(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  const nlohmann::json report = nlohmann::json::parse(stream, nullptr, false);
+  if (!report.is_object() || !report.contains("effort") || !report["effort"].is_array())
+    throw no_effort(file);
+  core::Effort effort;
+  for (const nlohmann::json& steps : report["effort"]) {
+    if (!steps.is_number_integer() || steps < 0 || steps > std::numeric_limits<int>::max())
+      throw no_effort(file);
+    effort.push_back(steps.get<int>());
+  }
+  return effort;
+}
+
+void apply(const CurveCommand& command, core::PlanOptions& options) {
+  options.preset = command.preset;
+  options.quality = command.quality;
+  if (command.replay) options.recorded = effort_in(*command.replay);
+  if (!command.budget) return;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(*command.budget);
+  options.enough = [end] { return std::chrono::steady_clock::now() >= end; };
+}
+
+PlannedLayer plan_one(const PreparedJob& prepared, const CurveCommand& command) {
+  const std::size_t island = command.island;
   PlannedLayer planned;
   planned.layer = prepared.part->layer(prepared.first);
   std::vector<core::Island>& islands = planned.layer.islands;
@@ -22,6 +55,7 @@ PlannedLayer plan_one(const PreparedJob& prepared, std::size_t island) {
   }
   core::PlanOptions options = lookahead_options(prepared).plan;
   options.seed = island_seed(options.seed, planned.layer.index, island);
+  apply(command, options);
   planned.plans.push_back(prepared.planner->plan(islands[island], planned.layer.z, options));
   islands = {core::Island(islands[island])};
   return planned;
@@ -38,6 +72,9 @@ nlohmann::json curve_report(const CurveCommand& command, const PreparedJob& prep
   report["bead_width_mm"] = prepared.job.bead_width;
   report["island_area_mm2"] = core::area(planned.layer.islands.front().outline);
   report["peak_memory_mib"] = peak_memory();
+  report["effort"] = planned.plans.front().effort;
+  report["looks"] = planned.plans.front().operations.looks;
+  report["operations"] = planned.plans.front().operations.accepted;
   return report;
 }
 
@@ -48,7 +85,7 @@ Exit curve(const CurveCommand& command) {
   const JobOptions options{
       command.job, command.profile, LayerRange{command.layer, command.layer}, {command.report, {}}};
   const PreparedJob prepared = prepare_and_warn(options, command.outputs);
-  const PlannedLayer planned = plan_one(prepared, command.island);
+  const PlannedLayer planned = plan_one(prepared, command);
   for (const std::filesystem::path& file : command.outputs) write_curve(file, planned, curve_style(prepared));
   if (command.report) write_json(*command.report, curve_report(command, prepared, planned));
   const Figures figures = measure(planned);

@@ -61,6 +61,14 @@ RunOutputs outputs_of(const DryRunCommand& command) {
   return outputs;
 }
 
+/// Thousands of numbers that nobody reads, once they have been judged.
+void leave_out_histograms(nlohmann::json& simulator) {
+  const auto motion = simulator.find("motion");
+  if (motion == simulator.end() || !motion->is_object()) return;
+  motion->erase("flow_seconds");
+  motion->erase("flow_by_second");
+}
+
 /// A report of a failed print tells what the printer saw of it, if it still can.
 void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
                      SimulatorProcess& simulator) {
@@ -92,9 +100,10 @@ Exit dry_run(const DryRunCommand& command) {
       stream_with_progress(port, lookahead, run, "dry run", settings_for(command, simulator));
   const nlohmann::json planning = planning_of(command, lookahead, result);
   if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
-  const nlohmann::json seen = simulator.finish();
+  nlohmann::json seen = simulator.finish();
   check.finish();
   const MotionFindings motion = motion_findings(seen, prepared.job.flow);
+  leave_out_histograms(seen);
   const Comparison comparison = compare_with(seen, run, result);
   conclude(run, result,
            {{"planning", planning},

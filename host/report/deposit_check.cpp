@@ -7,10 +7,26 @@
 #include <nlohmann/json.hpp>
 
 namespace unicursal::host {
+namespace {
+
+/// A longer print may have left more layers here than this one will have.
+void remove_old_pictures(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = name.starts_with("gaps-") || name.starts_with("mixtures-");
+    if (ours && name.ends_with(".png")) old.push_back(entry.path());
+  }
+  for (const auto& file : old) std::filesystem::remove(file);
+}
+
+}  // namespace
 
 DepositCheck::DepositCheck(std::vector<gcode::Mixture> mixtures,
                            std::optional<std::filesystem::path> pictures)
-    : mixtures_(std::move(mixtures)), pictures_(std::move(pictures)) {}
+    : mixtures_(std::move(mixtures)), pictures_(std::move(pictures)) {
+  if (pictures_) remove_old_pictures(*pictures_);
+}
 
 DepositCheck::~DepositCheck() {
   finish();
@@ -77,7 +93,9 @@ nlohmann::json DepositCheck::to_json() const {
     layer["layer"] = index;
     layers.push_back(std::move(layer));
   }
-  return {{"layers", layers}, {"total", host::to_json(total_)}};
+  nlohmann::json report = {{"layers", layers}, {"total", host::to_json(total_)}};
+  if (problem_) report["problem"] = *problem_;
+  return report;
 }
 
 }  // namespace unicursal::host

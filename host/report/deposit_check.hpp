@@ -24,7 +24,7 @@ namespace unicursal::host {
 class DepositCheck {
  public:
   /// `mixtures` by material: as the printer is to mix them. `pictures`: a folder that exists, for
-  /// gaps-NNNN.png and mixtures-NNNN.png.
+  /// gaps-NNNN.png and mixtures-NNNN.png; older ones are removed from it.
   DepositCheck(std::vector<gcode::Mixture> mixtures, std::optional<std::filesystem::path> pictures);
   /// Waits for the end of the stream.
   ~DepositCheck();

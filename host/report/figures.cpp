@@ -11,6 +11,13 @@ void add(core::StageTime& sum, const core::StageTime& more) {
   sum.cpu_seconds += more.cpu_seconds;
 }
 
+/// Objectives that do not add up.
+void worst_of(core::CurveObjectives& sum, const core::CurveObjectives& more) {
+  sum.isotropy = std::max(sum.isotropy, more.isotropy);
+  sum.anisotropy = std::max(sum.anisotropy, more.anisotropy);
+  sum.width_variation = std::max(sum.width_variation, more.width_variation);
+}
+
 void add(Figures& sum, const core::PlannedCurve& curve) {
   sum.curves += 1;
   sum.vertices += curve.path.size();
@@ -20,6 +27,7 @@ void add(Figures& sum, const core::PlannedCurve& curve) {
   sum.objectives.length += curve.objectives.length;
   sum.objectives.smoothness += curve.objectives.smoothness;
   sum.objectives.alignment += curve.objectives.alignment * curve.path.total_length();
+  worst_of(sum.objectives, curve.objectives);
   sum.zone_crossings += curve.zone_crossings;
   sum.self_intersections += curve.self_intersections;
   sum.outside_segments += curve.outside_segments;
@@ -68,6 +76,7 @@ Figures& operator+=(Figures& sum, const Figures& more) {
   sum.objectives.smoothness += more.objectives.smoothness;
   sum.objectives.alignment += more.objectives.alignment;
   for (const auto& [count, curves] : more.curves_by_perimeters) sum.curves_by_perimeters[count] += curves;
+  worst_of(sum.objectives, more.objectives);
   sum.zone_crossings += more.zone_crossings;
   sum.self_intersections += more.self_intersections;
   sum.outside_segments += more.outside_segments;
@@ -103,7 +112,10 @@ nlohmann::json to_json(const Figures& f) {
         {"E", f.normalised_coverage()},
         {"length", f.objectives.length},
         {"smoothness", f.objectives.smoothness},
-        {"alignment", f.length > 0 ? f.objectives.alignment / f.length : 0.0}}},
+        {"alignment", f.length > 0 ? f.objectives.alignment / f.length : 0.0},
+        {"isotropy", f.objectives.isotropy},
+        {"anisotropy", f.objectives.anisotropy},
+        {"width_variation", f.objectives.width_variation}}},
       {"curves_by_perimeters", perimeters},
       {"zone_crossings", f.zone_crossings},
       {"self_intersections", f.self_intersections},

@@ -1,7 +1,6 @@
 #include "sim/firmware/firmware.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -116,7 +115,7 @@ std::optional<double> Firmware::next_event() const {
   consider(nozzle_.next_tick());
   consider(bed_.next_tick());
   if (frozen()) {
-    if (std::isfinite(stalled_until_)) consider(stalled_until_);
+    if (!silent()) consider(stalled_until_);
     return next;
   }
   if (running_) consider(busy_at_);
@@ -130,7 +129,7 @@ std::optional<double> Firmware::next_event() const {
 
 void Firmware::run_down() {
   if (booting_) advance(boot_at_);
-  if (frozen() && std::isfinite(stalled_until_)) advance(stalled_until_);
+  if (frozen() && !silent()) advance(stalled_until_);
   settle();
   while (!dead() && !frozen() && (running_ || !planner_.still())) advance(*next_event());
 }

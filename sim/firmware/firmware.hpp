@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -87,7 +88,8 @@ class Firmware {
   /// When the next thing happens by itself; nothing when the printer rests or is dead.
   std::optional<double> next_event() const;
   /// The running command waits for time to pass, or the firmware boots.
-  bool blocked() const { return booting_ || (running_ && !dead()); }
+  bool blocked() const { return booting_ || (running_ && !dead() && !silent()); }
+  bool booting() const { return booting_; }
   /// Lets time run until every command received has been done and all is still.
   void run_down();
 
@@ -96,8 +98,6 @@ class Firmware {
   void watch_commands(CommandWatch watch) { command_watch_ = std::move(watch); }
   /// Neither reads nor answers for so long; moves go on.
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
-  /// Finds fault with a line that was good: the next one is asked for again.
-  void ask_again() { refuse(LineVerdict::Kind::wrong_checksum); }
   /// Stops itself for good and says why.
   virtual void die(const std::string& reason);
 
@@ -172,6 +172,8 @@ class Firmware {
   void tick_heaters();
   void wake_up();
   bool frozen() const { return now_ < stalled_until_; }
+  /// Frozen for ever.
+  bool silent() const { return stalled_until_ == std::numeric_limits<double>::infinity(); }
   bool dead() const { return killed_ || planner_.stuck(); }
   bool idle() const { return !running_ && queue_.empty(); }
   bool waits_for_heat() const { return !waits_.empty() && waits_.front().what == Wait::For::heat; }

@@ -119,7 +119,7 @@ void live(std::uint64_t seed) {
     for (; printer.now() < until; ++portions) {
       printer.advance(until);
       if (printer.unplugged()) printer.plug_in();
-      REQUIRE(portions < 1'000'000);
+      if (portions > 1'000'000) FAIL("time does not get on");
       printer.take_output();
     }
     if (writer.pick(30) == 0) printer.opened();

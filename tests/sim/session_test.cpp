@@ -87,6 +87,30 @@ TEST_CASE("a cable that never comes back ends the simulation, report and all") {
   CHECK(report_of(options)["faults"]["disconnect"] == 1);
 }
 
+TEST_CASE(
+    "a printer that has fallen silent in mid-command, or loses its cable while it boots, ends with its "
+    "host") {
+  const Folder folder;
+  SimulatorOptions options = in(folder);
+  SECTION("silent while it heats") {
+    options.faults = {"silence@line=2"};
+    Child child(options);
+    Host host(options.link->string());
+    host.expect("start");
+    host.write(Bench::numbered(1, "M104 S200") + "\n" + Bench::numbered(2, "M109 S200") + "\n");
+    host.hang_up();
+    CHECK(child.wait() == 0);
+    CHECK(report_of(options)["faults"]["silence"] == 1);
+  }
+  SECTION("a pulled cable") {
+    options.faults = {"disconnect@t=0.1"};
+    Child child(options);
+    Host host(options.link->string());
+    CHECK(host.lost());
+    CHECK(child.wait() == 0);
+  }
+}
+
 TEST_CASE("opening the port resets a board with its reset on DTR, unless the host before has cleared HUPCL") {
   const Folder folder;
   SimulatorOptions options = in(folder);

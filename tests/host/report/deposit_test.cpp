@@ -209,7 +209,11 @@ TEST_CASE("Layers are judged as they come out of the stream, each against its ow
       }));
     }
   }
+  folder.write("gaps-0007.png", "of a longer print");
+  folder.write("gaps-notes.txt", "of the user");
   DepositCheck check(red_and_blue, folder / "");
+  CHECK_FALSE(std::filesystem::exists(folder / "gaps-0007.png"));
+  CHECK(std::filesystem::exists(folder / "gaps-notes.txt"));
   for (const std::size_t index : {0u, 1u, 2u, 3u}) {
     TargetLayer target = two_zones();
     target.index = index;
