@@ -56,6 +56,10 @@ std::vector<std::string> warm_up(const Printer& printer) {
           "M109 S" + nozzle};
 }
 
+std::string stay_watchful() {
+  return shut_down_after(inactivity_shutdown);
+}
+
 std::vector<std::string> modes() {
   return {"G21", "G90", "M83", "G92 E0"};
 }

@@ -19,6 +19,9 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
 /// a minute; the waits come after, so that whatever has oozed meanwhile stays away from the bed.
 std::vector<std::string> warm_up(const Printer& printer);
 
+/// The inactivity shutdown set, and its time begun anew: to be said again while a print is held.
+std::string stay_watchful();
+
 /// Millimetres, absolute positions, relative extrusion. M83 follows G90, which would override it.
 std::vector<std::string> modes();
 

@@ -12,6 +12,8 @@
 namespace unicursal::host {
 namespace {
 
+constexpr double unattended_pause = 60;  ///< s; then somebody has seen to the simulated printer
+
 /// Real time is for watching how the host paces; virtual time needs no patience and repeats exactly.
 bool is_virtual(const DryRunCommand& command) {
   return command.printer.speed == 0;
@@ -42,8 +44,15 @@ Comparison compare_with(const nlohmann::json& simulator, const Run& run, const S
 }
 
 StreamSettings settings_for(const DryRunCommand& command, const SimulatorProcess& simulator) {
-  if (!is_virtual(command)) return {real_clock(command.printer.speed), 0, nullptr, {}};
-  return {std::make_shared<LockstepClock>(simulator.control()), command.charge, nullptr, {}};
+  StreamSettings settings;
+  settings.longest_pause = unattended_pause;
+  if (is_virtual(command)) {
+    settings.clock = std::make_shared<LockstepClock>(simulator.control());
+    settings.charge = command.charge;
+  } else {
+    settings.clock = real_clock(command.printer.speed);
+  }
+  return settings;
 }
 
 /// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.

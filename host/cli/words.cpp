@@ -180,12 +180,15 @@ nlohmann::json link_json(const StreamResult& result) {
 StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const std::string& what,
                                   const StreamSettings& settings) {
   Progress progress(what, run.prepared().count);
-  StreamListeners listeners;
-  listeners.progress = [&](std::size_t layers, double fraction) { progress.update(layers, fraction); };
-  listeners.message = [&](const std::string& message) {
-    if (worth_showing(message)) progress.say(tame(message));
+  const auto observer = [&](const Session& session, const SessionEvent& event) {
+    const SessionStatus status = session.status();
+    if (event.kind == SessionEvent::Kind::progress)
+      progress.update(status.layer - std::min<std::size_t>(status.layer, 1), status.layer_fraction);
+    if (event.kind == SessionEvent::Kind::notice ||
+        (event.kind == SessionEvent::Kind::printer && worth_showing(event.text)))
+      progress.say(tame(event.text));
   };
-  return stream(port, lookahead, run, listeners, settings);
+  return stream(port, lookahead, run, observer, settings);
 }
 
 }  // namespace unicursal::host

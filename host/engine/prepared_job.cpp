@@ -106,6 +106,9 @@ LookaheadOptions lookahead_options(const PreparedJob& prepared) {
   options.plan.perimeters = prepared.job.perimeters;
   options.plan.seed_distance = prepared.job.seed_distance;
   options.plan.min_bead_width = prepared.job.profile.printer.bead_width_range[0];
+  // What a thin line leaves out of the layer is not printed.
+  const double full = prepared.job.line_width.value_or(prepared.job.bead_width);
+  options.flow = prepared.job.flow * prepared.job.bead_width / full;
   options.planner = prepared.planner;
   options.first = prepared.first;
   options.count = prepared.count;

@@ -49,6 +49,12 @@ double thread_cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+double volume(const core::Layer& layer) {
+  double area = 0;
+  for (const core::Island& island : layer.islands) area += core::area(island.outline);
+  return area * layer.height;
+}
+
 /// A layer between being sliced and being handed over.
 struct OpenLayer {
   PlannedLayer result;
@@ -56,6 +62,7 @@ struct OpenLayer {
   std::size_t begun = 0;     ///< islands
   std::size_t finished = 0;  ///< islands
   std::exception_ptr error;
+  double print_seconds = 0;  ///< as the flow foretells
 
   bool has_work() const { return sliced && !error && begun < result.plans.size(); }
   bool complete() const { return error ? begun == finished : sliced && finished == result.plans.size(); }
@@ -119,6 +126,7 @@ struct Lookahead::State {
     run(lock, layer, [&] {
       layer.result.layer = part.layer(index);
       layer.result.plans.resize(layer.result.layer.islands.size());
+      if (options.flow > 0) layer.print_seconds = volume(layer.result.layer) / options.flow;
     });
     layer.sliced = true;
     work_available.notify_all();
@@ -246,6 +254,17 @@ void Lookahead::cancel() {
 PlanningEffort Lookahead::effort() const {
   const std::lock_guard lock(state_->mutex);
   return state_->effort;
+}
+
+Waiting Lookahead::waiting() const {
+  const std::lock_guard lock(state_->mutex);
+  Waiting waiting;
+  for (const auto& layer : state_->open) {
+    if (!layer->complete() || layer->error) break;
+    ++waiting.layers;
+    waiting.seconds += layer->print_seconds;
+  }
+  return waiting;
 }
 
 std::size_t Lookahead::threads() const {

@@ -29,8 +29,15 @@ struct LookaheadOptions {
   std::shared_ptr<const core::IslandPlanner> planner;  ///< of the part's zones; made from them when absent
   std::size_t first = 0;                               ///< index of the first layer to plan
   std::size_t count = 0;                               ///< how many layers from there
-  std::size_t threads = 0;                             ///< 0: one for each core
-  std::size_t ahead = 0;  ///< layers that may be open or waiting; 0: two more than threads
+  double flow = 0;          ///< mm³/s, by which the time that a layer prints is foretold; 0: unknown
+  std::size_t threads = 0;  ///< 0: one for each core
+  std::size_t ahead = 0;    ///< layers that may be open or waiting; 0: two more than threads
+};
+
+/// Layers that are planned and not yet taken.
+struct Waiting {
+  std::size_t layers = 0;
+  double seconds = 0;  ///< of printing
 };
 
 /// What planning has cost so far.
@@ -62,6 +69,7 @@ class Lookahead {
   void cancel();
 
   PlanningEffort effort() const;
+  Waiting waiting() const;
   std::size_t threads() const;
   /// Layers that may be open or waiting.
   std::size_t ahead() const;

@@ -114,7 +114,9 @@ std::optional<std::uint64_t> JournalState::place_of(std::uint32_t number) const 
                                   [&](const Anchor& anchor) { return anchor.number > meant; });
   if (after == anchors.begin()) return std::nullopt;
   const Anchor& anchor = *std::prev(after);
-  return anchor.place + static_cast<std::uint64_t>(meant - anchor.number);
+  const std::uint64_t place = anchor.place + static_cast<std::uint64_t>(meant - anchor.number);
+  // Numbers right before an anchor may be those of lines that are none of the leg's.
+  return after == anchors.end() ? place : std::min(place, after->place);
 }
 
 JournalState read_journal(const std::filesystem::path& file, std::uint64_t* sound) {

@@ -1,0 +1,321 @@
+#include "host/engine/session.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "host/engine/rejoining.hpp"
+#include "host/engine/session_impl.hpp"
+
+namespace unicursal::host {
+namespace {
+
+/// Lines handed to the link at once: few, so that a command takes effect soon.
+constexpr std::size_t batch = 16;
+
+constexpr double no_time = 0;
+
+bool moves_away(const std::string& line) {
+  const bool move = line.starts_with("G0 ") || line.starts_with("G1 ");
+  return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
+}
+
+SpooledChunk spooled(const PlannedLayer& planned, const PreparedJob& prepared) {
+  SpooledChunk chunk;
+  chunk.kind = SpooledChunk::Kind::layer;
+  chunk.layer = placed(prepared, planned);
+  for (const core::IslandPlan& plan : planned.plans) chunk.efforts.push_back(plan.effort);
+  return chunk;
+}
+
+LinkOptions link_options(const std::shared_ptr<Clock>& clock) {
+  LinkOptions options;
+  options.clock = clock;
+  return options;
+}
+
+double seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+Duration duration(double seconds) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+std::string sentence(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    return "memory ran out; close other programs or choose a coarser job";
+  } catch (const std::exception& known) {
+    return known.what();
+  } catch (...) {
+    return "something unknown went wrong";
+  }
+}
+
+Session::State::State(asio::any_io_executor on, int descriptor, Lookahead& planned, Run& of,
+                      StreamSettings with)
+    : port(descriptor),
+      lookahead(planned),
+      run(of),
+      settings(std::move(with)),
+      spool(settings.spool),
+      clock(settings.clock),
+      computer(settings.charge, planned.threads(), planned.ahead()),
+      wake(on, clock),
+      link(on, descriptor, link_options(clock)) {
+  link.on_message([this](const std::string& line) { hear(line); });
+  if (spool) keep_journal();
+}
+
+// ---- the way through a print
+
+asio::awaitable<void> Session::State::print() {
+  co_await begin();
+  if (lost) co_return;
+  std::exception_ptr error;
+  try {
+    if (settings.continuation) co_await send_spooled();
+    if (!settings.continuation || settings.continuation->extent.start_lines == 0) co_await start();
+    co_await send_layers();
+    if (!stopped) co_await between();  // a pause that was asked for in the last lines
+  } catch (const LinkError&) {
+    throw;
+  } catch (...) {
+    error = std::current_exception();
+  }
+  // Whatever went wrong, the printer is hot by now and has to be left cold.
+  if (stopped || error) {
+    stopped = !error;
+    enter(SessionState::cancelling, error ? sentence(error) : stop_reason);
+    co_await park();
+  } else {
+    enter(SessionState::finishing);
+    co_await finish();
+  }
+  if (error) throw PrintError(sentence(error) + "; the print was ended there");
+}
+
+asio::awaitable<void> Session::State::begin() {
+  const auto& continuation = settings.continuation;
+  if (continuation && !continuation->leg) co_return co_await rejoin();
+  if (continuation) spool->journal().begin_leg(*continuation->leg);
+  co_await link.connect();
+  if (spool) spool->supersede_others();
+}
+
+asio::awaitable<void> Session::State::rejoin() {
+  const JournalState& before = spool->before();
+  Rejoined found;
+  try {
+    found = co_await link.rejoin(number_beyond(before));
+  } catch (const PrinterReset& error) {
+    lost = Lost{error.what(), std::nullopt};
+    co_return;
+  }
+  lost = lost_since(before, found, spool->chunks(), settings.continuation->extent);
+  if (lost) co_return;
+  first = place = *before.place_of(found.next);
+  anew = false;
+  spool->journal().anchor({found.next, first}, true);
+  numbered = {found.next, 0};
+  link.go_on(found.next);
+}
+
+/// What is spooled from here on in this leg.
+asio::awaitable<void> Session::State::send_spooled() {
+  const SpoolExtent& extent = settings.continuation->extent;
+  const Leg& leg = settings.continuation->leg ? *settings.continuation->leg : spool->before().leg;
+  const std::uint64_t hot = leg.lead_in.empty() ? extent.start_lines : leg.lead_in.size();
+  LegReader reader(spool->chunks(), leg, first);
+  modal = state_at(spool->chunks(), leg, first);
+  heating = first < hot;
+  enter(heating ? SessionState::heating : SessionState::printing);
+  while (!stopped) {
+    if (!heating) co_await between();
+    if (stopped) break;
+    std::vector<std::string> lines = reader.next(batch);
+    if (lines.empty()) break;
+    layers_begun = reader.layers_begun();
+    layer_fraction = reader.fraction();
+    co_await hand(std::move(lines));
+    if (heating && place >= hot) co_await get_hot();
+  }
+  heating = false;
+}
+
+asio::awaitable<void> Session::State::start() {
+  if (stopped) co_return;
+  gcode::Chunk chunk = run.start();
+  if (!co_await keep({}, chunk)) co_return;
+  heating = true;
+  enter(SessionState::heating);
+  co_await send(chunk, 0);
+  co_await get_hot();
+}
+
+/// A command has to know whether that is so.
+asio::awaitable<void> Session::State::get_hot() {
+  if (!stopped) co_await link.drain();
+  heating = false;
+  if (!stopped && !pause_wanted) enter(SessionState::printing);
+}
+
+asio::awaitable<void> Session::State::send_layers() {
+  for (std::size_t done = settings.continuation ? settings.continuation->extent.layers : 0; !stopped;
+       ++done) {
+    std::optional<PlannedLayer> layer = co_await next_layer();
+    if (!layer || stopped) break;
+    SpooledChunk record;
+    if (spool) record = spooled(*layer, run.prepared());
+    gcode::Chunk chunk = run.layer(std::move(*layer));
+    if (!co_await keep(std::move(record), chunk)) break;
+    chunk_seconds = chunk.seconds;
+    co_await send(chunk, done);
+    seconds_sent += std::exchange(chunk_seconds, no_time);
+    ++layers_sent;
+  }
+}
+
+/// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile, and
+/// what is charged for planning passes afterwards.
+asio::awaitable<std::optional<PlannedLayer>> Session::State::next_layer() {
+  const TimePoint asked = clock->now();
+  std::optional<PlannedLayer> layer;
+  {
+    const Clock::Hold hold(*clock);
+    layer = co_await lookahead.next();
+  }
+  if (layer) {
+    const double ready = computer.ready(layer->cpu_seconds, seconds(clock->now() - began));
+    const std::function<bool()> interrupted = [this] { return to_be_interrupted(); };
+    co_await wake.wait(began + duration(ready), interrupted);
+  }
+  waited += seconds(clock->now() - asked);
+  co_return layer;
+}
+
+asio::awaitable<void> Session::State::finish() {
+  if (settings.continuation && settings.continuation->extent.finished) {
+    parked = true;
+    co_return co_await link.drain();
+  }
+  gcode::Chunk chunk;
+  try {
+    chunk = run.finish();
+  } catch (...) {
+    link.cool_down();
+    throw;
+  }
+  SpooledChunk record;
+  record.kind = SpooledChunk::Kind::finish;
+  if (!co_await keep(std::move(record), chunk)) co_return co_await send_last(std::move(chunk));
+  parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
+  co_await send(chunk, run.totals().layers);
+  co_await link.drain();
+  note_progress();
+}
+
+/// Before its end: these lines are none of the print's own.
+asio::awaitable<void> Session::State::park() {
+  gcode::Chunk chunk;
+  try {
+    chunk = run.finish();
+  } catch (...) {
+    link.cool_down();
+    throw;
+  }
+  std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
+  co_await send_last(std::move(chunk));
+}
+
+asio::awaitable<void> Session::State::send_last(gcode::Chunk chunk) {
+  note_progress();
+  if (spool) spool->journal().park(chunk.lines);
+  parking = true;
+  parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
+  co_await send(chunk, run.totals().layers);
+  co_await link.drain();
+}
+
+asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk, std::size_t layers_done) {
+  const bool own = heating || ending();  // commands wait until it is hot, or come too late
+  for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
+    if (!own) co_await between();
+    if (stopped && !ending()) co_return;
+    layers_begun = layers_done;
+    layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
+    const std::size_t end = std::min(i + batch, chunk.lines.size());
+    co_await hand({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
+                   chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
+  }
+}
+
+asio::awaitable<void> Session::State::hand(std::vector<std::string> lines) {
+  const std::size_t count = lines.size();
+  for (const std::string& line : lines) modal.run(line);
+  co_await link.send(std::move(lines));
+  if (!parking) {
+    place += count;
+    note_progress();
+  }
+  tell(SessionEvent::Kind::progress);
+}
+
+StreamResult Session::State::result(const std::exception_ptr& error) {
+  StreamResult result{Ending::completed, {},     parked, link.statistics(),
+                      link.firmware(),   waited, lost,   pauses};
+  if (stopped) result.ending = Ending::stopped;
+  if (error) result.reason = sentence(error);
+  if (aborted) result.reason = reason;
+  if (!result.reason.empty()) result.ending = Ending::failed;
+  switch (result.ending) {
+    case Ending::completed:
+      enter(SessionState::done);
+      break;
+    case Ending::stopped:
+      enter(SessionState::stopped, stop_reason);
+      break;
+    case Ending::failed:
+      enter(SessionState::failed, result.reason);
+  }
+  if (spool && !lost) end_journal(result);
+  return result;
+}
+
+// ---- from outside
+
+Session::Session(asio::any_io_executor executor, int port, Lookahead& lookahead, Run& run,
+                 StreamSettings settings)
+    : state_(std::make_unique<State>(std::move(executor), port, lookahead, run, std::move(settings))) {}
+
+Session::~Session() = default;
+
+asio::awaitable<StreamResult> Session::run() {
+  std::exception_ptr error;
+  try {
+    co_await state_->print();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  if (state_->aborted) co_await state_->confirm_stop();
+  co_return state_->result(error);
+}
+
+StreamResult Session::failed(std::exception_ptr error) {
+  state_->link.cool_down();
+  return state_->result(error);
+}
+
+SessionStatus Session::status() const {
+  return state_->status();
+}
+
+void Session::on_event(std::function<void(const SessionEvent&)> observer) {
+  state_->observer = std::move(observer);
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,243 @@
+// A session's commands: what they leave for the print to find, and what the print makes of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "firmware_gcode/toolpath/job_frame.hpp"
+#include "host/engine/reset_line.hpp"
+#include "host/engine/session_impl.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between signs of life to a printer that is held: more often than any firmware lets its motors go (Marlin:
+/// two minutes), which would lose the place, and soon enough to find that the cable is out.
+constexpr auto sign_of_life = 10s;
+constexpr auto stop_patience = 2s;  ///< for the printer to confirm an emergency stop
+
+constexpr double least_speed = 10, most_speed = 300;       ///< %
+constexpr double least_flow = 50, most_flow = 200;         ///< %
+constexpr double hottest_nozzle = 300, hottest_bed = 150;  ///< °C; beyond, it is a typing error
+
+constexpr auto over = "the print is ending";
+
+std::vector<std::string> signs_of_life() {
+  return {gcode::stay_watchful(), "M105"};
+}
+
+/// None, if it is within.
+Refusal outside(const char* what, double value, double least, double most, const char* unit) {
+  if (std::isfinite(value) && value >= least && value <= most) return std::nullopt;
+  return fmt::format("{} {:g} {} is not between {:g} and {:g}", what, value, unit, least, most);
+}
+
+}  // namespace
+
+asio::awaitable<void> Session::State::between() {
+  co_await make_changes();
+  while ((pause_wanted || firmware_holds) && !stopped) co_await hold();
+}
+
+asio::awaitable<void> Session::State::make_changes() {
+  while (!wanted.empty() && !stopped) {
+    std::vector<std::string> lines(1, wanted.front());
+    wanted.pop_front();
+    modal.run(lines.front());
+    co_await interpose(std::move(lines));
+  }
+}
+
+bool Session::State::placed() const {
+  return modal.position[0] && modal.position[1] && modal.position[2] && !modal.relative;
+}
+
+gcode::Pause Session::State::pause_here() const {
+  const gcode::PrintSettings print = print_settings(run.prepared());
+  return {modal, print.extent, print.flow, settings.pause_heat == PauseHeat::lower};
+}
+
+/// A firmware that has paused by itself parks and returns by itself: it only gets nothing more to do. Before
+/// the first move there is nothing to go away from.
+asio::awaitable<void> Session::State::hold() {
+  const std::string why = pause_wanted.value_or("the printer has paused itself");
+  const bool aside = !firmware_holds && placed();
+  const gcode::Printer& printer = run.prepared().job.profile.printer;
+  ++pauses;
+  enter(SessionState::pausing, why);
+  if (aside) {
+    gcode::Chunk chunk = gcode::go_aside(printer, pause_here());
+    note_progress();
+    if (spool) spool->journal().park(chunk.lines);
+    co_await interpose(std::move(chunk.lines));
+    co_await link.drain();
+  }
+  enter(SessionState::paused, why);
+  co_await wait_held();
+  pause_wanted.reset();
+  resume_wanted = firmware_holds = false;
+  if (stopped) co_return;
+  enter(SessionState::resuming);
+  heating = true;  // a stop ends it
+  if (aside) co_await interpose(gcode::come_back(printer, pause_here()).lines);
+  if (aside && !stopped) co_await link.drain();
+  heating = false;
+  if (stopped) co_return;
+  if (aside && spool) spool->journal().park({});
+  enter(SessionState::printing);
+}
+
+/// Until it is to go on. What is asked for meanwhile is done at once.
+asio::awaitable<void> Session::State::wait_held() {
+  const auto last = settings.longest_pause
+                        ? clock->now() + std::chrono::duration_cast<Duration>(
+                                             std::chrono::duration<double>(*settings.longest_pause))
+                        : TimePoint::max();
+  const std::function<bool()> ready = [this] { return resume_wanted || stopped || !wanted.empty(); };
+  while (!resume_wanted && !stopped) {
+    if (!co_await wake.wait(std::min(last, clock->now() + sign_of_life), ready)) {
+      if (clock->now() >= last) co_return;
+      if (!firmware_holds) co_await interpose(signs_of_life());
+    }
+    co_await make_changes();
+  }
+}
+
+/// Told to the journal before they are sent: a printer that asks for one of them wants the print's next line.
+asio::awaitable<void> Session::State::interpose(std::vector<std::string> lines) {
+  std::erase_if(lines, [](const std::string& line) { return !is_command(line); });
+  const std::uint64_t before = link.statistics().lines;
+  extra += lines.size();
+  interposing = true;
+  if (spool && !parking) {
+    const auto number = numbered.number + static_cast<std::uint32_t>(before + lines.size() - numbered.place);
+    spool->journal().anchor({number, place}, false);
+  }
+  co_await link.send(std::move(lines));
+  interposing = false;
+}
+
+/// M112 is read past the queue only by firmwares with an emergency parser; others read it when there is room.
+asio::awaitable<void> Session::State::confirm_stop() {
+  const std::function<bool()> confirmed = [this] { return halted; };
+  reason = "stopped at once; reset the printer before using it again";
+  if (co_await wake.wait(clock->now() + stop_patience, confirmed)) co_return;
+  reason =
+      pulse_reset(port)
+          ? "stopped at once: the printer did not confirm it and was reset by its cable; look whether it "
+            "stands still and cools, and switch it off if not"
+          : "the printer was told to stop at once but has not confirmed it: it may read that only when it "
+            "has done what is in its queue; switch it off by its own switch";
+}
+
+// ---- commands
+
+void Session::State::stop(const std::string& why) {
+  stopped = true;
+  stop_reason = why;
+  lookahead.cancel();
+  if (heating) link.cool_down();
+  tell(SessionEvent::Kind::notice,
+       heating ? "stopping: heating ends; once more stops the printer at once"
+               : "stopping: the printer is parked and cooled; once more stops it at once");
+  wake.notify();
+}
+
+Refusal Session::pause(const std::string& reason) {
+  State& s = *state_;
+  if (has_ended(s.state) || s.ending() || s.stopped) return over;
+  if (s.pause_wanted || s.state == SessionState::paused) return "it is paused already";
+  s.pause_wanted = reason;
+  s.tell(SessionEvent::Kind::notice,
+         s.heating ? "it is held as soon as it is hot" : "it is held in a moment");
+  return std::nullopt;
+}
+
+Refusal Session::resume() {
+  State& s = *state_;
+  if (!s.pause_wanted && s.state != SessionState::paused && s.state != SessionState::pausing)
+    return "it is not paused";
+  if (s.stopped) return over;
+  const bool begun = s.state == SessionState::pausing || s.state == SessionState::paused;
+  if (begun)
+    s.resume_wanted = true;
+  else
+    s.pause_wanted.reset();
+  s.wake.notify();
+  return std::nullopt;
+}
+
+Refusal Session::cancel(const std::string& reason) {
+  State& s = *state_;
+  if (has_ended(s.state) || s.stopped) return over;
+  if (s.state == SessionState::finishing) return "it is parking and cooling already";
+  s.stop(reason);
+  return std::nullopt;
+}
+
+Refusal Session::emergency_stop() {
+  State& s = *state_;
+  if (has_ended(s.state)) return "the print has ended";
+  s.aborted = true;
+  s.lookahead.cancel();
+  s.link.emergency_stop();
+  s.wake.notify();
+  return std::nullopt;
+}
+
+/// While it heats the printer obeys them only afterwards: it reads nothing before.
+Refusal Session::State::change(const std::string& line) {
+  if (has_ended(state) || ending() || stopped) return over;
+  wanted.push_back(line);
+  wake.notify();
+  return std::nullopt;
+}
+
+Refusal Session::set_speed(double percent) {
+  if (const Refusal no = outside("a speed of", percent, least_speed, most_speed, "%")) return no;
+  if (const Refusal no = state_->change(fmt::format("M220 S{:.0f}", percent))) return no;
+  state_->speed_percent = std::round(percent);
+  return std::nullopt;
+}
+
+Refusal Session::set_flow(double percent) {
+  if (const Refusal no = outside("a flow of", percent, least_flow, most_flow, "%")) return no;
+  if (const Refusal no = state_->change(fmt::format("M221 S{:.0f}", percent))) return no;
+  state_->flow_percent = std::round(percent);
+  return std::nullopt;
+}
+
+Refusal Session::set_nozzle(double temperature) {
+  if (const Refusal no = outside("a nozzle of", temperature, 0, hottest_nozzle, "°C")) return no;
+  return state_->change(fmt::format("M104 S{:.0f}", temperature));
+}
+
+Refusal Session::set_bed(double temperature) {
+  if (const Refusal no = outside("a bed of", temperature, 0, hottest_bed, "°C")) return no;
+  return state_->change(fmt::format("M140 S{:.0f}", temperature));
+}
+
+/// What a firmware asks for by `//action:`.
+void Session::State::obey(const std::string& action) {
+  const auto is = [&](const char* word) {
+    return action == word || action.starts_with(std::string(word) + " ");
+  };
+  const bool held = pause_wanted || firmware_holds || state == SessionState::paused;
+  if (is("pause") && !held && !ending() && !stopped) {
+    pause_wanted = "the printer has asked for a pause (" + action + ")";
+  } else if (is("paused") && !held && !ending() && !stopped) {
+    firmware_holds = true;
+  } else if ((is("resume") || is("resumed")) && held) {
+    resume_wanted = true;
+  } else if (is("cancel") && !stopped && !ending()) {
+    stop("the printer has asked for the end of the print");
+  } else if (is("out_of_filament")) {
+    tell(SessionEvent::Kind::notice, "the filament has run out (" + action + "): load more, then go on");
+  }
+  wake.notify();
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,126 @@
+// The inside of a session: one coroutine goes through the print, commands leave marks that it finds between
+// two batches of lines. Lines of the session's own that come in between (a pause, a change of temperature)
+// are *interposed*: the spool's places do not count them, so the journal gets a new anchor behind them.
+#pragma once
+
+#include <asio/thread_pool.hpp>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_gcode/toolpath/modal_state.hpp"
+#include "firmware_gcode/toolpath/pause.hpp"
+#include "host/engine/session.hpp"
+#include "host/engine/slow_computer.hpp"
+#include "host/link/signal.hpp"
+
+namespace unicursal::host {
+
+struct Session::State {
+  State(asio::any_io_executor on, int descriptor, Lookahead& planned, Run& of, StreamSettings with);
+
+  // The way through a print (session.cpp)
+  asio::awaitable<void> print();
+  asio::awaitable<void> begin();
+  asio::awaitable<void> rejoin();
+  asio::awaitable<void> send_spooled();
+  asio::awaitable<void> start();
+  asio::awaitable<void> get_hot();
+  asio::awaitable<void> send_layers();
+  asio::awaitable<std::optional<PlannedLayer>> next_layer();
+  asio::awaitable<void> finish();
+  asio::awaitable<void> park();
+  asio::awaitable<void> send_last(gcode::Chunk chunk);
+  asio::awaitable<void> send(const gcode::Chunk& chunk, std::size_t layers_done);
+  asio::awaitable<void> hand(std::vector<std::string> lines);
+  StreamResult result(const std::exception_ptr& error);
+
+  // What comes in between (session_control.cpp)
+  /// Everything that was asked for since the last batch; a pause is over when this returns.
+  asio::awaitable<void> between();
+  asio::awaitable<void> hold();
+  asio::awaitable<void> wait_held();
+  asio::awaitable<void> interpose(std::vector<std::string> lines);
+  asio::awaitable<void> confirm_stop();
+  gcode::Pause pause_here() const;
+  bool placed() const;
+  bool ending() const { return state == SessionState::finishing || state == SessionState::cancelling; }
+  bool to_be_interrupted() const { return stopped || aborted; }
+  void stop(const std::string& reason);
+  void obey(const std::string& action);
+  asio::awaitable<void> make_changes();
+  Refusal change(const std::string& line);
+
+  // The spool (session_journal.cpp)
+  void keep_journal();
+  void note_progress();
+  void end_journal(const StreamResult& ended);
+  asio::awaitable<bool> keep(SpooledChunk record, gcode::Chunk& chunk);
+  asio::awaitable<std::string> write(const SpooledChunk& record);
+
+  // What is told (session_status.cpp)
+  void hear(const std::string& line);
+  void enter(SessionState next, const std::string& reason = {});
+  void tell(SessionEvent::Kind kind, const std::string& text = {}) const;
+  void warn(const std::string& sentence);
+  SessionStatus status() const;
+  double seconds_left() const;
+  std::string mixture() const;
+
+  asio::thread_pool disk{1};
+  const int port;
+  Lookahead& lookahead;
+  Run& run;
+  const StreamSettings settings;
+  Spool* const spool;
+  const std::shared_ptr<Clock> clock;
+  const TimePoint began = clock->now();
+  SlowComputer computer;
+  Signal wake;
+  Link link;
+  std::function<void(const SessionEvent&)> observer;
+
+  SessionState state = SessionState::connecting;
+  std::string reason;
+  std::vector<std::string> warnings;
+
+  // Asked for
+  std::optional<std::string> pause_wanted;  ///< why
+  bool resume_wanted = false;
+  bool firmware_holds = false;  ///< it has paused on its own: it parks and returns by itself
+  bool stopped = false;
+  std::string stop_reason;
+  bool aborted = false;
+  std::deque<std::string> wanted;  ///< lines to be interposed
+
+  // Found out
+  bool heating = false;  ///< the printer may be in a wait for heat
+  bool parking = false;  ///< what is sent is not of the spool
+  bool parked = false;
+  bool halted = false;  ///< the firmware has said that it has stopped itself
+  std::optional<Lost> lost;
+  double waited = 0;  ///< s for layers
+  std::size_t pauses = 0;
+  gcode::Temperatures temperatures;
+  double speed_percent = 100, flow_percent = 100;
+
+  // Where it is
+  gcode::ModalState modal;  ///< after all lines handed to the link
+  std::uint64_t first = 0;  ///< place in the leg at which this session begins
+  std::uint64_t place = 0;  ///< before which everything was handed to the link
+  std::uint64_t extra = 0;  ///< lines handed that are none of the leg's
+  bool interposing = false;
+  bool anew = true;  ///< the next numbering is the first
+  Anchor numbered;   ///< `place` counts all lines of this session
+  std::size_t layers_begun = 0;
+  double layer_fraction = 0;
+  double seconds_sent = 0, chunk_seconds = 0;  ///< of the chunks before, of the one that is being sent
+  std::size_t layers_sent = 0;                 ///< whose seconds are in `seconds_sent`
+};
+
+/// Whatever was thrown, as a sentence for a person.
+std::string sentence(const std::exception_ptr& error);
+
+}  // namespace unicursal::host

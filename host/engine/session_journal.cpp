@@ -1,0 +1,70 @@
+// What a session keeps on disk: chunks before they are sent, and in the journal how far it has come.
+#include <array>
+#include <asio/co_spawn.hpp>
+#include <asio/use_awaitable.hpp>
+
+#include "host/engine/session_impl.hpp"
+#include "host/spool/spool_error.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr auto full_disk_pause = std::chrono::seconds(2);  ///< between attempts to write to it
+
+}  // namespace
+
+/// Lines of the session's own that are on their way get their anchor from interpose().
+void Session::State::keep_journal() {
+  link.on_numbering([this](std::uint32_t number, std::uint64_t line) {
+    numbered = {number, line};
+    const std::uint64_t handed = link.statistics().lines;
+    const std::uint64_t behind = interposing && handed > line ? handed - line : 0;
+    const std::uint64_t at = interposing ? place : first + line - extra;
+    spool->journal().anchor({number + static_cast<std::uint32_t>(behind), at}, std::exchange(anew, false));
+  });
+  spool->journal().begin_session();
+}
+
+void Session::State::note_progress() {
+  if (!spool || parking) return;
+  const std::uint64_t taken = link.statistics().acknowledged;
+  const std::uint64_t own = taken > extra ? taken - extra : 0;
+  spool->journal().progress(place, std::min(place, first + own));
+}
+
+void Session::State::end_journal(const StreamResult& ended) {
+  note_progress();
+  constexpr std::array outcomes{Outcome::completed, Outcome::stopped, Outcome::failed};
+  spool->journal().end({outcomes.at(static_cast<std::size_t>(ended.ending)), ended.reason});
+}
+
+/// Strips the chunk of its comments, and spools it. When the disk is full, the print waits until there is
+/// room; false when it was stopped meanwhile, so that nothing of the chunk may be sent.
+asio::awaitable<bool> Session::State::keep(SpooledChunk record, gcode::Chunk& chunk) {
+  std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
+  if (!spool) co_return true;
+  record.lines = chunk.lines;
+  const std::function<bool()> interrupted = [this] { return to_be_interrupted(); };
+  for (bool told = false;; told = true) {
+    const std::string problem = co_await write(record);
+    if (problem.empty()) co_return true;
+    if (!told) tell(SessionEvent::Kind::notice, "Error: the print waits: " + problem);
+    if (co_await wake.wait(clock->now() + full_disk_pause, interrupted)) co_return false;
+  }
+}
+
+/// Off the loop. Returns why it could not be done, if so.
+asio::awaitable<std::string> Session::State::write(const SpooledChunk& record) {
+  const Clock::Hold hold(*clock);
+  const auto work = [&]() -> asio::awaitable<std::string> {
+    try {
+      spool->append(record);
+    } catch (const SpoolFull& error) {
+      co_return error.what();
+    }
+    co_return std::string();
+  };
+  co_return co_await asio::co_spawn(disk, work, asio::use_awaitable);
+}
+
+}  // namespace unicursal::host
