@@ -115,7 +115,8 @@ Exit dry_run(const DryRunCommand& command) {
   StreamSettings settings = settings_for(command, simulator);
   Lookahead lookahead(*prepared.part, pace_for(command, prepared, settings));
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  const StreamResult result = stream_with_progress(port, lookahead, run, command.display, settings);
+  PlannedSource source(lookahead, run);
+  const StreamResult result = stream_with_progress(port, source, command.display, settings);
   settings.clock.reset();  // hangs up, which the simulator waits for
   const nlohmann::json planning = planning_of(command, lookahead, result);
   if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);

@@ -33,7 +33,8 @@ Exit print(const PrintCommand& command) {
   const int port = open_port(order.port, prepared.job.profile.baud);
   Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
   settings.spool = &spool;
-  const StreamResult result = stream_with_progress(port, lookahead, run, command.display, settings);
+  PlannedSource source(lookahead, run);
+  const StreamResult result = stream_with_progress(port, source, command.display, settings);
   tell_about_spool(spool, result);
   conclude(run, result, {{"planning", planning_json(lookahead)}});
   show(words_of(command.display), "{}", summary(run.totals(), lookahead.effort()));

@@ -131,7 +131,8 @@ class Resumption {
     settings.spool = &spool_;
     settings.continuation = std::move(continuation);
     const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
-    return stream_with_progress(port, lookahead_, run_, command_.display, settings);
+    PlannedSource source(lookahead_, run_);
+    return stream_with_progress(port, source, command_.display, settings);
   }
 
   Exit restart(const Lost& lost) {

@@ -174,7 +174,7 @@ nlohmann::json link_json(const StreamResult& result) {
           {"acknowledged", s.acknowledged}, {"resends", s.resends}, {"bytes", s.bytes}};
 }
 
-StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const DisplayOptions& options,
+StreamResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
                                   const StreamSettings& settings) {
   Display display(options.json ? DisplayForm::json : DisplayForm::words);
   const auto observer = [&](const Session& session, const SessionEvent& event) {
@@ -183,7 +183,7 @@ StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, cons
   const auto console = [](Session& session, const std::string& words) {
     if (const std::string answer = obey(session, words); !answer.empty()) show(stderr, "{}\n", answer);
   };
-  return stream(port, lookahead, run, observer, settings, console);
+  return stream(port, source, observer, settings, console);
 }
 
 }  // namespace unicursal::host

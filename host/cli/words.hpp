@@ -40,7 +40,7 @@ nlohmann::json planning_json(const Lookahead& lookahead);
 nlohmann::json link_json(const StreamResult& result);
 
 /// Streams with a progress line, or events; what the printer complains about is shown above it.
-StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const DisplayOptions& options,
+StreamResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
                                   const StreamSettings& settings = {});
 
 }  // namespace unicursal::host

@@ -21,14 +21,6 @@ bool moves_away(const std::string& line) {
   return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
 }
 
-SpooledChunk spooled(const PlannedLayer& planned, const PreparedJob& prepared) {
-  SpooledChunk chunk;
-  chunk.kind = SpooledChunk::Kind::layer;
-  chunk.layer = placed(prepared, planned);
-  for (const core::IslandPlan& plan : planned.plans) chunk.efforts.push_back(plan.effort);
-  return chunk;
-}
-
 LinkOptions link_options(const std::shared_ptr<Clock>& clock) {
   LinkOptions options;
   options.clock = clock;
@@ -57,11 +49,9 @@ std::string sentence(const std::exception_ptr& error) {
   }
 }
 
-Session::State::State(asio::any_io_executor on, int descriptor, Lookahead& planned, Run& of,
-                      StreamSettings with)
+Session::State::State(asio::any_io_executor on, int descriptor, Source& of, StreamSettings with)
     : port(descriptor),
-      lookahead(planned),
-      run(of),
+      source(of),
       settings(std::move(with)),
       spool(settings.spool),
       clock(settings.clock),
@@ -69,7 +59,7 @@ Session::State::State(asio::any_io_executor on, int descriptor, Lookahead& plann
       self(std::make_shared<State*>(this)),
       link(on, descriptor, link_options(clock)) {
   link.on_message([this](const std::string& line) { hear(line); });
-  lookahead.on_ready([on, weak = std::weak_ptr(self)] {
+  source.on_ready([on, weak = std::weak_ptr(self)] {
     asio::post(on, [weak] {
       if (const auto alive = weak.lock()) (*alive)->wake.notify();
     });
@@ -78,7 +68,7 @@ Session::State::State(asio::any_io_executor on, int descriptor, Lookahead& plann
 }
 
 Session::State::~State() {
-  lookahead.on_ready({});
+  source.on_ready({});
 }
 
 // ---- the way through a print
@@ -90,7 +80,7 @@ asio::awaitable<void> Session::State::print() {
   try {
     if (settings.continuation) co_await send_spooled();
     if (!settings.continuation || settings.continuation->extent.start_lines == 0) co_await start();
-    co_await send_layers();
+    co_await send_pieces();
     if (aborted) throw LinkError("the print was stopped at once");
     if (!stopped) co_await between();  // a pause that was asked for in the last lines
   } catch (const LinkError&) {
@@ -160,15 +150,15 @@ asio::awaitable<void> Session::State::send_spooled() {
 
 asio::awaitable<void> Session::State::start() {
   if (stopped) co_return;
-  gcode::Chunk chunk = run.start();
+  gcode::Chunk chunk = source.start();
   if (!co_await keep({}, chunk)) co_return;
   heating = true;
   enter(SessionState::heating);
-  if (run.prepared().job.profile.printer.start_gcode.find("M85") != std::string::npos)
+  if (source.printer().start_gcode.find("M85") != std::string::npos)
     warn(
         "the profile's start lines set M85; it is set again after them, since nothing else cools the printer "
         "when this computer fails");
-  co_await send(chunk, 0);
+  co_await send(chunk);
   co_await get_hot();
 }
 
@@ -179,42 +169,41 @@ asio::awaitable<void> Session::State::get_hot() {
   if (!stopped && !pause_wanted) enter(SessionState::printing);
 }
 
-asio::awaitable<void> Session::State::send_layers() {
-  for (std::size_t done = settings.continuation ? settings.continuation->extent.layers : 0; !stopped;
-       ++done) {
-    std::optional<PlannedLayer> layer = co_await next_layer();
-    if (!layer || stopped) break;
-    SpooledChunk record;
-    if (spool) record = spooled(*layer, run.prepared());
-    gcode::Chunk chunk = run.layer(std::move(*layer));
-    if (!co_await keep(std::move(record), chunk)) break;
-    chunk_seconds = chunk.seconds;
-    co_await send(chunk, done);
+asio::awaitable<void> Session::State::send_pieces() {
+  for (layers_begun = settings.continuation ? settings.continuation->extent.layers : 0; !stopped;) {
+    std::optional<Piece> piece = co_await next_piece();
+    if (!piece || stopped) break;
+    if (!co_await keep(std::move(piece->record), piece->chunk)) break;
+    chunk_seconds = piece->chunk.seconds;
+    co_await send(piece->chunk);
+    if (stopped) break;
     seconds_sent += std::exchange(chunk_seconds, no_time);
+    layer_fraction = 0;
+    ++layers_begun;
     ++layers_sent;
   }
 }
 
 /// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile, and
 /// what is charged for planning passes afterwards.
-asio::awaitable<std::optional<PlannedLayer>> Session::State::next_layer() {
+asio::awaitable<std::optional<Piece>> Session::State::next_piece() {
   const TimePoint asked = clock->now();
   tell_position();
-  co_await planned();
-  std::optional<PlannedLayer> layer = lookahead.wait();
-  const TimePoint ready{layer ? duration(layer->ready_at) : Duration::zero()};
+  co_await until_ready();
+  std::optional<Piece> piece = source.next();
+  const TimePoint ready{piece ? duration(piece->ready_at) : Duration::zero()};
   const std::function<bool()> interrupted = [this] { return to_be_interrupted(); };
   if (ready > clock->now()) co_await wake.wait(ready, interrupted);
   waited += seconds(clock->now() - asked);
-  co_return layer;
+  co_return piece;
 }
 
 /// The nozzle stands still meanwhile: a pause has to take it away from the part.
-asio::awaitable<void> Session::State::planned() {
+asio::awaitable<void> Session::State::until_ready() {
   const std::function<bool()> event = [this] {
-    return lookahead.ready() || to_be_interrupted() || pause_wanted || firmware_holds || !wanted.empty();
+    return source.ready() || to_be_interrupted() || pause_wanted || firmware_holds || !wanted.empty();
   };
-  while (!lookahead.ready() && !to_be_interrupted()) {
+  while (!source.ready() && !to_be_interrupted()) {
     {
       const Clock::Hold hold(*clock);
       co_await wake.wait(TimePoint::max(), event);
@@ -226,7 +215,7 @@ asio::awaitable<void> Session::State::planned() {
 /// What the printer still has in its queue is left out: it is little, and on the safe side.
 void Session::State::tell_position() {
   const double left = chunk_seconds * (1 - layer_fraction) * 100 / speed_percent;
-  lookahead.printed(seconds(clock->now().time_since_epoch()), left);
+  source.printed(seconds(clock->now().time_since_epoch()), left);
 }
 
 asio::awaitable<void> Session::State::finish() {
@@ -236,7 +225,7 @@ asio::awaitable<void> Session::State::finish() {
   }
   gcode::Chunk chunk;
   try {
-    chunk = run.finish();
+    chunk = source.finish();
   } catch (...) {
     link.cool_down();
     throw;
@@ -245,7 +234,7 @@ asio::awaitable<void> Session::State::finish() {
   record.kind = SpooledChunk::Kind::finish;
   if (!co_await keep(std::move(record), chunk)) co_return co_await send_last(std::move(chunk));
   parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
-  co_await send(chunk, run.totals().layers);
+  co_await send(chunk);
   co_await link.drain();
   note_progress();
 }
@@ -254,7 +243,7 @@ asio::awaitable<void> Session::State::finish() {
 asio::awaitable<void> Session::State::park() {
   gcode::Chunk chunk;
   try {
-    chunk = run.finish();
+    chunk = source.finish();
   } catch (...) {
     link.cool_down();
     throw;
@@ -268,19 +257,16 @@ asio::awaitable<void> Session::State::send_last(gcode::Chunk chunk) {
   if (spool) spool->journal().park(chunk.lines);
   parking = true;
   parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
-  co_await send(chunk, run.totals().layers);
+  co_await send(chunk);
   co_await link.drain();
 }
 
-asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk, std::size_t layers_done) {
+asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
   const bool own = heating || ending();  // commands wait until it is hot, or come too late
   for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
     if (!own) co_await between();
     if (stopped && !ending()) co_return;
-    if (!parking) {
-      layers_begun = layers_done;
-      layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
-    }
+    if (!own) layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
     const std::size_t end = std::min(i + batch, chunk.lines.size());
     co_await hand({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                    chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -326,9 +312,8 @@ Pace pace_by(std::shared_ptr<Clock> clock) {
   return {[clock = std::move(clock)] { return seconds(clock->now().time_since_epoch()); }, 1};
 }
 
-Session::Session(asio::any_io_executor executor, int port, Lookahead& lookahead, Run& run,
-                 StreamSettings settings)
-    : state_(std::make_unique<State>(std::move(executor), port, lookahead, run, std::move(settings))) {}
+Session::Session(asio::any_io_executor executor, int port, Source& source, StreamSettings settings)
+    : state_(std::make_unique<State>(std::move(executor), port, source, std::move(settings))) {}
 
 Session::~Session() = default;
 

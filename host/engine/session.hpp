@@ -1,7 +1,8 @@
 // One print on one printer, from the first word on the line to cold heaters, steered while it runs. It lives
 // on an Asio loop that somebody else runs: the foreground command (stream.hpp) or the daemon.
 //
-//   Session session(loop.get_executor(), open_port(path, baud), lookahead, run);
+//   PlannedSource source(lookahead, run);
+//   Session session(loop.get_executor(), open_port(path, baud), source);
 //   session.on_event([&](const SessionEvent& event) { tell(to_json(event)); });
 //   asio::co_spawn(loop, session.run(), [](std::exception_ptr, StreamResult result) { … });
 //   session.pause("somebody at the door");          // any time, on the loop's thread
@@ -29,9 +30,8 @@
 #include <vector>
 
 #include "firmware_gcode/reply/reply.hpp"
-#include "host/engine/run.hpp"
+#include "host/engine/source.hpp"
 #include "host/link/link.hpp"
-#include "host/lookahead/lookahead.hpp"
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool.hpp"
 
@@ -81,7 +81,7 @@ enum class PauseHeat {
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
   Spool* spool = nullptr;  ///< that keeps the print, if one does
-  /// With a spool: it holds the first layers already, and `run` and `lookahead` begin behind them.
+  /// With a spool: it holds the first layers already, and the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;
   /// s after which a pause ends by itself: for where nobody is there to end it.
@@ -151,8 +151,7 @@ using Refusal = std::optional<std::string>;
 class Session {
  public:
   /// Takes over the descriptor. What it refers to must outlive it.
-  Session(asio::any_io_executor executor, int port, Lookahead& lookahead, Run& run,
-          StreamSettings settings = {});
+  Session(asio::any_io_executor executor, int port, Source& source, StreamSettings settings = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -56,8 +56,7 @@ bool Session::State::placed() const {
 }
 
 gcode::Pause Session::State::pause_here() const {
-  const gcode::PrintSettings print = print_settings(run.prepared());
-  return {modal, print.extent, print.flow, settings.pause_heat == PauseHeat::lower};
+  return {modal, source.extent(), source.flow(), settings.pause_heat == PauseHeat::lower};
 }
 
 /// A firmware that has paused by itself parks and returns by itself: it only gets nothing more to do. Before
@@ -65,7 +64,7 @@ gcode::Pause Session::State::pause_here() const {
 asio::awaitable<void> Session::State::hold() {
   const std::string why = pause_wanted.value_or("the printer has paused itself");
   const bool aside = !firmware_holds && placed();
-  const gcode::Printer& printer = run.prepared().job.profile.printer;
+  const gcode::Printer& printer = source.printer();
   ++pauses;
   enter(SessionState::pausing, why);
   if (aside) {
@@ -140,7 +139,7 @@ asio::awaitable<void> Session::State::confirm_stop() {
 void Session::State::stop(const std::string& why) {
   stopped = true;
   stop_reason = why;
-  lookahead.cancel();
+  source.cancel();
   if (heating) link.cool_down();
   tell(SessionEvent::Kind::notice,
        heating ? "stopping: heating ends; once more stops the printer at once"
@@ -184,7 +183,7 @@ Refusal Session::emergency_stop() {
   State& s = *state_;
   if (has_ended(s.state)) return "the print has ended";
   s.aborted = true;
-  s.lookahead.cancel();
+  s.source.cancel();
   s.link.emergency_stop();
   s.wake.notify();
   return std::nullopt;

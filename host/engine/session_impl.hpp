@@ -18,7 +18,7 @@
 namespace unicursal::host {
 
 struct Session::State {
-  State(asio::any_io_executor on, int descriptor, Lookahead& planned, Run& of, StreamSettings with);
+  State(asio::any_io_executor on, int descriptor, Source& of, StreamSettings with);
   ~State();
 
   // The way through a print (session.cpp)
@@ -28,14 +28,14 @@ struct Session::State {
   asio::awaitable<void> send_spooled();
   asio::awaitable<void> start();
   asio::awaitable<void> get_hot();
-  asio::awaitable<void> send_layers();
-  asio::awaitable<std::optional<PlannedLayer>> next_layer();
-  asio::awaitable<void> planned();
+  asio::awaitable<void> send_pieces();
+  asio::awaitable<std::optional<Piece>> next_piece();
+  asio::awaitable<void> until_ready();
   void tell_position();
   asio::awaitable<void> finish();
   asio::awaitable<void> park();
   asio::awaitable<void> send_last(gcode::Chunk chunk);
-  asio::awaitable<void> send(const gcode::Chunk& chunk, std::size_t layers_done);
+  asio::awaitable<void> send(const gcode::Chunk& chunk);
   asio::awaitable<void> hand(std::vector<std::string> lines);
   StreamResult result(const std::exception_ptr& error);
 
@@ -73,8 +73,7 @@ struct Session::State {
 
   asio::thread_pool disk{1};
   const int port;
-  Lookahead& lookahead;
-  Run& run;
+  Source& source;
   const StreamSettings settings;
   Spool* const spool;
   const std::shared_ptr<Clock> clock;
@@ -103,7 +102,7 @@ struct Session::State {
   bool parked = false;
   bool halted = false;  ///< the firmware has said that it has stopped itself
   std::optional<Lost> lost;
-  double waited = 0;  ///< s for layers
+  double waited = 0;  ///< s for pieces
   std::size_t pauses = 0;
   gcode::Temperatures temperatures;
   double speed_percent = 100, flow_percent = 100;

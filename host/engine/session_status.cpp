@@ -119,11 +119,11 @@ void Session::State::warn(const std::string& sentence) {
 /// Layers that are not planned yet are taken to last as long as those before them on average.
 double Session::State::seconds_left() const {
   const double now = chunk_seconds * (1 - layer_fraction);
-  const Waiting waiting = lookahead.waiting();
+  const Waiting waiting = source.waiting();
   const std::size_t known = layers_sent + waiting.layers + (chunk_seconds > 0 ? 1 : 0);
   const double mean =
       known > 0 ? (seconds_sent + chunk_seconds + waiting.seconds) / static_cast<double>(known) : 0;
-  const std::size_t all = run.prepared().count;
+  const std::size_t all = source.layers();
   const std::size_t unknown = all > known ? all - known : 0;
   return now + waiting.seconds + mean * static_cast<double>(unknown);
 }
@@ -137,11 +137,11 @@ std::string Session::State::mixture() const {
   for (const std::string& line : tool->second) {
     if (const auto share = share_in(line)) shares.push_back(*share);
   }
-  for (const MaterialVolume& material : run.totals().materials) {
+  for (const NamedMixture& named : source.mixtures()) {
     bool same = shares.size() >= 3;
     for (std::size_t i = 0; i < 3 && same; ++i)
-      same = std::abs(material.intended.share(i) - shares[i]) < same_share;
-    if (same) return material.name;
+      same = std::abs(named.mixture.share(i) - shares[i]) < same_share;
+    if (same) return named.name;
   }
   std::string text;
   for (const double share : shares) text += fmt::format("{}{:.2f}", text.empty() ? "" : " : ", share);
@@ -152,7 +152,7 @@ SessionStatus Session::State::status() const {
   SessionStatus status;
   status.state = state;
   status.reason = reason;
-  status.layers = run.prepared().count;
+  status.layers = source.layers();
   const bool begun = chunk_seconds > 0 || layers_begun > 0 || layers_sent > 0;
   status.layer = begun ? std::min(layers_begun + 1, status.layers) : 0;
   status.layer_fraction = layer_fraction;
@@ -162,12 +162,12 @@ SessionStatus Session::State::status() const {
   status.elapsed = std::chrono::duration<double>(clock->now() - began).count();
   status.temperatures = temperatures;
   status.mixture = mixture();
-  const Waiting waiting = lookahead.waiting();
+  const Waiting waiting = source.waiting();
   status.lookahead = waiting.seconds;
   status.lookahead_layers = waiting.layers;
   status.speed_percent = speed_percent;
   status.flow_percent = flow_percent;
-  status.warnings = run.warnings();
+  status.warnings = source.warnings();
   status.warnings.insert(status.warnings.end(), warnings.begin(), warnings.end());
   return status;
 }

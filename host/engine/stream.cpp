@@ -30,13 +30,13 @@ int open_terminal() {
 
 class Foreground {
  public:
-  Foreground(int port, Lookahead& lookahead, Run& run, const SessionObserver& observer,
-             const StreamSettings& settings, const SessionConsole& console)
+  Foreground(int port, Source& source, const SessionObserver& observer, const StreamSettings& settings,
+             const SessionConsole& console)
       : clock_(settings.clock),
         signals_(loop_, SIGINT, SIGTERM),
         console_(console),
         terminal_(loop_),
-        session_(loop_.get_executor(), port, lookahead, run, settings) {
+        session_(loop_.get_executor(), port, source, settings) {
     if (!is_ignored(SIGHUP)) signals_.add(SIGHUP);
     session_.on_event([this, &observer](const SessionEvent& event) { observer(session_, event); });
   }
@@ -96,9 +96,9 @@ class Foreground {
 
 }  // namespace
 
-StreamResult stream(int port, Lookahead& lookahead, Run& run, const SessionObserver& observer,
-                    const StreamSettings& settings, const SessionConsole& console) {
-  return Foreground(port, lookahead, run, observer, settings, console)();
+StreamResult stream(int port, Source& source, const SessionObserver& observer, const StreamSettings& settings,
+                    const SessionConsole& console) {
+  return Foreground(port, source, observer, settings, console)();
 }
 
 }  // namespace unicursal::host

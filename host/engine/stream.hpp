@@ -18,7 +18,7 @@ using SessionConsole = std::function<void(Session&, const std::string& words)>;
 /// told in the result.
 /// `console`: called with every line that is typed into the terminal that this program runs in, if it does in
 /// one.
-StreamResult stream(int port, Lookahead& lookahead, Run& run, const SessionObserver& observer,
+StreamResult stream(int port, Source& source, const SessionObserver& observer,
                     const StreamSettings& settings = {}, const SessionConsole& console = {});
 
 }  // namespace unicursal::host

@@ -42,7 +42,8 @@ class SessionBench {
     std::optional<host::StreamResult> result;
     {
       asio::io_context loop{1};
-      host::Session session(loop.get_executor(), host::open_port(port_, 115200), lookahead, run_, settings);
+      host::PlannedSource source(lookahead, run_);
+      host::Session session(loop.get_executor(), host::open_port(port_, 115200), source, settings);
       session.on_event([&](const host::SessionEvent& event) {
         if (script) script(session, event);
       });

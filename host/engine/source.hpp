@@ -1,0 +1,88 @@
+// What a session prints, piece by piece: planned ahead of the nozzle, or known from beginning to end. All of
+// it is called on the loop's thread. mm, mm³/s, s.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/polygon.hpp"
+#include "firmware_gcode/toolpath/chunk.hpp"
+#include "firmware_gcode/toolpath/printer.hpp"
+#include "host/engine/run.hpp"
+#include "host/lookahead/lookahead.hpp"
+#include "host/spool/spooled_chunk.hpp"
+
+namespace unicursal::host {
+
+/// A stretch of the print.
+struct Piece {
+  gcode::Chunk chunk;
+  SpooledChunk record;  ///< for the spool, but for its lines
+  double ready_at = 0;  ///< s of the clock before which it would not have been there, in virtual time
+};
+
+/// A mixture by the name that a person knows.
+struct NamedMixture {
+  std::string name;
+  gcode::Mixture mixture;
+};
+
+class Source {
+ public:
+  virtual ~Source() = default;
+
+  /// On which printer, and what a pause has to keep clear of.
+  virtual const gcode::Printer& printer() const = 0;
+  virtual core::Box extent() const = 0;
+  virtual double flow() const = 0;
+  virtual std::vector<NamedMixture> mixtures() const = 0;
+  virtual std::vector<std::string> warnings() const = 0;
+
+  virtual std::size_t layers() const = 0;  ///< in all
+  /// Heats; what is sent first.
+  virtual gcode::Chunk start() = 0;
+  /// Whether next() has something to say; `listener` is told, by any thread, when that may have become so.
+  virtual bool ready() const = 0;
+  virtual void on_ready(std::function<void()> listener) = 0;
+  /// The next piece, or nothing after the last and after cancel(). Precondition: ready.
+  virtual std::optional<Piece> next() = 0;
+  /// Parks and cools, wherever the printer has stopped in what was sent.
+  virtual gcode::Chunk finish() = 0;
+  /// No further piece is needed.
+  virtual void cancel() = 0;
+
+  /// As Lookahead::printed() and waiting().
+  virtual void printed(double now, double left) = 0;
+  virtual Waiting waiting() const = 0;
+};
+
+/// A job's layers as they are planned. What it refers to must outlive it.
+class PlannedSource final : public Source {
+ public:
+  PlannedSource(Lookahead& lookahead, Run& run) : lookahead_(lookahead), run_(run) {}
+
+  const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
+  core::Box extent() const override { return print_settings(run_.prepared()).extent; }
+  double flow() const override { return run_.prepared().job.flow; }
+  std::vector<NamedMixture> mixtures() const override;
+  std::vector<std::string> warnings() const override { return run_.warnings(); }
+
+  std::size_t layers() const override { return run_.prepared().count; }
+  gcode::Chunk start() override { return run_.start(); }
+  bool ready() const override { return lookahead_.ready(); }
+  void on_ready(std::function<void()> listener) override { lookahead_.on_ready(std::move(listener)); }
+  std::optional<Piece> next() override;
+  gcode::Chunk finish() override { return run_.finish(); }
+  void cancel() override { lookahead_.cancel(); }
+  void printed(double now, double left) override { lookahead_.printed(now, left); }
+  Waiting waiting() const override { return lookahead_.waiting(); }
+
+ private:
+  Lookahead& lookahead_;
+  Run& run_;
+};
+
+}  // namespace unicursal::host
