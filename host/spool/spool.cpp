@@ -168,6 +168,7 @@ void remove_old(const fs::path& root) {
   for (std::size_t i = kept; i < prints.size(); ++i) {
     try {
       const Lock lock(prints[i]);
+      read_order(prints[i]);  // nothing is removed that is no print
       std::error_code ignored;
       fs::remove_all(prints[i], ignored);
     } catch (const SpoolError&) {
