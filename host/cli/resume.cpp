@@ -56,8 +56,9 @@ PreparedJob prepare_again(const Spool& spool) {
 
 LookaheadOptions behind(const PreparedJob& prepared, const SpoolExtent& extent) {
   LookaheadOptions options = lookahead_options(prepared);
-  options.first += extent.layers;
-  options.count -= std::min(options.count, extent.layers);
+  const std::size_t done = std::min(options.count, extent.layers);
+  options.first += done;
+  options.count -= done;
   return options;
 }
 
