@@ -1,6 +1,7 @@
 #include "host/engine/stream.hpp"
 
 #include <algorithm>
+#include <asio/bind_executor.hpp>
 #include <asio/co_spawn.hpp>
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
@@ -144,7 +145,7 @@ class Stream {
     std::exception_ptr error;
     try {
       if (continuation_) co_await send_spooled();
-      if (!continuation_ || continuation_->extent.start_lines == 0) co_await start();
+      if (!continuation_ || spool_->extent().start_lines == 0) co_await start();
       co_await send_layers();
     } catch (const LinkError&) {
       throw;
@@ -172,19 +173,39 @@ class Stream {
       lost_ = Lost{error.what(), std::nullopt};
       co_return;
     }
-    lost_ = lost_since(before, found, spool_->chunks(), continuation_->extent);
+    lost_ = lost_since(before, found, spool_->chunks(), spool_->extent());
     if (lost_) co_return;
+    spool_->journal().begin_session();
     begin_ = place_ = *before.place_of(found.next);
     anew_ = false;
     spool_->journal().anchor({found.next, begin_}, true);
     link_.go_on(found.next);
   }
 
+  void begin_to_catch_up() {
+    caught_up_ = false;
+    const auto work = [this]() -> asio::awaitable<void> {
+      continuation_->catch_up();
+      co_return;
+    };
+    asio::co_spawn(disk_, work, asio::bind_executor(loop_.get_executor(), [this](std::exception_ptr error) {
+                     caught_up_ = true;
+                     catching_up_failed_ = error;
+                     sleep_.notify();
+                   }));
+  }
+
+  /// Until then the run belongs to another thread.
+  asio::awaitable<void> catch_up() {
+    const std::function<bool()> caught_up = [this] { return caught_up_; };
+    co_await sleep_.wait(TimePoint::max(), caught_up);
+  }
+
   /// What is spooled from here on in this leg.
   asio::awaitable<void> send_spooled() {
-    const SpoolExtent& extent = continuation_->extent;
+    begin_to_catch_up();
     const Leg& leg = continuation_->leg ? *continuation_->leg : spool_->before().leg;
-    const std::uint64_t hot = leg.lead_in.empty() ? extent.start_lines : leg.lead_in.size();
+    const std::uint64_t hot = leg.lead_in.empty() ? spool_->extent().start_lines : leg.lead_in.size();
     LegReader reader(spool_->chunks(), leg, begin_);
     heating_ = begin_ < hot;
     while (!stopped_) {
@@ -195,6 +216,8 @@ class Stream {
       if (heating_ && place_ >= hot) co_await get_hot();
     }
     heating_ = false;
+    co_await catch_up();
+    if (catching_up_failed_) std::rethrow_exception(catching_up_failed_);
   }
 
   // ---- a print from its beginning, or behind what was spooled
@@ -215,7 +238,7 @@ class Stream {
   }
 
   asio::awaitable<void> send_layers() {
-    for (std::size_t done = continuation_ ? continuation_->extent.layers : 0; !stopped_; ++done) {
+    for (std::size_t done = continuation_ ? spool_->extent().layers : 0; !stopped_; ++done) {
       std::optional<PlannedLayer> layer = co_await next_layer();
       if (!layer) break;
       SpooledChunk record;
@@ -227,7 +250,7 @@ class Stream {
   }
 
   asio::awaitable<void> finish() {
-    if (continuation_ && continuation_->extent.finished) {
+    if (continuation_ && spool_->extent().finished) {
       parked_ = true;
       co_return co_await link_.drain();
     }
@@ -250,6 +273,7 @@ class Stream {
 
   /// Before its end: these lines are none of the print's own.
   asio::awaitable<void> park() {
+    co_await catch_up();
     gcode::Chunk chunk;
     try {
       chunk = run_.finish();
@@ -320,7 +344,6 @@ class Stream {
     link_.on_numbering([this](std::uint32_t number, std::uint64_t line) {
       spool_->journal().anchor({number, begin_ + line}, std::exchange(anew_, false));
     });
-    spool_->journal().begin_session();
   }
 
   void note_progress() {
@@ -379,6 +402,8 @@ class Stream {
   std::uint64_t begin_ = 0;  ///< place in the leg at which this program begins
   std::uint64_t place_ = 0;  ///< before which everything was handed to the link
   bool anew_ = true;         ///< the next numbering is the first
+  bool caught_up_ = true;
+  std::exception_ptr catching_up_failed_;
   bool stopped_ = false;
   bool finishing_ = false;
   bool parking_ = false;  ///< what is sent is not of the spool

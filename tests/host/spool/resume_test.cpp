@@ -134,12 +134,12 @@ void check_equal(const Seen& seen, const Seen& expected) {
 }
 
 /// Kills a print `times` times at random moments, several times in a row when chance will have it so.
-void kill_and_resume(int speed, int times, std::uint64_t seed) {
+void kill_and_resume(int speed, int times, std::uint64_t seed, const std::vector<std::string>& faults = {}) {
   const Undisturbed expected = undisturbed(speed);
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> moment(0, expected.seconds);
   for (int kills = 0; kills < times;) {
-    Bench bench(speed);
+    Bench bench(speed, faults);
     auto host = std::make_unique<Child>(bench.print());
     Bench::wait_for([&] { return bench.begun(); }, *host);
     for (bool first = true; first || (random() % 4 == 0 && kills < times); first = false) {
@@ -157,6 +157,11 @@ void kill_and_resume(int speed, int times, std::uint64_t seed) {
   }
 }
 
+/// What a line may do to bytes without a damaged line being taken for a good one, which nobody could see.
+const std::vector<std::string> garbling{"--fault", "merge:0.002",    "--fault", "falsealarm:0.005",
+                                        "--fault", "brokenok:0.005", "--fault", "noise:0.005",
+                                        "--fault", "doubleok:0.005"};
+
 /// The lines that follow the last one of `seen` that begins the print anew, compared with the end of a print.
 bool ends_like(const std::vector<std::string>& seen, const std::vector<std::string>& whole,
                std::size_t from) {
@@ -172,10 +177,15 @@ TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice"
   kill_and_resume(100, 3, 2);
 }
 
+TEST_CASE("the same over a line that garbles what passes") {
+  kill_and_resume(100, 3, 3, garbling);
+}
+
 TEST_CASE("200 kills at random moments leave the part as it would have been", "[long]") {
   kill_and_resume(0, 60, 11);
-  kill_and_resume(60, 70, 12);
-  kill_and_resume(200, 70, 13);
+  kill_and_resume(60, 50, 12);
+  kill_and_resume(200, 50, 13);
+  kill_and_resume(100, 40, 14, garbling);
 }
 
 TEST_CASE("a print that is complete says so, and is listed") {
@@ -220,14 +230,31 @@ TEST_CASE("after a reset the print goes on at the last place that is certain, if
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
+TEST_CASE("a cable that was pulled and put back costs nothing") {
+  const Seen whole = undisturbed(100).seen;
+  Bench bench(100, {"--fault", "disconnect:5@line=700"});
+  const Outcome cut = test::run(bench.print());
+  INFO(cut.err);
+  REQUIRE(cut.code == 1);
+  CHECK(cut.err.find("cable") != std::string::npos);
+  const auto plugged_in = [&] { return fs::exists(bench.path("port")); };
+  while (!plugged_in()) poll(nullptr, 0, 5);
+  const Outcome resumed = test::run(bench.resume());
+  INFO(resumed.out << resumed.err);
+  REQUIRE(resumed.code == 0);
+  check_equal(bench.seen(), whole);
+}
+
 TEST_CASE("a print that was stopped and parked can be taken up again") {
   const Seen whole = undisturbed(0).seen;
   Bench bench(100);
-  Child host(bench.print());
-  const auto laying = [&] { return host.err().find("layer 1") != std::string::npos; };
-  Bench::wait_for(laying, host);
-  kill(host.id(), SIGINT);
-  const Outcome stopped = host.wait();
+  Child child(bench.print());
+  const auto laying = [&] {
+    return bench.begun() && host::read_journal(bench.print_folder() / "journal").acknowledged > 200;
+  };
+  Bench::wait_for(laying, child);
+  kill(child.id(), SIGINT);
+  const Outcome stopped = child.wait();
   INFO(stopped.err);
   REQUIRE(stopped.code == 1);
   REQUIRE(stopped.out.find("parked") != std::string::npos);
