@@ -5,8 +5,10 @@
 // speed (what Figure 21 compares with). Same curves, same volume, same deposit model. --speed chooses the
 // flow so that the mean speed would be that on a machine without inertia; otherwise it is the job's. The
 // firmware is driven directly, always full, so no link can be to blame. Gaps are told for the whole layer and
-// for what lies more than a bead width inside its border, which no width of a bead can mend. The
-// books are told as well: what the motors fed against what lies on the bed and what is in the nozzle.
+// for what lies more than a bead width inside its border, which no width of a bead can mend. The more even a
+// curve is (told as the deviation of its widths), the less there is for own areas to mend: --quality 0.1
+// gives a hasty one. The books are told as well: what the motors fed against what lies on the bed and what is
+// in the nozzle.
 #include <fmt/core.h>
 
 #include <algorithm>
