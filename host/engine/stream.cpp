@@ -46,6 +46,15 @@ std::string sentence(const std::exception_ptr& error) {
   }
 }
 
+/// Lines of a lead-in up to the last one that waits for heat: what follows moves.
+std::uint64_t heat_lines(const std::vector<std::string>& lead_in) {
+  const auto waits = [](const std::string& line) {
+    return line.starts_with("M109") || line.starts_with("M190");
+  };
+  const auto last = std::find_if(lead_in.rbegin(), lead_in.rend(), waits);
+  return static_cast<std::uint64_t>(lead_in.rend() - last);
+}
+
 SpooledChunk spooled(const PlannedLayer& planned, const PreparedJob& prepared) {
   SpooledChunk chunk;
   chunk.kind = SpooledChunk::Kind::layer;
@@ -205,15 +214,17 @@ class Stream {
   asio::awaitable<void> send_spooled() {
     begin_to_catch_up();
     const Leg& leg = continuation_->leg ? *continuation_->leg : spool_->before().leg;
-    const std::uint64_t hot = leg.lead_in.empty() ? spool_->extent().start_lines : leg.lead_in.size();
+    const std::uint64_t hot = leg.lead_in.empty() ? spool_->extent().start_lines : heat_lines(leg.lead_in);
     LegReader reader(spool_->chunks(), leg, begin_);
     heating_ = begin_ < hot;
+    homeless_ = heating_ && !leg.lead_in.empty();
     while (!stopped_) {
-      std::vector<std::string> lines = reader.next(batch);
+      std::vector<std::string> lines = reader.next(heating_ ? std::min(batch, hot - place_) : batch);
       if (lines.empty()) break;
       listeners_.progress(reader.layers_begun(), reader.fraction());
       co_await hand(std::move(lines));
       if (heating_ && place_ >= hot) co_await get_hot();
+      homeless_ = homeless_ && stopped_;
     }
     heating_ = false;
     co_await catch_up();
@@ -276,7 +287,10 @@ class Stream {
     co_await catch_up();
     gcode::Chunk chunk;
     try {
-      chunk = run_.finish();
+      if (homeless_)
+        chunk.lines = {"M104 S0", "M140 S0", "M107"};
+      else
+        chunk = run_.finish();
     } catch (...) {
       link_.cool_down();
       throw;
@@ -331,10 +345,9 @@ class Stream {
   }
 
   asio::awaitable<void> hand(std::vector<std::string> lines) {
-    const std::size_t count = lines.size();
     co_await link_.send(std::move(lines));
     if (parking_) co_return;
-    place_ += count;
+    place_ = begin_ + link_.statistics().lines;  // without those that a stop has made it forget
     note_progress();
   }
 
@@ -410,7 +423,8 @@ class Stream {
   bool aborted_ = false;
   bool heating_ = false;  ///< the start is under way
   bool parked_ = false;
-  double waited_ = 0;  ///< s for layers
+  bool homeless_ = false;  ///< the printer does not know where its nozzle is: it must not move
+  double waited_ = 0;      ///< s for layers
   std::optional<Lost> lost_;
 };
 
