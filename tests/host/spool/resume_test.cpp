@@ -230,6 +230,32 @@ TEST_CASE("after a reset the print goes on at the last place that is certain, if
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
+TEST_CASE("a stop while a lost printer heats again moves nothing, and the print can still go on") {
+  const Seen whole = undisturbed(0).seen;
+  Bench bench(50, {"--fault", "reset@line=700"});
+  REQUIRE(test::run(bench.print()).code == 1);
+  auto arguments = bench.resume();
+  arguments.push_back("--yes");
+  Child child(arguments);
+  const auto heating = [&] {
+    const host::JournalState state = host::read_journal(bench.print_folder() / "journal");
+    return state.legs == 2 && state.handed > 0;
+  };
+  Bench::wait_for(heating, child);
+  kill(child.id(), SIGINT);
+  const Outcome stopped = child.wait();
+  INFO(stopped.out << stopped.err);
+  REQUIRE(stopped.code == 1);
+  CHECK(stopped.out.find("parked and cooling") == std::string::npos);
+  const Outcome resumed = bench.resume_anyway();
+  INFO(resumed.out << resumed.err);
+  REQUIRE(resumed.code == 0);
+  const Seen seen = bench.seen();
+  CHECK(std::count(seen.lines.begin(), seen.lines.end(), "G28 X Y") == 1);
+  CHECK(ends_like(seen.lines, whole.lines, 750));
+  CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
+}
+
 TEST_CASE("a cable that was pulled and put back costs nothing") {
   const Seen whole = undisturbed(100).seen;
   Bench bench(100, {"--fault", "disconnect:5@line=700"});
