@@ -8,7 +8,8 @@
 namespace unicursal::core {
 
 /// Drops vertices that stand closer than half of `spacing` to their neighbours, where the curve moves by less
-/// than its clearance (so it stays simple and inside).
+/// than its clearance (so it stays simple and inside), or than a tenth of it, where cutting the
+/// corner meets nothing.
 Curve thinned(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers = nullptr);
 
 /// The same, and cuts segments longer than 1.5 `spacing` in equal pieces.
