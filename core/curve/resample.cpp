@@ -1,5 +1,6 @@
 #include "core/curve/resample.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -12,7 +13,8 @@ namespace unicursal::core {
 namespace {
 
 constexpr double too_close = 0.5, too_far = 1.5;  ///< of the spacing
-// A segment as short as this leaves its neighbours next to no clearance from one another, and would stay so.
+// A segment as short as this leaves its neighbours next to no clearance from one another, and would stay so;
+// so would a hairpin whose strands are as near.
 constexpr double collapsed = 0.1;
 constexpr std::size_t fewest_vertices = 8;
 constexpr int most_sweeps = 6;
@@ -74,10 +76,11 @@ Curve thinned_once(const Curve& curve, const BorderIndex& border, double spacing
     const Vec2 &before = curve.vertices[curve.before(i)], &here = curve.vertices[i];
     const Vec2& after = curve.vertices[curve.after(i)];
     const double nearest = std::min((here - before).norm(), (after - here).norm());
-    if (!dropped && i + 1 < curve.size() && left > fewest_vertices && nearest < too_close * spacing &&
-        (after - before).norm() < too_far * spacing &&
-        (distance_to_segment(here, before, after) < free[i] ||
-         (nearest < collapsed * spacing && corners.empty(i)))) {
+    const double apart = (after - before).norm();
+    const bool movable = nearest < too_close * spacing && distance_to_segment(here, before, after) < free[i];
+    const bool in_doubt =
+        !dropped && i + 1 < curve.size() && left > fewest_vertices && apart < too_far * spacing;
+    if (in_doubt && (movable || (std::min(nearest, apart) < collapsed * spacing && corners.empty(i)))) {
       dropped = true;
       --left;
       continue;
