@@ -1,8 +1,6 @@
 // A picture that is drawn on in the part's frame: mm in, y up; pixels out, y down.
 #pragma once
 
-#include <string_view>
-
 #include "core/geometry/polygon.hpp"
 #include "core/picture/image.hpp"
 

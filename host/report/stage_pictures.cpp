@@ -1,10 +1,10 @@
 #include "host/report/stage_pictures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/curve/evenness.hpp"
 #include "core/picture/text.hpp"
