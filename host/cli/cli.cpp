@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <limits>
 
@@ -34,8 +35,11 @@ CLI::Validator finite_number(double least, double most) {
   return {problem, "NUMBER"};
 }
 
+constexpr double most_threads = 256;
+
 struct JobArguments {
   std::string job, profile, layers, report, pictures;
+  std::size_t threads = 0;
 
   void declare(CLI::App& app) {
     app.add_option("job", job, "the job, a TOML file")->required()->type_name("JOB");
@@ -45,10 +49,14 @@ struct JobArguments {
         ->type_name("A:B");
     app.add_option("--report", report, "write what was measured as JSON")->type_name("FILE");
     app.add_option("--picture", pictures, "write a picture of each layer into this folder")->type_name("DIR");
+    app.add_option("--threads", threads,
+                   "that plan layers; one for each core by default, any number gives the same bytes")
+        ->check(finite_number(1, most_threads))
+        ->type_name("N");
   }
 
   JobOptions options() const {
-    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}};
+    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}, threads};
     if (!layers.empty()) result.layers = parse_layers(layers);
     return result;
   }
@@ -191,6 +199,13 @@ class CommandLine {
     app->add_option("-o,--output", outputs_, ".txt (x y width), .svg or .png; may be given several times")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was measured as JSON")->type_name("FILE");
+    app->add_option("--picture", job_.pictures,
+                    "write a picture of each stage into this folder, from 1-field.png to 6-width.png")
+        ->type_name("DIR");
+    app->add_option("--threads", job_.threads,
+                    "that share the island, 1 by default; any number gives the same bytes")
+        ->check(finite_number(1, most_threads))
+        ->type_name("N");
     app->add_option("--preset", preset_, "weights of the optimisers: best (the default) or paper")
         ->check(CLI::IsMember({"best", "paper"}));
     app->add_option("--quality", quality_, "how long the optimisers run; 1 is the default, more is better")
@@ -244,6 +259,8 @@ class CommandLine {
     command.layer = layer_;
     command.island = island_;
     command.report = path_if(job_.report);
+    command.pictures = path_if(job_.pictures);
+    command.threads = std::max(static_cast<int>(job_.threads), 1);
     command.outputs.assign(outputs_.begin(), outputs_.end());
     command.preset = preset_ == "paper" ? core::Preset::paper : core::Preset::best;
     command.quality = quality_;

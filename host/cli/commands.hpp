@@ -22,6 +22,7 @@ struct JobOptions {
   std::optional<std::filesystem::path> profile;
   std::optional<LayerRange> layers;
   RunOutputs outputs;
+  std::size_t threads = 0;  ///< that plan; 0: one for each core
 };
 
 struct PlanCommand {
@@ -47,6 +48,8 @@ struct CurveCommand {
   std::size_t island = 0;  ///< 0: the largest
   std::vector<std::filesystem::path> outputs;
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> pictures;  ///< folder, for one of each stage
+  int threads = 1;                                ///< that share the island
   core::Preset preset = core::Preset::best;
   double quality = 1;                           ///< how long the optimisers run
   std::optional<double> budget;                 ///< s of planning; what there is then is finished
