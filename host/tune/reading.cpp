@@ -28,7 +28,7 @@ void check(const Strip& strip, const StripReading& reading) {
       "the colour begins to change first, is half changed later and stops last");
 }
 
-/// Half of the way between the ticks that a place was told from.
+/// The way to the next printed tick: half of it is rounding, half the eye.
 double doubt_at(const Strip& strip, double along) {
   constexpr double same = 1e-6;  // ticks
   const double ticks = along / strip.tick;
@@ -41,7 +41,7 @@ double doubt_at(const Strip& strip, double along) {
   const bool on_tick = std::any_of(strip.marked.begin(), strip.marked.end(), [&](std::size_t tick) {
     return std::abs(static_cast<double>(tick) - ticks) <= same;
   });
-  return (above - below) * strip.tick / (on_tick ? 4 : 2);
+  return (above - below) * strip.tick / (on_tick ? 2 : 1);
 }
 
 VolumeRange range_at(const Strip& strip, double along) {

@@ -29,8 +29,8 @@ class StripReader {
   virtual StripReading read(const Strip& strip) = 0;
 };
 
-/// What has passed at those places, known as well as the ticks stand close. Throws core::DataError for a
-/// reading that is not on the strip or not in order.
+/// What has passed at those places, give or take the way to the next printed tick. Throws core::DataError for
+/// a reading that is not on the strip or not in order.
 ReadVolumes volumes_of(const Strip& strip, const StripReading& reading);
 
 /// The printed tick that is nearest to a place, in mm along the bead.

@@ -14,7 +14,7 @@ namespace {
 constexpr double mixing_end = 0.95;  ///< of the change: where the profile's mixing volume ends
 constexpr double least_tanks = 1, most_tanks = 6;
 constexpr double tank_step = 0.1;
-constexpr double most_widening = 8;  ///< half ticks; readings that are worse are of another strip
+constexpr double most_widening = 5;  ///< ticks; readings that are worse are of another strip
 constexpr double widening_step = 1.25;
 constexpr double slack = 1e-9;  ///< mm³, of rounding
 

@@ -9,7 +9,7 @@
 // trace came depends on k: from 2 to 25 % of M. The place where half of the change has come tells k well
 // enough; without it M stays uncertain by about 13 %.
 //
-// All values of D, M and k that agree with the readings are kept, each reading being known to half a tick.
+// All values of D, M and k that agree with the readings are kept, each reading being known to a tick.
 // The answer is the middle of what they span, its uncertainty half of the span. mm³.
 #pragma once
 

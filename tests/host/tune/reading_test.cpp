@@ -69,17 +69,17 @@ TEST_CASE("Only a yes is a yes") {
   CHECK_THROWS_AS(ask(""), TuningCancelled);
 }
 
-TEST_CASE("A tick is known to half of what lies between the printed ones") {
+TEST_CASE("A reading is known to the next printed tick") {
   const Strip strip = sample_strip();
   const ReadVolumes read = volumes_of(strip, {20, 40, 28});
-  CHECK(read.began.least == Approx(strip.at(19.5).passed));
-  CHECK(read.began.greatest == Approx(strip.at(20.5).passed));
-  CHECK(volumes_of(strip, {20.5, 40, {}}).began.greatest == Approx(strip.at(21).passed));
+  CHECK(read.began.least == Approx(strip.at(19).passed));
+  CHECK(read.began.greatest == Approx(strip.at(21).passed));
+  CHECK(volumes_of(strip, {20.5, 40, {}}).began.greatest == Approx(strip.at(21.5).passed));
   // In the turn only even ticks are printed: no odd one is the nearest there.
   const auto odd = [&](double along) { return std::fmod(nearest_tick(strip, along), 2) == 1; };
   CHECK(odd(101.2));
   CHECK_FALSE(odd(171.2));
-  CHECK(volumes_of(strip, {172, 280, {}}).began.least == Approx(strip.at(171).passed));
+  CHECK(volumes_of(strip, {172, 280, {}}).began.least == Approx(strip.at(170).passed));
 }
 
 TEST_CASE("Readings beside the strip and out of order are refused") {

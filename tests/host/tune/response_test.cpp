@@ -45,11 +45,12 @@ double along_at(const Strip& strip, double passed) {
   return low;
 }
 
-StripReading read_by_ticks(const Strip& strip, const HiddenNozzle& nozzle) {
+/// As an eye does that takes `eye` of the change for what the lines show.
+StripReading read_by_ticks(const Strip& strip, const HiddenNozzle& nozzle, const Perception& eye = {}) {
   const auto tick = [&](double change) {
     return nearest_tick(strip, along_at(strip, passed_at(nozzle, change)));
   };
-  return {tick(0.05), tick(0.95), tick(0.5)};
+  return {tick(eye.began), tick(eye.stopped), tick(eye.half)};
 }
 
 double error_of(const Transition& found, const HiddenNozzle& nozzle) {
@@ -98,6 +99,17 @@ TEST_CASE("Readings by ticks give every nozzle within a tenth, and the truth is 
     CHECK(std::abs(found.dead.value - nozzle.dead) <= found.dead.uncertainty + 1e-3);
     CHECK(std::abs(found.mixing.value - nozzle.mixing) <= found.mixing.uncertainty + 1e-3);
     CHECK(found.widened == 1);
+  }
+}
+
+TEST_CASE("An eye that compares to one in a hundred is good enough") {
+  const Strip strip = make_strip(diamond(), {});
+  for (const Perception& eye : {Perception{0.04, 0.49, 0.94}, Perception{0.06, 0.51, 0.96}}) {
+    for (const HiddenNozzle& nozzle : test::hidden_nozzles(100, 9)) {
+      CAPTURE(eye.began, nozzle.dead, nozzle.mixing, nozzle.tanks);
+      const Transition found = fit_transition(volumes_of(strip, read_by_ticks(strip, nozzle, eye)));
+      CHECK(error_of(found, nozzle) < 0.1);
+    }
   }
 }
 
