@@ -1,7 +1,5 @@
 #include "host/tune/raster_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

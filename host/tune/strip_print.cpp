@@ -110,7 +110,9 @@ class StripWriter {
   void lay(Chunk& chunk, const StripMove& move) {
     writer_.select_tool(chunk, static_cast<std::size_t>(move.shade));
     const core::Vec2 step = move.to - *writer_.position();
-    writer_.bead(chunk, move.to, move.volume, gcode::bead_speed(step, move.volume, flow_, printer_));
+    const double speed =
+        std::min(flow_ * step.norm() / move.volume, gcode::axis_limited_speed(step, printer_.max_speed));
+    writer_.bead(chunk, move.to, move.volume, speed);
   }
 
   void approach(Chunk& chunk, const core::Vec2& to) {
