@@ -12,6 +12,7 @@
 #include "host/cli/cli.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
+#include "host/tune/strip_print.hpp"
 #include "sim/simulator.hpp"
 
 namespace unicursal::host {
@@ -62,11 +63,27 @@ struct SimulateCommand {
   std::optional<double> baud;                    ///< bits/s; absent: the profile's
 };
 
+struct TuneCommand {
+  std::filesystem::path profile;
+  StripFeeders feeders;
+  std::optional<double> range;                  ///< mm³ that the strip holds
+  std::optional<std::filesystem::path> output;  ///< G-code
+  std::optional<std::string> port;
+  bool simulate = false;
+  std::optional<std::filesystem::path> machine;   ///< the simulated printer's profile
+  std::size_t tanks = 2;                          ///< of the simulated nozzle
+  std::optional<std::filesystem::path> pictures;  ///< folder
+  bool read_simulated = false;                    ///< off the raster instead of asking
+  std::optional<double> began, half, stopped;     ///< ticks
+  bool yes = false;                               ///< write without asking
+};
+
 Exit plan(const PlanCommand& command);
 Exit dry_run(const DryRunCommand& command);
 Exit print(const PrintCommand& command);
 Exit curve(const CurveCommand& command);
 Exit simulate(SimulateCommand command);
+Exit tune(const TuneCommand& command);
 /// Throws core::DataError for a printer that cannot be simulated.
 void check_simulator(const sim::SimulatorOptions& options);
 Exit ports();

@@ -62,7 +62,7 @@ bool simulator_runs_on(const std::string& folder) {
 
 TEST_CASE("Help and version are answers, not errors") {
   CHECK(run({"--version"}).out == "unicursal 0.1.0\n");
-  for (const char* command : {"dry-run", "plan", "print", "curve", "simulate", "ports"}) {
+  for (const char* command : {"dry-run", "plan", "print", "curve", "simulate", "tune", "ports"}) {
     const Outcome outcome = run({command, "--help"});
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("Example:\n  unicursal " + std::string(command)) != std::string::npos);
