@@ -177,7 +177,7 @@ TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice"
   kill_and_resume(100, 3, 2);
 }
 
-TEST_CASE("the same over a line that garbles what passes") {
+TEST_CASE("kills over a line that garbles what passes", "[long]") {
   kill_and_resume(100, 3, 3, garbling);
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("after a reset the print goes on at the last place that is certain, if
 
 TEST_CASE("a stop while a lost printer heats again moves nothing, and the print can still go on") {
   const Seen whole = undisturbed(0).seen;
-  Bench bench(50, {"--fault", "reset@line=700"});
+  Bench bench(100, {"--fault", "reset@line=700"});
   REQUIRE(test::run(bench.print()).code == 1);
   auto arguments = bench.resume();
   arguments.push_back("--yes");
