@@ -56,6 +56,7 @@ struct PartSource {
   std::vector<std::filesystem::path> files;  ///< one SVG, or one or more STL
   double height = 0;        ///< mm, for drawings: how far they are extruded; ignored for meshes
   double layer_height = 0;  ///< mm
+  double first_layer_height = 0;  ///< mm, 0: like the others
   std::vector<Zone> zones;
 };
 

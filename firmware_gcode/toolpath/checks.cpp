@@ -73,6 +73,17 @@ bool breaks_numbering(const std::string& line) {
          line.starts_with("M110");
 }
 
+void check_motion(const Motion& motion) {
+  for (double jerk : motion.jerk) require_within(jerk, bounds::jerk, "jerk", "mm/s");
+  require_within(motion.extruder_jerk, bounds::jerk, "extruder jerk", "mm/s");
+  require_within(motion.junction_deviation, bounds::junction_deviation, "junction_deviation", "mm");
+  require_within(motion.extruder_speed, bounds::speed, "extruder speed", "mm/s");
+  for (double a : {motion.acceleration, motion.travel_acceleration, motion.retract_acceleration,
+                   motion.extruder_acceleration}) {
+    require_within(a, bounds::acceleration, "acceleration", "mm/s²");
+  }
+}
+
 }  // namespace
 
 void check_printer(const Printer& printer) {
@@ -89,6 +100,9 @@ void check_printer(const Printer& printer) {
   require_within(printer.max_flow, bounds::flow, "max_flow", "mm³/s");
   require_within(printer.retraction_length, bounds::retraction_length, "retraction_length", "mm");
   require_within(printer.retraction_speed, bounds::speed, "retraction_speed", "mm/s");
+  require_within(printer.z_hop, bounds::z_hop, "z_hop", "mm");
+  for (double factor : printer.flow_factors) require_within(factor, bounds::flow_factor, "flow_factors", "");
+  check_motion(printer.motion);
   require_within(printer.nozzle_temperature, bounds::nozzle_temperature, "nozzle temperature", "°C");
   require_within(printer.bed_temperature, bounds::bed_temperature, "bed temperature", "°C");
   require_within(printer.dead_volume, bounds::transition, "dead_volume", "mm³");
@@ -111,6 +125,15 @@ void check_settings(const PrintSettings& settings, const Printer& printer, const
             "name a mixture that the job defines");
   }
   require_positive(settings.flow, "flow");
+  require(!settings.speed || bounds::speed.hold(*settings.speed), "speed", "is none that a printer can run",
+          "give it in mm/s, say 20");
+  require(settings.first_layer_speed > 0 && settings.first_layer_speed <= 1, "first_layer_speed",
+          "is not above 0, up to 1", "give the part of the other layers' speed, say 0.5");
+  require(within(settings.fan.percent, 0, 100), "fan", "is not between 0 and 100 %", "correct it");
+  for (const LayerTemperature& change : settings.temperatures) {
+    if (change.nozzle) require_within(*change.nozzle, bounds::nozzle_temperature, "temperatures", "°C");
+    if (change.bed) require_within(*change.bed, bounds::bed_temperature, "temperatures", "°C");
+  }
   require(settings.flow <= printer.max_flow, "flow",
           fmt::format("{:g} mm³/s is more than the printer's max_flow of {:g} mm³/s", settings.flow,
                       printer.max_flow),

@@ -14,7 +14,7 @@ struct Chunk {
   double volume = 0;   ///< mm³ extruded along beads, prime line included, retractions not
   /// The same by material: index as in PrintSettings::materials.
   std::vector<double> material_volumes;
-  double prime_volume = 0;            ///< mm³ of `volume` that went into the prime line
+  double prime_volume = 0;            ///< mm³ of `volume` that went into the prime line and the skirt
   std::vector<std::string> warnings;  ///< what a person should know before printing, one sentence each
 };
 

@@ -11,11 +11,16 @@
 #include <utility>
 
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
 #include "firmware_gcode/toolpath/job_frame.hpp"
 #include "firmware_gcode/toolpath/move_writer.hpp"
+#include "firmware_gcode/toolpath/pace.hpp"
+#include "firmware_gcode/toolpath/placeholders.hpp"
 #include "firmware_gcode/toolpath/prime_line.hpp"
-#include "firmware_gcode/toolpath/speeds.hpp"
+#include "firmware_gcode/toolpath/review.hpp"
+#include "firmware_gcode/toolpath/simplify.hpp"
+#include "firmware_gcode/toolpath/skirt.hpp"
 
 namespace unicursal::gcode {
 namespace {
@@ -34,6 +39,12 @@ void append(Lines& lines, Lines more) {
 struct Entry {
   std::size_t path = 0, vertex = 0;
 };
+
+core::Box grown(core::Box box, double by) {
+  box.min -= core::Vec2(by, by);
+  box.max += core::Vec2(by, by);
+  return box;
+}
 
 Entry nearest_entry(const std::vector<const core::BeadPath*>& paths, const core::Vec2& from) {
   Entry best;
@@ -58,31 +69,47 @@ struct Encoder::State {
   void approach(Chunk& chunk, const core::Vec2& to, double z, double bead_width);
   void draw_back(Chunk& chunk);
   void push_forward(Chunk& chunk);
-  void print(Chunk& chunk, const core::BeadPath& path, std::size_t first, double layer_height);
+  void lay_skirt(Chunk& chunk, const PlacedLayer& layer, const std::vector<const core::BeadPath*>& paths);
+  void print(Chunk& chunk, const core::BeadPath& path, std::size_t first, const PlacedLayer& layer);
   void tell_width(Chunk& chunk, double width);
 
   const Printer printer;
   const PrintSettings settings;
   const Dialect& dialect;
   Lines start_lines, end_lines;
-  std::vector<Mixture> mixtures;               ///< as intended, by material
+  std::vector<WrittenTool> tools;              ///< by material, and the retraction tool
   std::optional<std::size_t> retraction_tool;  ///< of equal shares
   MoveWriter writer;
+  Pace pace;
+  Review review;
   bool drawn_back = true;
   bool primed = false;
   double told_width = 0;  ///< mm, of the last ;WIDTH: comment
 };
 
 Encoder::State::State(const Printer& of, const PrintSettings& with)
-    : printer(of), settings(with), dialect(dialect_named(of.firmware)), writer(printer, dialect) {
+    : printer(of),
+      settings(with),
+      dialect(dialect_named(of.firmware)),
+      writer(printer, dialect),
+      pace(printer, settings),
+      review(printer, dialect) {
   check_printer(printer);
   check_settings(settings, printer, dialect);
-  start_lines = user_commands(printer.start_gcode, "start_gcode");
-  end_lines = user_commands(printer.end_gcode, "end_gcode");
+  const auto own_lines = [&](const std::string& text, const std::string& key) {
+    return user_commands(with_values(text, key, printer, settings), key);
+  };
+  start_lines = own_lines(printer.start_gcode, "gcode.start");
+  end_lines = own_lines(printer.end_gcode, "gcode.end");
   for (const Material& material : settings.materials) {
-    mixtures.push_back(dialect.as_written(material.mixture.with_floor(printer.floor_share)));
+    tools.push_back(
+        calibrated(material.mixture.with_floor(printer.floor_share), printer.flow_factors, dialect));
   }
-  if (mixtures.size() < dialect.limits().virtual_tools) retraction_tool = mixtures.size();
+  if (tools.size() < dialect.limits().virtual_tools) {
+    retraction_tool = tools.size();
+    tools.push_back(calibrated(Mixture({1, 1, 1}), printer.flow_factors, dialect));
+  }
+  for (std::size_t i = 0; i < tools.size(); ++i) writer.calibrate(i, tools[i].scale);
 }
 
 Chunk Encoder::State::new_chunk() const {
@@ -111,14 +138,16 @@ void Encoder::State::approach(Chunk& chunk, const core::Vec2& to, double z, doub
   const auto here = writer.position();
   if (!here || (to - *here).norm() > travel_widths * bead_width) draw_back(chunk);
   // Rise first: at the old height the nozzle would plough through what it has just laid.
-  writer.rise(chunk, z);
+  writer.rise(chunk, drawn_back ? std::min(z + printer.z_hop, printer.bed[2]) : z);
   writer.travel(chunk, to);
+  writer.rise(chunk, z);
   push_forward(chunk);
 }
 
 void Encoder::State::prime(Chunk& chunk, const PlacedLayer& layer,
                            const std::vector<const core::BeadPath*>& paths) {
-  const auto line = prime_line(printer, settings.extent, layer.height);
+  const auto line =
+      prime_line(printer, grown(settings.extent, skirt_reach(settings.skirt, printer)), layer.height);
   if (!line) {
     const std::string reason = "no prime line: the part leaves no edge of the bed free";
     chunk.lines.push_back("; " + reason);
@@ -131,8 +160,25 @@ void Encoder::State::prime(Chunk& chunk, const PlacedLayer& layer,
   const Entry next = nearest_entry(paths, line->to);  // what is primed with is what is needed next
   writer.select_tool(chunk, material_at(*paths[next.path], next.vertex));
   const core::Vec2 step = line->to - line->from;
-  writer.bead(chunk, line->to, line->volume, bead_speed(step, line->volume, settings.flow, printer));
+  writer.bead(chunk, line->to, line->volume, pace.speed(step, line->volume, layer.index, layer.height));
   chunk.prime_volume += line->volume;
+}
+
+void Encoder::State::lay_skirt(Chunk& chunk, const PlacedLayer& layer,
+                               const std::vector<const core::BeadPath*>& paths) {
+  const std::vector<core::BeadPath> rings = skirt(layer, settings.skirt, printer);
+  if (rings.empty() && settings.skirt.loops > 0) {
+    chunk.warnings.push_back("no skirt: the part leaves too little room round it on the bed");
+  }
+  if (!rings.empty()) chunk.lines.push_back(";TYPE:Skirt");
+  for (core::BeadPath ring : rings) {
+    const Entry first = nearest_entry({&ring}, writer.position().value_or(core::Vec2(0, 0)));
+    const Entry next = nearest_entry(paths, ring.start(first.vertex));
+    for (core::Bead& bead : ring.beads) bead.zone = paths[next.path]->beads[next.vertex].zone;
+    approach(chunk, ring.start(first.vertex), layer.top, ring.width(0));
+    print(chunk, ring, first.vertex, layer);
+    chunk.prime_volume += ring.total_area() * layer.height;
+  }
 }
 
 void Encoder::State::tell_width(Chunk& chunk, double width) {
@@ -141,15 +187,16 @@ void Encoder::State::tell_width(Chunk& chunk, double width) {
   chunk.lines.push_back(";WIDTH:" + short_number(width, 3));
 }
 
-void Encoder::State::print(Chunk& chunk, const core::BeadPath& path, std::size_t first, double layer_height) {
+void Encoder::State::print(Chunk& chunk, const core::BeadPath& path, std::size_t first,
+                           const PlacedLayer& layer) {
   for (std::size_t k = 0; k < path.size(); ++k) {
     const std::size_t i = (first + k) % path.size();
     const core::Vec2 step = path.end(i) - path.start(i);
-    const double volume = path.beads[i].area * layer_height;
+    const double volume = path.beads[i].area * layer.height;
     if (step.squaredNorm() > 0) tell_width(chunk, path.width(i));
     writer.select_tool(chunk, material_at(path, i));
     const double speed =
-        step.squaredNorm() > 0 ? bead_speed(step, volume, settings.flow, printer) : printer.max_speed[0];
+        step.squaredNorm() > 0 ? pace.speed(step, volume, layer.index, layer.height) : printer.max_speed[0];
     writer.bead(chunk, path.end(i), volume, speed);
   }
 }
@@ -160,32 +207,41 @@ Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
 
 Mixture Encoder::intended(std::size_t material) const {
-  return state_->mixtures.at(material);
+  return state_->tools.at(material).delivered;
+}
+
+double Encoder::flow() const {
+  return state_->pace.flow();
+}
+
+double Encoder::laying_seconds() const {
+  return state_->review.laying_seconds();
 }
 
 Chunk Encoder::start() {
   State& s = *state_;
   Chunk chunk = s.new_chunk();
-  append(chunk.lines, job_comments(s.printer, s.settings));
-  append(chunk.lines, warm_up(s.printer));
-  append(chunk.lines, s.start_lines);
+  append(chunk.lines, job_comments(s.printer, s.settings, s.dialect));
+  append(chunk.lines, warm_up(s.printer, s.settings));
+  append(chunk.lines, framed(s.start_lines));
   append(chunk.lines, after_user_start());
-  for (std::size_t i = 0; i < s.mixtures.size(); ++i) {
-    append(chunk.lines, s.dialect.define_tool(i, s.mixtures[i]));
-  }
-  if (s.retraction_tool) {
-    append(chunk.lines, s.dialect.define_tool(*s.retraction_tool, Mixture({1, 1, 1})));
+  append(chunk.lines, calibration(s.printer));
+  for (std::size_t i = 0; i < s.tools.size(); ++i) {
+    append(chunk.lines, s.dialect.define_tool(i, s.tools[i].written));
   }
   s.writer.select_tool(chunk, 0);
+  s.review(chunk, "the start");
   return chunk;
 }
 
-Chunk Encoder::layer(const PlacedLayer& layer) {
+Chunk Encoder::layer(const PlacedLayer& given) {
   State& s = *state_;
-  check_layer(layer, s.settings, s.printer);
+  check_layer(given, s.settings, s.printer);
+  const PlacedLayer layer = simplified(given);
   Chunk chunk = s.new_chunk();
   append(chunk.lines,
          {";LAYER_CHANGE", ";Z:" + short_number(layer.top, 3), ";HEIGHT:" + short_number(layer.height, 3)});
+  append(chunk.lines, layer_events(layer.index, s.settings));
   std::vector<const core::BeadPath*> left;
   for (const core::BeadPath& path : layer.paths) {
     if (path.size() >= 2 && path.total_length() > 0) left.push_back(&path);
@@ -193,16 +249,19 @@ Chunk Encoder::layer(const PlacedLayer& layer) {
   if (!left.empty() && !s.primed) {
     check_on_bed(layer);
     s.primed = true;
+    if (s.pace.open()) s.pace.settle({layer});
     s.prime(chunk, layer, left);
+    s.lay_skirt(chunk, layer, left);
   }
   if (!left.empty()) chunk.lines.push_back(";TYPE:Solid infill");
   while (!left.empty()) {
     const Entry entry = nearest_entry(left, s.writer.position().value_or(core::Vec2(0, 0)));
     const core::BeadPath& path = *left[entry.path];
     s.approach(chunk, path.start(entry.vertex), layer.top, path.total_area() / path.total_length());
-    s.print(chunk, path, entry.vertex, layer.height);
+    s.print(chunk, path, entry.vertex, layer);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(entry.path));
   }
+  s.review(chunk, fmt::format("layer {}", layer.index));
   return chunk;
 }
 
@@ -219,6 +278,7 @@ Chunk Encoder::finish() {
     s.writer.travel(chunk, {0, s.printer.bed[1]});
   }
   append(chunk.lines, shut_down(s.end_lines));
+  s.review(chunk, "the end");
   return chunk;
 }
 

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,37 @@ struct Material {
   Mixture mixture;  ///< as asked by the job; floor share and quantisation are the encoder's business
 };
 
+/// From this layer on the heaters keep other temperatures; what is absent stays.
+struct LayerTemperature {
+  std::size_t layer = 0;
+  std::optional<double> nozzle, bed;  ///< °C
+};
+
+struct Fan {
+  double percent = 0;
+  std::size_t from = 0;  ///< layer that it starts at
+};
+
+/// Rings round the whole first layer.
+struct Skirt {
+  int loops = 0;
+  double distance = 5;  ///< mm from the part's hull to the inner ring's border
+};
+
 struct PrintSettings {
-  double flow = 2;                          ///< mm³/s
-  std::vector<Material> materials;          ///< at most 16, one virtual tool each
-  std::vector<std::size_t> zone_materials;  ///< Bead::zone → index into materials
+  double flow = 2;  ///< mm³/s, held constant; with `automatic_flow` only a first guess
+  /// Hold the highest flow that the first layers' hairpins let stay constant (held_flow.hpp).
+  bool automatic_flow = false;
+  std::optional<double> speed;   ///< mm/s, held constant instead of the flow
+  double first_layer_speed = 1;  ///< of the flow or speed of the others, 0…1
+  double layer_height = 0.2;     ///< mm, of all layers but the first
+  double first_layer_height = 0.2;
+  std::size_t layer_count = 0;
+  Skirt skirt;
+  Fan fan;
+  std::vector<LayerTemperature> temperatures;  ///< by layer, rising
+  std::vector<Material> materials;             ///< at most 16, one virtual tool each
+  std::vector<std::size_t> zone_materials;     ///< Bead::zone → index into materials
   core::Box extent;        ///< of the part on the bed, so that the prime line keeps clear of it
   double part_height = 0;  ///< mm, for the park position
 };
@@ -61,8 +89,13 @@ class Encoder {
   /// what was encoded: every state that the lines depend on is in them.
   Chunk finish();
 
+  /// mm³/s; of an automatic flow what has been chosen, which is known from the first layer with a bead on.
+  double flow() const;
+  /// s from the first bead's start to the end of the last one so far, as the firmware will take them.
+  double laying_seconds() const;
+
   /// The mixture that the firmware will really use for a material: floor share applied, then rounded to
-  /// what is written (four decimals for Marlin) and normalised.
+  /// what is written (four decimals for Marlin, two for Repetier) and normalised.
   Mixture intended(std::size_t material) const;
 
  private:

@@ -56,14 +56,15 @@ struct JobArguments {
 
 /// Which printer is simulated, and what goes wrong with it.
 struct PrinterArguments {
-  std::string personality = "marlin", usb = "cdc", fault_file;
+  std::string personality, usb = "cdc", fault_file;
   std::vector<std::string> faults;
   std::uint64_t seed = 0;
   CLI::Option* seed_given[2] = {nullptr, nullptr};
 
   void declare(CLI::App& app) {
     app.add_option("--personality", personality,
-                   "its firmware: marlin, marlin-8bit, marlin-advanced-ok, repetier")
+                   "its firmware: marlin, marlin-8bit, marlin-advanced-ok, repetier; "
+                   "that of the profile if left out")
         ->type_name("NAME");
     app.add_option("--usb", usb, "the chip in its cable: none, cdc (1 ms) or ftdi (16 ms)")
         ->type_name("CHIP");
@@ -78,8 +79,10 @@ struct PrinterArguments {
             ->type_name("NUMBER");
   }
 
+  bool chosen() const { return !personality.empty(); }
+
   void apply(sim::SimulatorOptions& options) const {
-    options.personality = personality;
+    if (chosen()) options.personality = personality;
     options.usb = usb;
     options.faults = faults;
     options.fault_file = path_if(fault_file);
@@ -252,7 +255,7 @@ class CommandLine {
   }
 
   DryRunCommand dry_run_command() const {
-    DryRunCommand command{job_.options(), {}, charge_};
+    DryRunCommand command{job_.options(), {}, printer_.chosen(), charge_};
     printer_.apply(command.printer);
     command.printer.speed = speed_;
     return command;
@@ -260,6 +263,7 @@ class CommandLine {
 
   SimulateCommand simulate_command() const {
     SimulateCommand command;
+    command.personality_chosen = printer_.chosen();
     printer_.apply(command.options);
     command.options.control = path_if(control_);
     command.options.transcript = path_if(transcript_);

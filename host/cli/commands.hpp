@@ -31,8 +31,9 @@ struct PlanCommand {
 
 struct DryRunCommand {
   JobOptions job;
-  sim::SimulatorOptions printer;  ///< its personality, chip, faults; and its speed, 0: virtual time
-  double charge = 0;              ///< printer seconds for each second of planning, in virtual time
+  sim::SimulatorOptions printer;    ///< its personality, chip, faults; and its speed, 0: virtual time
+  bool personality_chosen = false;  ///< otherwise it is what the profile's firmware is
+  double charge = 0;                ///< printer seconds for each second of planning, in virtual time
 };
 
 struct PrintCommand {
@@ -57,6 +58,7 @@ struct SimulateCommand {
   sim::SimulatorOptions options;
   std::optional<std::filesystem::path> profile;  ///< bed, filament, accelerations and feeders of this printer
   std::optional<double> baud;                    ///< bits/s; absent: the profile's
+  bool personality_chosen = false;               ///< otherwise the profile's firmware counts, if there is one
 };
 
 Exit plan(const PlanCommand& command);

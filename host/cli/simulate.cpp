@@ -38,7 +38,11 @@ void check_simulator(const sim::SimulatorOptions& options) {
 }
 
 Exit simulate(SimulateCommand command) {
-  if (command.profile) follow(load_profile(*command.profile), command.options);
+  if (command.profile) {
+    const Profile profile = load_profile(*command.profile);
+    follow(profile, command.options);
+    if (!command.personality_chosen) command.options.personality = profile.printer.firmware;
+  }
   if (command.baud) command.options.baud = *command.baud;
   check_simulator(command.options);
   const int code = sim::run_simulator(command.options, [](const std::string& port) {

@@ -22,6 +22,16 @@ core::Vec2 offset_on_bed(const Placement& place, const core::Box& extent, const 
   return core::Vec2(printer.bed[0], printer.bed[1]) / 2 - extent.center();
 }
 
+double first_layer_height(const core::PartSource& source) {
+  return source.first_layer_height > 0 ? source.first_layer_height : source.layer_height;
+}
+
+/// mm above the part's underside at which a layer begins.
+double underside(const core::PartSource& source, std::size_t layer) {
+  if (layer == 0) return 0;
+  return first_layer_height(source) + static_cast<double>(layer - 1) * source.layer_height;
+}
+
 [[noreturn]] void refuse(const Job& job, const std::string& place, const std::string& problem,
                          const std::string& remedy) {
   throw JobError(job.file.string(), place, problem, remedy);
@@ -61,7 +71,7 @@ void choose_layers(PreparedJob& prepared, const std::optional<LayerRange>& layer
   }
   prepared.first = range.first;
   prepared.count = std::min(range.last, all - 1) - range.first + 1;
-  prepared.lowered = static_cast<double>(prepared.first) * prepared.job.source.layer_height;
+  prepared.lowered = underside(prepared.job.source, prepared.first);
 }
 
 core::BeadPath on_bed(core::BeadPath path, const core::Vec2& offset) {
@@ -82,15 +92,26 @@ PreparedJob prepare(Job job, const std::optional<LayerRange>& layers) {
   prepared.planner = std::make_shared<const core::IslandPlanner>(prepared.part->zones());
   choose_layers(prepared, layers);
   prepared.offset = offset_on_bed(prepared.job.place, prepared.part->extent(), prepared.job.profile.printer);
-  const double height = layers ? static_cast<double>(prepared.count) * prepared.job.source.layer_height
-                               : prepared.part->height();
+  const double height =
+      layers ? underside(prepared.job.source, prepared.first + prepared.count) - prepared.lowered
+             : prepared.part->height();
   check_fit(prepared, height);
   return prepared;
 }
 
 gcode::PrintSettings print_settings(const PreparedJob& prepared) {
   gcode::PrintSettings settings;
-  settings.flow = prepared.job.flow;
+  const Job& job = prepared.job;
+  settings.flow = job.flow;
+  settings.automatic_flow = job.automatic_flow;
+  settings.speed = job.speed;
+  settings.first_layer_speed = job.first_layer_speed;
+  settings.skirt = job.skirt;
+  settings.fan = job.fan;
+  settings.temperatures = job.temperatures;
+  settings.layer_count = prepared.count;
+  settings.layer_height = job.source.layer_height;
+  settings.first_layer_height = prepared.first == 0 ? first_layer_height(job.source) : settings.layer_height;
   settings.materials = prepared.job.materials;
   for (const core::Zone& zone : prepared.part->zones()) settings.zone_materials.push_back(zone.material);
   settings.extent = prepared.part->extent();

@@ -54,6 +54,7 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
   gcode::Chunk chunk = encoder_.layer(layer);
   count(chunk);
   ++totals_.layers;
+  totals_.flow = flow();
   totals_.figures += measure(planned);
   add_layer(totals_.materials, layer, zone_materials_);
   add_prime(totals_.materials, chunk);
@@ -71,6 +72,11 @@ gcode::Chunk Run::finish() {
   gcode::Chunk chunk = encoder_.finish();
   count(chunk);
   return chunk;
+}
+
+double Run::flow() const {
+  const Job& job = prepared_.job;
+  return job.speed ? *job.speed * job.bead_width * job.source.layer_height : encoder_.flow();
 }
 
 void Run::count(const gcode::Chunk& chunk) {
@@ -99,6 +105,7 @@ void Run::write_report(const nlohmann::json& extra) {
       {"printer", prepared_.job.profile.printer.name},
       {"warnings", warnings()},
       {"bead_width_mm", prepared_.job.bead_width},
+      {"flow_mm3_s", flow()},
       {"layer_height_mm", prepared_.job.source.layer_height},
       {"layer_count", totals_.layers},
       {"totals", to_json(totals_.figures)},
@@ -106,6 +113,7 @@ void Run::write_report(const nlohmann::json& extra) {
       {"feeder_volumes_mm3", feeder_volumes(totals_.materials)},
       {"extruded_mm3", totals_.volume},
       {"estimated_print_seconds", totals_.print_seconds},
+      {"estimated_laying_seconds", encoder_.laying_seconds()},
       {"lines", totals_.lines},
   };
   if (repeatable_) {

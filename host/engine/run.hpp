@@ -41,6 +41,8 @@ class Run {
   gcode::Chunk layer(PlannedLayer planned);
   gcode::Chunk finish();
 
+  /// mm³/s that is held; where the speed is constant, what that comes to at the job's bead width.
+  double flow() const;
   const PreparedJob& prepared() const { return prepared_; }
   const RunTotals& totals() const { return totals_; }
   /// What was odd: of the job, the part and the run, one sentence each.

@@ -33,7 +33,8 @@ std::string summary(const RunTotals& totals, const PlanningEffort& planning) {
   }
   fmt::format_to(out, "\nplanning:  {} ({} of processor time)\n", duration_words(planning.seconds),
                  duration_words(planning.cpu_seconds));
-  fmt::format_to(out, "printing:  about {} at the asked flow\n", duration_words(totals.print_seconds));
+  fmt::format_to(out, "printing:  about {} at {:.2f} mm³/s\n", duration_words(totals.print_seconds),
+                 totals.flow);
   if (f.self_intersections + f.outside_segments > 0) {
     fmt::format_to(out, "defects:   {} self-intersections, {} segments outside\n", f.self_intersections,
                    f.outside_segments);

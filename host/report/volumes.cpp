@@ -58,13 +58,13 @@ std::vector<Row> rows_of(const std::vector<MaterialVolume>& volumes) {
   return rows;
 }
 
-void add_steps(std::vector<Row>& rows, const nlohmann::json& entry, double volume_per_step) {
+void add_steps(std::vector<Row>& rows, const nlohmann::json& entry, const Shares& volume_per_step) {
   const Shares shares = numbers(entry, "shares"), steps = numbers(entry, "feeder_steps");
   const auto row = std::min_element(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
     return difference(a.shares, shares) < difference(b.shares, shares);
   });
   if (row == rows.end()) return;
-  for (std::size_t f = 0; f < steps.size(); ++f) row->fed[f] += steps[f] * volume_per_step;
+  for (std::size_t f = 0; f < steps.size(); ++f) row->fed[f] += steps[f] * volume_per_step[f];
 }
 
 double relative_error(double is, double should) {
@@ -138,7 +138,10 @@ nlohmann::json to_json(const std::vector<MaterialVolume>& volumes) {
 Comparison compare(const std::vector<MaterialVolume>& volumes, const nlohmann::json& simulator,
                    const Fed& fed) {
   const double radius = fed.filament_diameter / 2;
-  const double volume_per_step = std::numbers::pi * radius * radius / fed.feeder_steps_per_mm;
+  Shares volume_per_step{};
+  for (std::size_t f = 0; f < volume_per_step.size(); ++f) {
+    volume_per_step[f] = std::numbers::pi * radius * radius / (fed.feeder_steps_per_mm * fed.flow_factors[f]);
+  }
   std::vector<Row> rows = rows_of(volumes);
   for (const nlohmann::json& entry : simulator.value("mixtures", nlohmann::json::array())) {
     add_steps(rows, entry, volume_per_step);
