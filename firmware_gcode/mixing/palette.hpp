@@ -26,9 +26,9 @@ struct Gradient {
 /// A mixture with the name that the job gives it.
 struct Material {
   std::string name;
-  Mixture mixture;                   ///< as asked by the job; of a gradient, where it begins
+  Mixture mixture;                        ///< as asked by the job; of a gradient, where it begins
   std::optional<Gradient> gradient = {};  ///< absent: of one mixture
-  bool transition = false;           ///< its zones are there to take up the changes between others
+  bool transition = false;                ///< its zones are there to take up the changes between others
 };
 
 /// One of the mixtures of a material: of a gradient, that many steps along.

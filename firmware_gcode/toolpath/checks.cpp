@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "firmware_gcode/mixing/response.hpp"
 #include "firmware_gcode/toolpath/bounds.hpp"
 
 namespace unicursal::gcode {
@@ -107,23 +108,23 @@ void check_printer(const Printer& printer) {
   require_within(printer.bed_temperature, bounds::bed_temperature, "bed temperature", "°C");
   require_within(printer.dead_volume, bounds::transition, "dead_volume", "mm³");
   require_within(printer.mixing_volume, bounds::transition, "mixing_volume", "mm³");
+  require(printer.tanks >= 1 && printer.tanks <= max_tanks, "tanks",
+          fmt::format("{} is not between 1 and {}", printer.tanks, max_tanks), "write for example tanks = 2");
   require(within(printer.floor_share, 0, 1.0 / max_feeders), "floor_share", "is not between 0 and one third",
           "give a small share such as 0.02");
   require(printer.feeders == max_feeders, "feeders",
           fmt::format("{} feeders cannot be mixed", printer.feeders), "use a printer with three feeders");
 }
 
-void check_settings(const PrintSettings& settings, const Printer& printer, const Dialect& dialect) {
-  const std::size_t tools = dialect.limits().virtual_tools;
+void check_settings(const PrintSettings& settings, const Printer& printer) {
   require(!settings.materials.empty(), "mixture", "there is none", "define at least one mixture");
-  require(settings.materials.size() <= tools, "mixture",
-          fmt::format("{} mixtures do not fit into the firmware's {} virtual tools",
-                      settings.materials.size(), tools),
-          fmt::format("use at most {} mixtures", tools));
   for (std::size_t material : settings.zone_materials) {
     require(material < settings.materials.size(), "zone", "a zone's mixture does not exist",
             "name a mixture that the job defines");
   }
+  require(within(settings.change_before_border, 0.05, 0.95), "change_before_border",
+          "is not between 0.05 and 0.95",
+          "give the share of a change that may fall before its border, say 0.5");
   require_positive(settings.flow, "flow");
   require(!settings.speed || bounds::speed.hold(*settings.speed), "speed", "is none that a printer can run",
           "give it in mm/s, say 20");

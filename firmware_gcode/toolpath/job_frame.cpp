@@ -46,9 +46,12 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
   lines.push_back(comment(fmt::format(" {}, filament: {:g} mm, part height: {:g} mm", pace_words(settings),
                                       printer.filament_diameter, settings.part_height)));
   for (std::size_t i = 0; i < settings.materials.size(); ++i) {
-    const auto& [name, mixture] = settings.materials[i];
-    lines.push_back(comment(fmt::format(" T{}: {} = {:g} {:g} {:g}", i, name, mixture.share(0),
-                                        mixture.share(1), mixture.share(2))));
+    const Material& material = settings.materials[i];
+    const auto shares = [](const Mixture& m) {
+      return fmt::format("{:g} {:g} {:g}", m.share(0), m.share(1), m.share(2));
+    };
+    const std::string to = material.gradient ? " to " + shares(material.gradient->to) : "";
+    lines.push_back(comment(fmt::format(" mixture {} = {}{}", material.name, shares(material.mixture), to)));
   }
   return lines;
 }

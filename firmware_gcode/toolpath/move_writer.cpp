@@ -110,7 +110,6 @@ void MoveWriter::bead(Chunk& chunk, const core::Vec2& to, double volume, double 
 void MoveWriter::straight_bead(Chunk& chunk, const core::Vec2& to, double volume, double speed) {
   const core::Vec2 from = *position();
   chunk.volume += volume;
-  if (tool_ && *tool_ < chunk.material_volumes.size()) chunk.material_volumes[*tool_] += volume;
   owed_ += volume / filament_area_ * scale();
   std::string line = "G1";
   append_position(line, on_grid(to));

@@ -36,6 +36,7 @@ CLI::Validator finite_number(double least, double most) {
 
 struct JobArguments {
   std::string job, profile, layers, report, pictures;
+  bool no_look_ahead = false;
 
   void declare(CLI::App& app) {
     app.add_option("job", job, "the job, a TOML file")->required()->type_name("JOB");
@@ -45,10 +46,12 @@ struct JobArguments {
         ->type_name("A:B");
     app.add_option("--report", report, "write what was measured as JSON")->type_name("FILE");
     app.add_option("--picture", pictures, "write a picture of each layer into this folder")->type_name("DIR");
+    app.add_flag("--no-look-ahead", no_look_ahead,
+                 "switch mixtures where the border is, not ahead of it: for comparison");
   }
 
   JobOptions options() const {
-    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}};
+    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}, !no_look_ahead};
     if (!layers.empty()) result.layers = parse_layers(layers);
     return result;
   }
@@ -59,6 +62,7 @@ struct PrinterArguments {
   std::string personality, usb = "cdc", fault_file;
   std::vector<std::string> faults;
   std::uint64_t seed = 0;
+  std::size_t tanks = 0;
   CLI::Option* seed_given[2] = {nullptr, nullptr};
 
   void declare(CLI::App& app) {
@@ -74,6 +78,9 @@ struct PrinterArguments {
         ->expected(1);
     app.add_option("--faults", fault_file, "a file with one fault on each line, and perhaps `seed NUMBER`")
         ->type_name("FILE");
+    app.add_option("--tanks", tanks, "stirred tanks of its chamber; the default is the profile's, or 2")
+        ->check(CLI::Range(1, 8))
+        ->type_name("N");
     (seed_given[0] ? seed_given[1] : seed_given[0]) =
         app.add_option("--seed", seed, "of the faults' chance; the same seed gives the same faults")
             ->type_name("NUMBER");
@@ -86,6 +93,7 @@ struct PrinterArguments {
     options.usb = usb;
     options.faults = faults;
     options.fault_file = path_if(fault_file);
+    if (tanks > 0) options.tanks = tanks;
     for (const CLI::Option* given : seed_given) {
       if (given && given->count() > 0) options.seed = seed;
     }

@@ -22,6 +22,7 @@ struct JobOptions {
   std::optional<std::filesystem::path> profile;
   std::optional<LayerRange> layers;
   RunOutputs outputs;
+  bool look_ahead = true;  ///< of the mixing schedule
 };
 
 struct PlanCommand {

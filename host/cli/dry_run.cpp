@@ -31,6 +31,7 @@ std::vector<std::string> simulator_arguments(const DryRunCommand& command, const
                                         "--usb",         printer.usb};
   for (const std::string& fault : printer.faults) arguments.insert(arguments.end(), {"--fault", fault});
   if (printer.fault_file) arguments.insert(arguments.end(), {"--faults", printer.fault_file->string()});
+  if (printer.tanks) arguments.insert(arguments.end(), {"--tanks", fmt::format("{}", *printer.tanks)});
   if (printer.seed) arguments.insert(arguments.end(), {"--seed", fmt::format("{}", *printer.seed)});
   if (command.job.outputs.pictures) {
     arguments.insert(arguments.end(), {"--picture", command.job.outputs.pictures->string()});
@@ -45,7 +46,7 @@ Comparison compare_with(const nlohmann::json& simulator, const Run& run, const S
   fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
   fed.flow_factors = printer.flow_factors;
   fed.lines_sent = result.statistics.lines;
-  return compare(run.totals().materials, simulator, fed);
+  return compare(run.fed(), simulator, fed);
 }
 
 StreamSettings settings_for(const DryRunCommand& command, const SimulatorProcess& simulator) {
@@ -94,7 +95,7 @@ Exit dry_run(const DryRunCommand& command) {
   const PreparedJob prepared = prepare_and_warn(command.job);
   Run run(prepared, "dry-run", outputs_of(command));
   // Outlives the simulator, whose end is that of the stream it waits for.
-  DepositCheck check(intended_mixtures(run), command.job.outputs.pictures);
+  DepositCheck check(intended_materials(prepared, run.encoder()), command.job.outputs.pictures);
   SimulatorProcess simulator(simulator_arguments(command, prepared), is_virtual(command)
                                                                          ? SimulatorProcess::Time::lockstep
                                                                          : SimulatorProcess::Time::own);

@@ -21,6 +21,7 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.max_acceleration.assign(printer.max_acceleration.begin(), printer.max_acceleration.end());
   options.dead_volume = printer.dead_volume;
   options.mixing_volume = printer.mixing_volume;
+  if (!options.tanks) options.tanks = printer.tanks;
   options.feeders = static_cast<std::size_t>(printer.feeders);
 }
 

@@ -158,6 +158,7 @@ class Stream {
       if (!layer) break;
       co_await send(run_.layer(std::move(*layer)), done);
     }
+    if (!stopped_) co_await send(run_.rest(), run_.totals().layers);
   }
 
   /// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile,

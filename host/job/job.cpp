@@ -164,17 +164,14 @@ void read_perimeters(const Section& part, Job& job) {
   if (count != job.perimeters) part.fail("perimeters", "is no whole number", "write for example 1");
 }
 
-/// Keys that later versions follow; their values are checked all the same.
-void read_future_keys(const Section& part, Job& job) {
-  const auto warn = [&](std::string_view key) {
-    job.warnings.push_back(fmt::format("{}: {} is not yet followed", job.file.string(), part.path(key)));
-  };
-  if (const toml::node* seam = part.find("seam")) {
-    if (part.choice("seam", *seam, {"hidden", "scattered", "aligned", "none-extra-travel"}) !=
-        "none-extra-travel") {
-      warn("seam");
-    }
-  }
+void read_seam(const Section& part, Job& job) {
+  const toml::node* node = part.find("seam");
+  if (!node) return;
+  const std::string seam =
+      part.choice("seam", *node, {"hidden", "scattered", "aligned", "none-extra-travel"});
+  if (seam == "scattered") job.seam = gcode::Seam::scattered;
+  if (seam == "aligned") job.seam = gcode::Seam::aligned;
+  if (seam == "none-extra-travel") job.seam = gcode::Seam::nearest;
 }
 
 std::filesystem::path profile_path(const Section& root, const std::optional<std::filesystem::path>& chosen) {
@@ -202,11 +199,12 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
   Job job;
   job.file = path;
   job.profile = load_profile(profile_path(root, profile));
-  const Section part = root.section(
-      "part",
-      {"file", "height", "layer_height", "first_layer_height", "bead_width", "seed_distance", "flow", "speed",
-       "first_layer_speed", "perimeters", "deposit", "place", "seam", "skirt", "fan", "temperatures"},
-      "write [part] and below it file, layer_height and bead_width");
+  const Section part =
+      root.section("part",
+                   {"file", "height", "layer_height", "first_layer_height", "bead_width", "seed_distance",
+                    "flow", "speed", "first_layer_speed", "perimeters", "deposit", "place", "seam",
+                    "change_before_border", "skirt", "fan", "temperatures"},
+                   "write [part] and below it file, layer_height and bead_width");
   job.source = read_source(part, job.profile.printer.nozzle);
   job.place = read_place(part);
   job.line_width = read_deposit(part, job.profile.printer);
@@ -214,8 +212,10 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
   read_flow(part, job);
   read_print_keys(part, job);
   read_perimeters(part, job);
-  read_future_keys(part, job);
-  ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders, job.warnings);
+  read_seam(part, job);
+  job.change_before_border = part.number_or("change_before_border", 0.5, between(0.05, 0.95, ""),
+                                            "write the share of a change that may fall before its border");
+  ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders);
   job.source.zones = std::move(zones.zones);
   job.materials = std::move(zones.materials);
   return job;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/mixing/response.hpp"
 #include "firmware_gcode/toolpath/bounds.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
 #include "host/job/nearest.hpp"
@@ -133,6 +134,11 @@ void read_transition(const Section& section, gcode::Printer& printer) {
   printer.mixing_volume =
       section.number_or("mixing_volume", printer.mixing_volume, within(gcode::bounds::transition, "mm³"),
                         "write for example mixing_volume = 4.0");
+  const char* const remedy = "write a whole number, for example tanks = 2";
+  const double tanks = section.number_or("tanks", static_cast<double>(printer.tanks),
+                                         between(1, static_cast<double>(gcode::max_tanks), ""), remedy);
+  if (tanks != std::floor(tanks)) section.fail("tanks", "is no whole number", remedy);
+  printer.tanks = static_cast<std::size_t>(tanks);
 }
 
 }  // namespace
@@ -153,7 +159,8 @@ Profile load_profile(const std::filesystem::path& path) {
                                          "flow_factors", "max_speed", "max_acceleration", "jerk"}),
       profile.printer);
   read_temperature(root.section_or_empty("temperature", {"nozzle", "bed"}), profile.printer);
-  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume"}), profile.printer);
+  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume", "tanks"}),
+                  profile.printer);
   const Section gcode = root.section_or_empty("gcode", {"start", "end"});
   profile.printer.start_gcode = read_script(gcode, "start");
   profile.printer.end_gcode = read_script(gcode, "end");

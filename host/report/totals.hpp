@@ -18,6 +18,8 @@ struct RunTotals {
   double volume = 0;         ///< extruded by all chunks
   std::uint64_t lines = 0;   ///< that the firmware gets: without comments
   std::vector<MaterialVolume> materials;
+  std::vector<gcode::MixtureVolume> fed;  ///< by the mixture that the feeders were told
+  gcode::LayerMixing mixing;              ///< what the schedule expects of all layers together
 };
 
 }  // namespace unicursal::host

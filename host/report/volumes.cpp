@@ -104,15 +104,17 @@ void add_layer(std::vector<MaterialVolume>& volumes, const gcode::PlacedLayer& l
   }
 }
 
-void add_prime(std::vector<MaterialVolume>& volumes, const gcode::Chunk& chunk) {
-  if (chunk.prime_volume <= 0) return;
-  std::size_t primed = 0;
-  double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    const double excess = chunk.material_volumes.at(i) - volumes[i].part;
-    if (excess > most) most = excess, primed = i;
+std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>& fed,
+                                        const std::vector<MaterialVolume>& materials) {
+  std::vector<MaterialVolume> volumes;
+  for (const auto& [mixture, volume] : fed) {
+    const auto material = std::find_if(materials.begin(), materials.end(), [&](const MaterialVolume& m) {
+      return difference(m.intended.shares(), mixture.shares()) < same_mixture;
+    });
+    const std::string name = material == materials.end() ? "between" : material->name;
+    volumes.push_back({name, mixture, mixture, volume, 0});
   }
-  volumes.at(primed).prime += chunk.prime_volume;
+  return volumes;
 }
 
 Shares feeder_volumes(const std::vector<MaterialVolume>& volumes) {
