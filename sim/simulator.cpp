@@ -50,6 +50,12 @@ void check(const SimulatorOptions& options) {
   require(three_positive(options.steps_per_mm), "the axes need three positive numbers of steps per mm");
   require(three_positive(options.max_acceleration), "the axes need three positive accelerations in mm/s²");
   require(three_positive(options.max_speed), "the axes need three positive speeds in mm/s");
+  require(three_positive(options.jerk), "the axes need three positive jerks in mm/s");
+  require(positive(options.acceleration) && positive(options.feeder_speed) &&
+              positive(options.feeder_acceleration) && positive(options.feeder_jerk),
+          "accelerations, and the feeders' speed and jerk, are positive numbers");
+  require(options.junction_deviation >= 0 && options.junction_deviation <= 1,
+          "the junction deviation is 0 to 1 mm");
   require(positive(options.feeder_steps_per_mm), "the feeders need a positive number of steps per mm");
   require(positive(options.filament_diameter), "the filament needs a positive diameter in mm");
   require(positive(options.pixel), "a picture's pixel needs a positive size in mm");
@@ -76,7 +82,14 @@ Machine machine_for(const SimulatorOptions& options) {
   std::copy_n(options.steps_per_mm.begin(), 3, machine.limits.steps_per_mm.begin());
   std::copy_n(options.max_acceleration.begin(), 3, machine.limits.max_acceleration.begin());
   std::copy_n(options.max_speed.begin(), 3, machine.limits.max_speed.begin());
-  machine.limits.steps_per_mm[axis_e] = options.feeder_steps_per_mm;
+  MotionLimits& limits = machine.limits;
+  std::copy_n(options.jerk.begin(), 3, limits.jerk.begin());
+  limits.junction_deviation = options.junction_deviation;
+  limits.print_acceleration = limits.travel_acceleration = options.acceleration;
+  limits.max_speed[axis_e] = options.feeder_speed;
+  limits.max_acceleration[axis_e] = options.feeder_acceleration;
+  limits.jerk[axis_e] = options.feeder_jerk;
+  limits.steps_per_mm[axis_e] = options.feeder_steps_per_mm;
   machine.feeders = options.feeders;
   return machine;
 }

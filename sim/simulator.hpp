@@ -38,6 +38,10 @@ struct SimulatorOptions {
   double feeder_steps_per_mm = 400;                          ///< steps of one feeder for 1 mm of its filament
   std::vector<double> max_acceleration = {1500, 1500, 100};  ///< mm/s², x y z
   std::vector<double> max_speed = {150, 150, 10};            ///< mm/s, x y z
+  std::vector<double> jerk = {10, 10, 0.3};                  ///< mm/s that x, y, z may jump by
+  double junction_deviation = 0;                             ///< mm; above 0 it takes the place of the jerk
+  double acceleration = 3000;                                ///< mm/s² along a move that extrudes or travels
+  double feeder_speed = 50, feeder_acceleration = 10000, feeder_jerk = 5;  ///< of the filament, mm and s
   std::size_t feeders = 3;
   bool once = false;  ///< end when the host closes the line after having used it
 };

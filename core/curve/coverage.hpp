@@ -27,7 +27,11 @@ class Coverage {
   /// Owners as of the last evaluate(): segment i leaves vertex i.
   const LatticeOwners& owners() const { return owners_; }
 
+  /// mm² that each segment was nearest to then.
+  std::vector<double> areas() const;
+
  private:
+  const Lattice& lattice_;
   LatticeOwners owners_;
 };
 

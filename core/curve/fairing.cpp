@@ -9,6 +9,7 @@
 #include "core/curve/leash.hpp"
 #include "core/curve/orientation.hpp"
 #include "core/curve/resample.hpp"
+#include "core/curve/retraction.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
 #include "core/geometry/quasi_newton.hpp"
@@ -25,7 +26,9 @@ constexpr int most_halvings = 8;
 constexpr double slack_in_widths = 0.1;    ///< lists of near segments hold for such moves
 constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
-constexpr int multiplier_period = 10;      ///< iterations between updates of the length multiplier
+constexpr double finest_wave = 4;          ///< bead widths; what vertices do together (long_waves.hpp)
+constexpr double wave_strength = 0.04;
+constexpr int multiplier_period = 10;  ///< iterations between updates of the length multiplier
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -65,8 +68,10 @@ class Fairer {
     curve.vertices = turned(std::move(curve.vertices), irrational_turn);
     curve = spread(curve);
     curve = descend(std::move(curve), options_.coarse_iterations / 2);
+    curve = relieved(curve);
     curve = spread(curve);
     curve = descend(std::move(curve), options_.coarse_iterations - options_.coarse_iterations / 2);
+    curve = relieved(curve);
     if (options_.fine_iterations > 0) {
       curve = subdivided(spread(curve));
       alignment_weight_ = options_.fine_alignment;
@@ -86,6 +91,14 @@ class Fairer {
 
   Curve spread(const Curve& curve) const {
     return respaced(curve, border_, 0.75 * options_.bead_width, options_.workers);
+  }
+
+  /// Without the fingers that are too many where they are.
+  Curve relieved(const Curve& curve) {
+    if (ended_) return curve;  // what is not smooth yet only seems crowded
+    Field unused(curve.size(), Vec2(0, 0));
+    coverage_.evaluate(curve, 1, unused);
+    return retracted(curve, coverage_.areas(), border_, options_.bead_width).curve;
   }
 
   double evaluate(const Curve& curve, Field& gradient) {
@@ -165,22 +178,26 @@ class Fairer {
   }
 
   Curve descend(Curve curve, int iterations) {
-    newton_.forget();
+    const double w = options_.bead_width;
+    newton_.forget({curve.vertices, finest_wave * w, wave_strength});
     leash_.fasten(curve);
     look_up_zones(curve);
     Field gradient;
     double value = evaluate(curve, gradient);
     for (int i = 0; i < iterations; ++i) {
-      if (options_.another && !options_.another()) break;
+      if (options_.another && !options_.another()) {
+        ended_ = true;
+        break;
+      }
       ++iterations_;
       if (i > 0 && i % multiplier_period == 0) {
         multiplier_ += stiffness_ * (curve.length() - options_.target_length);
-        newton_.forget();
+        newton_.forget_steps();
         value = evaluate(curve, gradient);
       }
       if (step(curve, value, gradient)) continue;
       const bool fresh = newton_.empty();
-      newton_.forget();
+      newton_.forget_steps();
       leash_.fasten(curve);
       if (fresh) break;
     }
@@ -200,6 +217,7 @@ class Fairer {
   double multiplier_ = 0, stiffness_ = 0;
   double alignment_weight_ = 0;
   int iterations_ = 0;
+  bool ended_ = false;  ///< there was no time for more
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 // - The curve stays simple and inside by construction: no vertex moves farther than clearance.hpp allows.
 // - Length is held by an augmented Lagrangian, since the paper's penalty (31) lets it drift by 10 to 20 %.
 // - Armijo steps with resets: owners of samples change, which a strong-Wolfe search dislikes.
+// - Strands move together (long_waves.hpp), and fingers that crowd a place are drawn back (retraction.hpp).
 // - Vertices are spread anew between rounds, and the last rounds have twice as many, for rounder hairpins.
 #pragma once
 
@@ -32,7 +33,7 @@ struct FairingOptions {
   double target_length = 0;      ///< mm
   bool hold_length = true;       ///< false: length follows from the price of coverage, as thin islands need
   double bead_width = 0;         ///< mm, area ÷ target length: the unit of every length below
-  int coarse_iterations = 60;    ///< on the curve as it comes
+  int coarse_iterations = 40;    ///< on the curve as it comes
   int fine_iterations = 40;      ///< on the subdivided curve
   double samples_per_width = 5;  ///< lattice squares per bead width
   const DirectionField* field = nullptr;  ///< what to align with; nothing when null

@@ -87,7 +87,13 @@ void QuasiNewton::remember(const std::vector<Vec2>& step, const std::vector<Vec2
   const double product = dot(step, change, workers_), square = dot(change, change, workers_);
   if (!(product > least_curvature * square)) return;
   if (pairs_.size() == memory) pairs_.pop_front();
-  pairs_.push_back({in_floats(step), in_floats(change), 1 / product, product / square});
+  double length = square;
+  if (!waves_.empty()) {
+    std::vector<Vec2> spread = change;
+    waves_.apply(spread, workers_);
+    length = dot(change, spread, workers_);
+  }
+  pairs_.push_back({in_floats(step), in_floats(change), 1 / product, product / length});
 }
 
 std::vector<Vec2> QuasiNewton::direction(const std::vector<Vec2>& gradient) const {
@@ -100,6 +106,10 @@ std::vector<Vec2> QuasiNewton::direction(const std::vector<Vec2>& gradient) cons
       alpha[k] = pairs_[k].inverse * product;
       const Floats& next = k > 0 ? pairs_[k - 1].step : pairs_[0].change;
       product = add_and_dot(q, -alpha[k], pairs_[k].change, next, workers_);
+    }
+    if (!waves_.empty()) {
+      waves_.apply(q, workers_);
+      product = add_and_dot(q, 0, pairs_[0].change, pairs_[0].change, workers_);
     }
     // Instead of scaling q here, its products are scaled, and q at the end.
     const double scale = pairs_.back().curvature;
@@ -114,6 +124,7 @@ std::vector<Vec2> QuasiNewton::direction(const std::vector<Vec2>& gradient) cons
     }
     for (Vec2& v : q) v *= -scale;
   } else {
+    waves_.apply(q, workers_);
     for (Vec2& v : q) v = -v;
   }
   return q;

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <deque>
+#include <utility>
 #include <vector>
 
+#include "core/geometry/long_waves.hpp"
 #include "core/geometry/polygon.hpp"
 #include "core/parallel.hpp"
 
@@ -21,12 +23,18 @@ class QuasiNewton {
  public:
   explicit QuasiNewton(Workers* workers = nullptr) : workers_(workers) {}
 
-  void forget() { pairs_.clear(); }
+  /// Forgets all steps. `waves` stand before the gradient from now on, in the place of the unit matrix.
+  void forget(LongWaves waves = {}) {
+    pairs_.clear();
+    waves_ = std::move(waves);
+  }
+  /// The same, and keeps the waves.
+  void forget_steps() { pairs_.clear(); }
   bool empty() const { return pairs_.empty(); }
 
   /// What a step did to the gradient; pairs without positive curvature are left out.
   void remember(const std::vector<Vec2>& step, const std::vector<Vec2>& change);
-  /// Points downhill; the negative gradient as long as nothing is remembered.
+  /// Points downhill; the negative gradient, times the waves' matrix, as long as nothing is remembered.
   std::vector<Vec2> direction(const std::vector<Vec2>& gradient) const;
 
  private:
@@ -34,9 +42,10 @@ class QuasiNewton {
   struct Pair {
     std::vector<std::array<float, 2>> step, change;
     double inverse;    ///< 1 ÷ their dot product
-    double curvature;  ///< their dot product ÷ the change's square
+    double curvature;  ///< their dot product ÷ the change's square, in the waves' metric
   };
   std::deque<Pair> pairs_;
+  LongWaves waves_;
   Workers* workers_;
 };
 

@@ -13,8 +13,12 @@ namespace {
 constexpr std::size_t most_beads = 20000;  ///< that are looked at; more would tell the same
 constexpr int halvings = 12;               ///< of the range of flows, which leaves steps of 0.2 %
 constexpr double least_part = 0.005;       ///< of max_flow: less is not tried
-constexpr double flow_step = 0.01;         ///< mm³/s
-constexpr std::size_t regular_layer = 1;   ///< any but the first, which may be slower
+constexpr double flow_steps = 100;         ///< of which 1 mm³/s is told
+/// Part of the flow that is kept of the tolerance for what is not reckoned: moves of a few tenths of a mm end
+/// on whole motor steps. Without it 89 % of the seconds held where 95 % should have (folds 0.45 mm apart).
+constexpr double reserve = 0.005;
+constexpr double least_hold = 1 - flow_tolerance + reserve;
+constexpr std::size_t regular_layer = 1;  ///< any but the first, which may be slower
 
 /// What the melt feels: the mean over each second.
 class Seconds {
@@ -23,11 +27,11 @@ class Seconds {
     taken_ += taken, asked_ += asked;
     if (taken_ < 1) return;
     all_ += taken_;
-    if (asked_ >= (1 - flow_tolerance) * taken_) held_ += taken_;
+    if (asked_ >= least_hold * taken_) held_ += taken_;
     taken_ = asked_ = 0;
   }
   double share() const {
-    if (all_ == 0) return asked_ >= (1 - flow_tolerance) * taken_ ? 1 : 0;  // a print of less than a second
+    if (all_ == 0) return asked_ >= least_hold * taken_ ? 1 : 0;  // a print of less than a second
     return held_ / all_;
   }
 
@@ -78,7 +82,7 @@ double held_flow(const std::vector<PlacedLayer>& layers, const PrintSettings& se
     const double middle = std::sqrt(low * high);
     (held(middle) ? low : high) = middle;
   }
-  return std::max(std::floor(low / flow_step) * flow_step, std::min(flow_step, low));
+  return std::max(std::floor(low * flow_steps), 1.0) / flow_steps;
 }
 
 }  // namespace unicursal::gcode

@@ -88,6 +88,7 @@ LineCheck::LineCheck(const Printer& printer, const Dialect& dialect)
     : printer_(printer),
       dialect_(dialect),
       filament_area_(std::numbers::pi / 4 * printer.filament_diameter * printer.filament_diameter),
+      least_factor_(*std::min_element(printer.flow_factors.begin(), printer.flow_factors.end())),
       greatest_factor_(*std::max_element(printer.flow_factors.begin(), printer.flow_factors.end())) {
   state_.drawn = printer_.retraction_length;
 }
@@ -128,6 +129,7 @@ void LineCheck::command(const std::string& line, const MoveListener& listener) {
           "it holds a character that does not belong there");
   const Words words(line);
   const std::string_view name = words.command;
+  require(!name.empty(), "it begins with a space");
   static const std::vector<std::string_view> harmless = {"G21",  "G92",  "M84",  "M85",  "M92",
                                                          "M106", "M107", "M220", "M221", "M400"};
   if (name == "G0" || name == "G1") return move(words, listener);
@@ -224,8 +226,9 @@ void LineCheck::feed_filament(double filament, double length) {
   if (length == 0) {
     check_flow();
     state_.drawn -= filament;
-    const double most = printer_.retraction_length * greatest_factor_ + rounding;
-    require(std::abs(state_.drawn - most / 2) <= most / 2 + rounding,
+    const auto [least, greatest] = std::minmax({1.0, greatest_factor_, least_factor_});
+    const double slack = printer_.retraction_length * (greatest - least) + rounding;
+    require(state_.drawn >= -slack && state_.drawn <= printer_.retraction_length + slack,
             "filament is drawn back too far, or pushed further than it was");
     return;
   }

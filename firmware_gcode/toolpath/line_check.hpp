@@ -66,8 +66,8 @@ class LineCheck {
 
   Printer printer_;
   const Dialect& dialect_;
-  double filament_area_;    ///< mm²
-  double greatest_factor_;  ///< by which filament may be written longer than it is
+  double filament_area_;                   ///< mm²
+  double least_factor_, greatest_factor_;  ///< by which filament may be written longer than it is
   State state_;
 };
 

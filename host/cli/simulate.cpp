@@ -19,6 +19,13 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.bed.assign(printer.bed.begin(), printer.bed.end());
   options.filament_diameter = printer.filament_diameter;
   options.max_acceleration.assign(printer.max_acceleration.begin(), printer.max_acceleration.end());
+  const gcode::Motion& motion = printer.motion;
+  options.jerk.assign(motion.jerk.begin(), motion.jerk.end());
+  options.junction_deviation = motion.junction_deviation;
+  options.acceleration = motion.acceleration;
+  options.feeder_speed = motion.extruder_speed;
+  options.feeder_acceleration = motion.extruder_acceleration;
+  options.feeder_jerk = motion.extruder_jerk;
   options.dead_volume = printer.dead_volume;
   options.mixing_volume = printer.mixing_volume;
   if (!options.tanks) options.tanks = printer.tanks;

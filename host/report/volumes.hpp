@@ -40,8 +40,8 @@ nlohmann::json to_json(const std::vector<MaterialVolume>& volumes);
 struct Fed {
   double filament_diameter = 1.75;  ///< mm
   double feeder_steps_per_mm = 400;
-  std::array<double, gcode::max_feeders> flow_factors{1, 1, 1};  ///< by how much more a feeder turns
   std::uint64_t lines_sent = 0;                                  ///< numbered lines, each once
+  std::array<double, gcode::max_feeders> flow_factors{1, 1, 1};  ///< by how much more a feeder turns
 };
 
 /// Steps per feeder against the intended volume of each mixture, and the fate of every line.

@@ -114,7 +114,7 @@ TEST_CASE(
 
 TEST_CASE("Every personality that the host can print to prints a job whole") {
   Runs runs;
-  const std::string who = GENERATE("marlin", "marlin-8bit", "marlin-advanced-ok");
+  const std::string who = GENERATE("marlin", "marlin-8bit", "marlin-advanced-ok", "repetier");
   const Outcome outcome = runs.run({"--personality", who});
   INFO(outcome.err);
   CHECK(outcome.code == 0);

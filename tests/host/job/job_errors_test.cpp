@@ -123,7 +123,7 @@ const std::vector<Case> spoilt_profiles = {
      "firmware = \"marlyn\"",
      {"line 3", "printer.firmware", "did you mean \"marlin\"?"}},
     {"firmware = \"marlin\"",
-     "firmware = \"repetier\"",
+     "firmware = \"reprapfirmware\"",
      {"line 3", "printer.firmware", "does not speak yet"}},
     {"baud = 115200", "baud = 0", {"line 4", "printer.baud", "is 0"}},
     {"[120.0, 100.0, 80.0]", "[120.0, 100.0]", {"line 5", "printer.bed", "2 numbers instead of 3"}},
