@@ -27,16 +27,16 @@ double cost_of(const Palette& palette, const ChamberModel& chamber, std::size_t 
 
 ChangeCosts::ChangeCosts(const Palette& palette, const ChamberModel& chamber,
                          const std::vector<bool>& matters)
-    : materials_(palette.size()), costs_(materials_ * materials_, 0) {
-  std::vector<std::size_t> all(materials_);
+    : palette_(palette), chamber_(chamber), matters_(matters) {}
+
+double ChangeCosts::of(std::size_t from, std::size_t to) const {
+  if (from == to || !matters_[from] || !matters_[to]) return 0;
+  const auto [cost, added] = known_.try_emplace({from, to}, 0);
+  if (!added) return cost->second;
+  std::vector<std::size_t> all(palette_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(all));
-  for (std::size_t from = 0; from < materials_; ++from) {
-    for (std::size_t to = 0; to < materials_; ++to) {
-      if (from == to || !matters[from] || !matters[to]) continue;
-      costs_[from * materials_ + to] = cost_of(palette, chamber, from, to, rivals);
-    }
-  }
+  return cost->second = cost_of(palette_, chamber_, from, to, rivals);
 }
 
 }  // namespace unicursal::gcode

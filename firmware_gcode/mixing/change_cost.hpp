@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "firmware_gcode/mixing/palette.hpp"
@@ -11,15 +13,19 @@ namespace unicursal::gcode {
 
 class ChangeCosts {
  public:
-  /// `matters`, by material: false for those that are there to take up changes.
+  /// The palette must outlive this object. `matters`, by material: false for those that are there to take up
+  /// changes.
   ChangeCosts(const Palette& palette, const ChamberModel& chamber, const std::vector<bool>& matters);
 
   /// Misplaced plastic, and once more what is nearer to a third material; 0 for the same material.
-  double of(std::size_t from, std::size_t to) const { return costs_[from * materials_ + to]; }
+  double of(std::size_t from, std::size_t to) const;
 
  private:
-  std::size_t materials_;
-  std::vector<double> costs_;
+  const Palette& palette_;
+  ChamberModel chamber_;
+  std::vector<bool> matters_;
+  mutable std::map<std::pair<std::size_t, std::size_t>, double>
+      known_;  ///< since jobs may have many materials
 };
 
 }  // namespace unicursal::gcode

@@ -113,6 +113,7 @@ struct Encoder::State {
   void want(const Piece& piece);
 
   Chunk write_certain();
+  void warn_of_crossings(Chunk& chunk);
   void finish_part(Chunk& part, Chunk& chunk);
   bool is_certain() const;
   void write(Chunk& chunk, const BeginLayer& step);
@@ -151,6 +152,7 @@ struct Encoder::State {
   bool drawn_back = true;
   bool begun = false;  ///< something has been printed or accepted for it
   bool primed = false;
+  bool warned_of_crossings = false;
   double told_width = 0;  ///< mm, of the last ;WIDTH: comment
 };
 
@@ -226,7 +228,7 @@ void Encoder::State::plan(const RoutedLayer& routed) {
   const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(materials));
   if (!routed.legs.empty()) {
     if (!std::exchange(primed, true)) {
-      if (pace.open()) pace.settle({of});
+      if (pace.open()) pace.settle({simplified(of)});
       plan_prime(routed);
       plan_skirt(routed);
     }
@@ -326,6 +328,19 @@ Chunk Encoder::State::write_certain() {
   finish_part(part, chunk);
   chunk.prime_material = prime_material;
   return chunk;
+}
+
+/// Once: the report tells the rest.
+void Encoder::State::warn_of_crossings(Chunk& chunk) {
+  for (const LayerMixing& mixing : chunk.mixing) {
+    if (mixing.short_crossings == 0 || std::exchange(warned_of_crossings, true)) continue;
+    chunk.warnings.push_back(
+        fmt::format("layer {}: {} of {} crossings of transition zones hold less than the mixing volume of "
+                    "{:g} mm³, the shortest "
+                    "{:.2f} mm³; colours will change outside the zone there unless it is made wider",
+                    mixing.layer, mixing.short_crossings, mixing.crossings, printer.mixing_volume,
+                    mixing.shortest_crossing));
+  }
 }
 
 /// Reads back, times and adds what has been written of one layer.
@@ -466,6 +481,7 @@ Chunk Encoder::layer(const PlacedLayer& layer) {
   s.plan_decided();
   Chunk chunk = s.write_certain();
   chunk.mixing = s.forecast.up_to(s.schedule.certain());
+  s.warn_of_crossings(chunk);
   return chunk;
 }
 
@@ -477,6 +493,7 @@ Chunk Encoder::rest() {
   s.ended = true;
   Chunk chunk = s.write_certain();
   chunk.mixing = s.forecast.rest();
+  s.warn_of_crossings(chunk);
   return chunk;
 }
 

@@ -79,6 +79,7 @@ TEST_CASE("the held flow is never above what the extruder melts, nor asked of no
 TEST_CASE("an automatic flow is chosen by the first layer that prints, and then kept") {
   PrintSettings settings = one_colour();
   settings.automatic_flow = true;
+  settings.horizon = 1;
   settings.extent = {{45, 45}, {60, 70}};
   Encoder encoder({}, settings);
   encoder.start();

@@ -19,6 +19,8 @@ PrintSettings plain() {
   settings.zone_materials = {0};
   settings.extent = {{80, 80}, {120, 120}};
   settings.layer_count = 3;
+  settings.horizon = 1;  // so that every layer comes out at once
+  settings.look_ahead = false;
   return settings;
 }
 
