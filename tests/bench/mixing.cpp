@@ -77,13 +77,10 @@ class Travels : public sim::MoveSink {
       return;
     }
     const bool rises = move.from.z > z_ + 1e-6;
-    if (way_ > longest_ && beads_ > 0) {
+    // The way to the prime line and from there to the part belongs to every print.
+    if (way_ > longest_ && approaches_++ >= 2) {
       ++(rises ? result_.travels_between : result_.travels_within);
       result_.travel += way_;
-    }
-    // The prime line's bead is the first; the approach from it to the part belongs to every print.
-    if (beads_++ == 0 || (beads_ == 2 && way_ > longest_)) {
-      if (beads_ == 2) --result_.travels_within, result_.travel -= way_;
     }
     way_ = 0;
     z_ = move.to.z;
@@ -93,7 +90,7 @@ class Travels : public sim::MoveSink {
   double longest_;
   Result& result_;
   double way_ = 0, z_ = 0;
-  std::size_t beads_ = 0;
+  std::size_t approaches_ = 0;
 };
 
 double processor_seconds() {
