@@ -56,7 +56,7 @@ struct CurveCommand {
 
 struct SimulateCommand {
   sim::SimulatorOptions options;
-  std::optional<std::filesystem::path> profile;  ///< bed, filament, accelerations and feeders of this printer
+  std::optional<std::filesystem::path> profile;  ///< of the printer to be
   std::optional<double> baud;                    ///< bits/s; absent: the profile's
   bool personality_chosen = false;               ///< otherwise the profile's firmware counts, if there is one
 };
