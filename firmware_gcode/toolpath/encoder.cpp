@@ -16,7 +16,6 @@
 #include "firmware_gcode/toolpath/job_frame.hpp"
 #include "firmware_gcode/toolpath/move_writer.hpp"
 #include "firmware_gcode/toolpath/pace.hpp"
-#include "firmware_gcode/toolpath/placeholders.hpp"
 #include "firmware_gcode/toolpath/prime_line.hpp"
 #include "firmware_gcode/toolpath/review.hpp"
 #include "firmware_gcode/toolpath/simplify.hpp"
@@ -96,11 +95,8 @@ Encoder::State::State(const Printer& of, const PrintSettings& with)
       review(printer, dialect) {
   check_printer(printer);
   check_settings(settings, printer, dialect);
-  const auto own_lines = [&](const std::string& text, const std::string& key) {
-    return user_commands(with_values(text, key, printer, settings), key);
-  };
-  start_lines = own_lines(printer.start_gcode, "gcode.start");
-  end_lines = own_lines(printer.end_gcode, "gcode.end");
+  start_lines = script_lines(printer.start_gcode, "gcode.start", printer, settings);
+  end_lines = script_lines(printer.end_gcode, "gcode.end", printer, settings);
   for (const Material& material : settings.materials) {
     tools.push_back(
         calibrated(material.mixture.with_floor(printer.floor_share), printer.flow_factors, dialect));

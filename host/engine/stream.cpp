@@ -39,15 +39,72 @@ std::string sentence(const std::exception_ptr& error) {
   }
 }
 
+/// A stretch of the print and what planning it has cost, in s of this computer's processors.
+struct Piece {
+  gcode::Chunk chunk;
+  double cpu_seconds = 0;
+};
+
+/// What there is to print, piece by piece. All of it is called on the loop's thread.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual const gcode::Chunk& start() = 0;
+  virtual asio::awaitable<std::optional<Piece>> next() = 0;
+  virtual gcode::Chunk finish() = 0;
+  /// No further piece is needed.
+  virtual void cancel() = 0;
+  /// The computer that plans it, `charge` times slower.
+  virtual SlowComputer computer(double charge) const = 0;
+};
+
+class PlannedSource final : public Source {
+ public:
+  PlannedSource(Lookahead& lookahead, Run& run) : lookahead_(lookahead), run_(run) {}
+
+  const gcode::Chunk& start() override { return run_.start(); }
+  asio::awaitable<std::optional<Piece>> next() override {
+    std::optional<PlannedLayer> layer = co_await lookahead_.next();
+    if (!layer) co_return std::nullopt;
+    const double cost = layer->cpu_seconds;
+    co_return Piece{run_.layer(std::move(*layer)), cost};
+  }
+  gcode::Chunk finish() override { return run_.finish(); }
+  void cancel() override { lookahead_.cancel(); }
+  SlowComputer computer(double charge) const override {
+    return {charge, lookahead_.threads(), lookahead_.ahead()};
+  }
+
+ private:
+  Lookahead& lookahead_;
+  Run& run_;
+};
+
+class FinishedSource final : public Source {
+ public:
+  explicit FinishedSource(const FinishedPrint& print) : print_(print) {}
+
+  const gcode::Chunk& start() override { return print_.start; }
+  asio::awaitable<std::optional<Piece>> next() override {
+    if (taken_ == print_.body.size()) co_return std::nullopt;
+    co_return Piece{print_.body[taken_++]};
+  }
+  gcode::Chunk finish() override { return print_.finish; }
+  void cancel() override { taken_ = print_.body.size(); }
+  SlowComputer computer(double) const override { return {0, 1, 1}; }
+
+ private:
+  const FinishedPrint& print_;
+  std::size_t taken_ = 0;
+};
+
 class Stream {
  public:
-  Stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
-         const StreamSettings& settings)
-      : lookahead_(lookahead),
-        run_(run),
+  Stream(int port, Source& source, const StreamListeners& listeners, const StreamSettings& settings)
+      : source_(source),
         listeners_(listeners),
         clock_(settings.clock),
-        computer_(settings.charge, lookahead.threads(), lookahead.ahead()),
+        computer_(source.computer(settings.charge)),
         signals_(loop_, SIGINT, SIGTERM),
         sleep_(loop_.get_executor(), clock_),
         link_(loop_.get_executor(), port, options(clock_)) {
@@ -101,7 +158,7 @@ class Stream {
   void stop() {
     stopped_ = true;
     sleep_.notify();
-    lookahead_.cancel();
+    source_.cancel();
     if (heating_) link_.cool_down();
     listeners_.message(heating_ ? "stopping: heating ends; once more stops the printer at once"
                                 : "stopping: the printer is parked and cooled; once more stops it at once");
@@ -118,7 +175,7 @@ class Stream {
     std::exception_ptr error;
     try {
       co_await start();
-      co_await send_layers();
+      co_await send_pieces();
     } catch (const LinkError&) {
       throw;
     } catch (...) {
@@ -132,7 +189,7 @@ class Stream {
 
   asio::awaitable<void> start() {
     heating_ = true;
-    co_await send(run_.start(), 0);
+    co_await send(source_.start(), 0);
     if (!stopped_) co_await link_.drain();  // until hot: a stop has to know whether that is so
     heating_ = false;
   }
@@ -140,9 +197,9 @@ class Stream {
   asio::awaitable<void> finish() {
     finishing_ = true;
     try {
-      const gcode::Chunk chunk = run_.finish();
+      const gcode::Chunk chunk = source_.finish();
       parked_ = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
-      co_await send(chunk, run_.totals().layers);
+      co_await send(chunk, sent_);
     } catch (const LinkError&) {
       throw;
     } catch (...) {
@@ -152,30 +209,30 @@ class Stream {
     co_await link_.drain();
   }
 
-  asio::awaitable<void> send_layers() {
-    for (std::size_t done = 0; !stopped_; ++done) {
-      std::optional<PlannedLayer> layer = co_await next_layer();
-      if (!layer) break;
-      co_await send(run_.layer(std::move(*layer)), done);
+  asio::awaitable<void> send_pieces() {
+    while (!stopped_) {
+      std::optional<Piece> piece = co_await next_piece();
+      if (!piece) break;
+      co_await send(std::move(piece->chunk), sent_++);
     }
   }
 
   /// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile,
   /// and what is charged for planning passes afterwards.
-  asio::awaitable<std::optional<PlannedLayer>> next_layer() {
+  asio::awaitable<std::optional<Piece>> next_piece() {
     const TimePoint asked = clock_->now();
-    std::optional<PlannedLayer> layer;
+    std::optional<Piece> piece;
     {
       const Clock::Hold hold(*clock_);
-      layer = co_await lookahead_.next();
+      piece = co_await source_.next();
     }
-    if (layer) {
-      const double ready = computer_.ready(layer->cpu_seconds, seconds(clock_->now() - started_));
+    if (piece) {
+      const double ready = computer_.ready(piece->cpu_seconds, seconds(clock_->now() - started_));
       const std::function<bool()> stopped = [this] { return stopped_; };
       co_await sleep_.wait(started_ + duration(ready), stopped);
     }
     waited_ += seconds(clock_->now() - asked);
-    co_return layer;
+    co_return piece;
   }
 
   static double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -183,10 +240,10 @@ class Stream {
     return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
   }
 
-  asio::awaitable<void> send(gcode::Chunk chunk, std::size_t layers_done) {
+  asio::awaitable<void> send(gcode::Chunk chunk, std::size_t pieces_done) {
     std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
     for (std::size_t i = 0; i < chunk.lines.size() && (finishing_ || !stopped_); i += batch) {
-      listeners_.progress(layers_done, static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
+      listeners_.progress(pieces_done, static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
       const std::size_t end = std::min(i + batch, chunk.lines.size());
       std::vector<std::string> lines(chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                                      chunk.lines.begin() + static_cast<std::ptrdiff_t>(end));
@@ -195,8 +252,7 @@ class Stream {
   }
 
   asio::io_context loop_{1};
-  Lookahead& lookahead_;
-  Run& run_;
+  Source& source_;
   const StreamListeners& listeners_;
   const std::shared_ptr<Clock> clock_;
   const TimePoint started_ = clock_->now();
@@ -209,14 +265,22 @@ class Stream {
   bool aborted_ = false;
   bool heating_ = false;  ///< the start is under way
   bool parked_ = false;
-  double waited_ = 0;  ///< s for layers
+  std::size_t sent_ = 0;  ///< pieces begun
+  double waited_ = 0;     ///< s for pieces
 };
 
 }  // namespace
 
 StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
                     const StreamSettings& settings) {
-  return Stream(port, lookahead, run, listeners, settings)();
+  PlannedSource source(lookahead, run);
+  return Stream(port, source, listeners, settings)();
+}
+
+StreamResult stream(int port, const FinishedPrint& print, const StreamListeners& listeners,
+                    const StreamSettings& settings) {
+  FinishedSource source(print);
+  return Stream(port, source, listeners, settings)();
 }
 
 }  // namespace unicursal::host
