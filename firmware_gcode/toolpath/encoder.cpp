@@ -22,7 +22,6 @@
 #include "firmware_gcode/toolpath/job_frame.hpp"
 #include "firmware_gcode/toolpath/move_writer.hpp"
 #include "firmware_gcode/toolpath/pace.hpp"
-#include "firmware_gcode/toolpath/placeholders.hpp"
 #include "firmware_gcode/toolpath/prime_line.hpp"
 #include "firmware_gcode/toolpath/review.hpp"
 #include "firmware_gcode/toolpath/route.hpp"
@@ -171,11 +170,8 @@ Encoder::State::State(const Printer& of, const PrintSettings& with)
       route(route_options()),
       schedule(palette, schedule_options()),
       forecast(palette, chamber_of(printer)) {
-  const auto own_lines = [&](const std::string& text, const std::string& key) {
-    return user_commands(with_values(text, key, printer, settings), key);
-  };
-  start_lines = own_lines(printer.start_gcode, "gcode.start");
-  end_lines = own_lines(printer.end_gcode, "gcode.end");
+  start_lines = script_lines(printer.start_gcode, "gcode.start", printer, settings);
+  end_lines = script_lines(printer.end_gcode, "gcode.end", printer, settings);
   if (const auto tool = tools.retraction_tool()) writer.calibrate(*tool, tools.scale(*tool));
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/toolpath/checks.hpp"
+#include "firmware_gcode/toolpath/placeholders.hpp"
 
 namespace unicursal::gcode {
 namespace {
@@ -86,6 +88,11 @@ std::vector<std::string> after_user_start() {
   std::vector<std::string> lines = modes();
   lines.insert(lines.begin(), shut_down_after(inactivity_shutdown));
   return lines;
+}
+
+std::vector<std::string> script_lines(const std::string& text, const std::string& key, const Printer& printer,
+                                      const PrintSettings& settings) {
+  return user_commands(with_values(text, key, printer, settings), key);
 }
 
 std::vector<std::string> framed(const std::vector<std::string>& user_lines) {

@@ -30,6 +30,11 @@ Temperatures first_temperatures(const Printer& printer, const PrintSettings& set
 /// a minute; the waits come after, so that whatever has oozed meanwhile stays away from the bed.
 std::vector<std::string> warm_up(const Printer& printer, const PrintSettings& settings);
 
+/// A script of the user's as commands, with the job's numbers in it. `key` names it in messages. Throws
+/// core::DataError (placeholders.hpp, checks.hpp).
+std::vector<std::string> script_lines(const std::string& text, const std::string& key, const Printer& printer,
+                                      const PrintSettings& settings);
+
 /// The user's lines between their comments, if there are any.
 std::vector<std::string> framed(const std::vector<std::string>& user_lines);
 

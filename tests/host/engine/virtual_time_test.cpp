@@ -140,7 +140,7 @@ TEST_CASE("A simulator that fails at its very end leaves a report that says so")
 
 TEST_CASE("Every personality that the host can print to prints a job whole") {
   Runs runs;
-  const std::string who = GENERATE("marlin", "marlin-8bit", "marlin-advanced-ok", "repetier");
+  const std::string who = GENERATE("marlin", "marlin-8bit", "marlin-advanced-ok");
   const Outcome outcome = runs.run({"--personality", who});
   INFO(outcome.err);
   CHECK(outcome.code == 0);
