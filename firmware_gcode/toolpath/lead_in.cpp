@@ -90,6 +90,7 @@ class Writer {
     lines({"G21", "G91", "G1 Z" + position(up) + " F" + z_feed(), "G90"});
     lines({"G92 Z" + position(to_.height + up), "G28 X Y"});
     lines(modes());
+    lines(calibration(printer_));
   }
 
   void mixtures() {

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <exception>
 #include <new>
+#include <utility>
 
 #include "host/engine/rejoining.hpp"
 #include "host/engine/slow_computer.hpp"
@@ -85,21 +86,32 @@ class Source {
 
 class PlannedSource final : public Source {
  public:
-  PlannedSource(Lookahead& lookahead, Run& run, bool spooling)
-      : lookahead_(lookahead), run_(run), spooling_(spooling) {}
+  PlannedSource(Lookahead& lookahead, Run& run, const StreamSettings& settings)
+      : lookahead_(lookahead),
+        run_(run),
+        spooling_(settings.spool != nullptr),
+        ended_(settings.continuation && settings.spool->extent().rest) {}
 
   const gcode::Chunk& start() override { return run_.start(); }
   asio::awaitable<std::optional<Piece>> next() override {
     std::optional<PlannedLayer> layer = co_await lookahead_.next();
-    if (!layer) co_return std::nullopt;
     Piece piece;
-    piece.cpu_seconds = layer->cpu_seconds;
-    if (spooling_) piece.record = spooled(*layer, run_.prepared());
-    piece.chunk = run_.layer(std::move(*layer));
+    if (layer) {
+      piece.cpu_seconds = layer->cpu_seconds;
+      if (spooling_) piece.record = spooled(*layer, run_.prepared());
+      piece.chunk = run_.layer(std::move(*layer));
+    } else {
+      if (std::exchange(ended_, true)) co_return std::nullopt;
+      piece.record.kind = SpooledChunk::Kind::rest;
+      piece.chunk = run_.rest();
+    }
     co_return piece;
   }
   gcode::Chunk finish() override { return run_.finish(); }
-  void cancel() override { lookahead_.cancel(); }
+  void cancel() override {
+    ended_ = true;
+    lookahead_.cancel();
+  }
   SlowComputer computer(double charge) const override {
     return {charge, lookahead_.threads(), lookahead_.ahead()};
   }
@@ -108,6 +120,7 @@ class PlannedSource final : public Source {
   Lookahead& lookahead_;
   Run& run_;
   const bool spooling_;
+  bool ended_ = false;  ///< nothing is withheld any more, or wanted
 };
 
 class FinishedSource final : public Source {
@@ -492,7 +505,7 @@ class Stream {
 
 StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
                     const StreamSettings& settings) {
-  PlannedSource source(lookahead, run, settings.spool != nullptr);
+  PlannedSource source(lookahead, run, settings);
   return Stream(port, source, listeners, settings)();
 }
 

@@ -108,7 +108,10 @@ asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
     co_await ask("M114\n", located);
   }
   found.position = told_position;
-  found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
+  if (told_temperatures) {
+    found.nozzle_target = told_temperatures->nozzle_target;
+    found.bed_target = told_temperatures->bed_target;
+  }
   found.next = co_await ask_for_number(beyond);
   probing = false;
   co_return found;
