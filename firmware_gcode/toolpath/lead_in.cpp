@@ -23,6 +23,7 @@ void find_position(AsideWriter& writer, const Printer& printer, double height) {
   writer.height(up);
   writer.lines({"G90", "G92 Z" + short_number(height + up, 3), "G28 X Y"});
   writer.lines(modes());
+  writer.lines(calibration(printer));
 }
 
 void mixtures(AsideWriter& writer, const ModalState& state) {

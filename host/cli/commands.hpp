@@ -13,6 +13,7 @@
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
 #include "host/engine/session.hpp"
+#include "host/tune/strip_print.hpp"
 #include "sim/simulator.hpp"
 
 namespace unicursal::host {
@@ -23,6 +24,8 @@ struct JobOptions {
   std::optional<std::filesystem::path> profile;
   std::optional<LayerRange> layers;
   RunOutputs outputs;
+  std::size_t threads = 0;  ///< that plan; 0: one for each core
+  bool look_ahead = true;   ///< of the mixing schedule
 };
 
 /// How a print shows what it does, and what it does when it is held.
@@ -37,8 +40,9 @@ struct PlanCommand {
 
 struct DryRunCommand {
   JobOptions job;
-  sim::SimulatorOptions printer;  ///< its personality, chip, faults; and its speed, 0: virtual time
-  double charge = 0;              ///< printer seconds for each second of planning, in virtual time
+  sim::SimulatorOptions printer;    ///< its personality, chip, faults; and its speed, 0: virtual time
+  bool personality_chosen = false;  ///< otherwise it is what the profile's firmware is
+  double charge = 0;                ///< printer seconds for each second of planning, in virtual time
   DisplayOptions display;
 };
 
@@ -67,6 +71,8 @@ struct CurveCommand {
   std::size_t island = 0;  ///< 0: the largest
   std::vector<std::filesystem::path> outputs;
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> pictures;  ///< folder, for one of each stage
+  int threads = 1;                                ///< that share the island
   core::Preset preset = core::Preset::best;
   double quality = 1;                           ///< how long the optimisers run
   std::optional<double> budget;                 ///< s of planning; what there is then is finished
@@ -75,8 +81,24 @@ struct CurveCommand {
 
 struct SimulateCommand {
   sim::SimulatorOptions options;
-  std::optional<std::filesystem::path> profile;  ///< bed, filament, accelerations and feeders of this printer
+  std::optional<std::filesystem::path> profile;  ///< of the printer to be
   std::optional<double> baud;                    ///< bits/s; absent: the profile's
+  bool personality_chosen = false;               ///< otherwise the profile's firmware counts, if there is one
+};
+
+struct TuneCommand {
+  std::filesystem::path profile;
+  StripFeeders feeders;
+  std::optional<double> range;                  ///< mm³ that the strip holds
+  std::optional<std::filesystem::path> output;  ///< G-code
+  std::optional<std::string> port;
+  bool simulate = false;
+  std::optional<std::filesystem::path> machine;   ///< the simulated printer's profile
+  std::size_t tanks = 2;                          ///< of the simulated nozzle
+  std::optional<std::filesystem::path> pictures;  ///< folder
+  bool read_simulated = false;                    ///< off the raster instead of asking
+  std::optional<double> began, half, stopped;     ///< ticks
+  bool yes = false;                               ///< write without asking
 };
 
 Exit plan(const PlanCommand& command);
@@ -85,6 +107,7 @@ Exit print(const PrintCommand& command);
 Exit resume(const ResumeCommand& command);
 Exit curve(const CurveCommand& command);
 Exit simulate(SimulateCommand command);
+Exit tune(const TuneCommand& command);
 /// Throws core::DataError for a printer that cannot be simulated.
 void check_simulator(const sim::SimulatorOptions& options);
 Exit ports();

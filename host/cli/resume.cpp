@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -41,9 +42,15 @@ fs::path chosen_print(const ResumeCommand& command) {
     throw SpoolError(root.string(), "", "holds no print", "name the folder of the prints with --spool");
   }
   if (!command.print) return prints.front();
-  for (const fs::path& folder : prints) {
-    if (folder.filename().string().starts_with(*command.print)) return folder;
-  }
+  const auto found = [&](const auto& fits) {
+    return std::find_if(prints.begin(), prints.end(),
+                        [&](const fs::path& folder) { return fits(folder.filename().string()); });
+  };
+  // A whole name is meant as such, even where another begins with it.
+  auto print = found([&](const std::string& name) { return name == *command.print; });
+  if (print == prints.end())
+    print = found([&](const std::string& name) { return name.starts_with(*command.print); });
+  if (print != prints.end()) return *print;
   throw SpoolError(root.string(), "", "holds no print whose name begins with \"" + *command.print + "\"",
                    "see `unicursal resume --list`");
 }
@@ -56,8 +63,9 @@ PreparedJob prepare_again(const Spool& spool) {
 
 LookaheadOptions behind(const PreparedJob& prepared, const SpoolExtent& extent) {
   LookaheadOptions options = lookahead_options(prepared);
-  options.first += extent.layers;
-  options.count -= std::min(options.count, extent.layers);
+  const std::size_t done = std::min(options.count, extent.layers);
+  options.first += done;
+  options.count -= done;
   return options;
 }
 
@@ -111,27 +119,25 @@ class Resumption {
         spool_(spool),
         prepared_(prepare_again(spool)),
         run_(prepared_, "resume", {}),
-        extent_(catch_up(run_, spool)),
-        lookahead_(*prepared_.part, paced(behind(prepared_, extent_), clock_)) {}
+        lookahead_(*prepared_.part, paced(behind(prepared_, spool.extent()), clock_)) {}
 
   Exit operator()() {
     const JournalState& before = spool_.before();
     const bool nothing_sent = before.anchors.empty();
     if (!before.parking.empty()) return restart({"it was parked and cooled", std::nullopt});
-    const StreamResult result =
-        nothing_sent ? stream({extent_, before.leg}) : stream({extent_, std::nullopt});
+    const StreamResult result = stream(nothing_sent ? std::optional(before.leg) : std::nullopt);
     return result.lost ? restart(*result.lost) : end(result);
   }
 
  private:
-  StreamResult stream(Continuation continuation) {
+  StreamResult stream(std::optional<Leg> leg) {
     StreamSettings settings;
     settings.clock = clock_;
     settings.pause_heat = command_.pause_heat;
     settings.spool = &spool_;
-    settings.continuation = std::move(continuation);
+    settings.continuation = Continuation{std::move(leg), [this] { catch_up(run_, spool_); }};
     const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
-    PlannedSource source(lookahead_, run_);
+    PlannedSource source(lookahead_, run_, spool_.extent().rest);
     return stream_with_progress(port, source, command_.display, settings);
   }
 
@@ -139,7 +145,7 @@ class Resumption {
     const Restart restart = restart_after(prepared_, spool_, lost);
     tell(restart, lost, spool_);
     if (!agreed(command_)) return Exit::failed;
-    return end(stream({extent_, restart.leg}));
+    return end(stream(restart.leg));
   }
 
   Exit end(const StreamResult& result) {
@@ -152,7 +158,6 @@ class Resumption {
   Spool& spool_;
   const PreparedJob prepared_;
   Run run_;
-  const SpoolExtent extent_;
   const std::shared_ptr<Clock> clock_ = real_clock();
   Lookahead lookahead_;
 };

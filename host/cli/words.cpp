@@ -47,8 +47,16 @@ std::vector<fs::path> inputs_of(const Job& job) {
   return inputs;
 }
 
-void check_outputs(const Job& job, const std::vector<fs::path>& outputs) {
-  std::vector<fs::path> taken = inputs_of(job);
+bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
+  const core::PlanOptions plan = lookahead_options(prepared).plan;
+  return std::any_of(layer.islands.begin(), layer.islands.end(),
+                     [&](const core::Island& island) { return prepared.planner->fits(island, plan); });
+}
+
+}  // namespace
+
+void check_outputs(std::vector<fs::path> inputs, const std::vector<fs::path>& outputs) {
+  std::vector<fs::path>& taken = inputs;
   for (const fs::path& output : outputs) {
     for (const fs::path& other : taken) {
       if (!same_file(output, other)) continue;
@@ -59,14 +67,6 @@ void check_outputs(const Job& job, const std::vector<fs::path>& outputs) {
     taken.push_back(output);
   }
 }
-
-bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
-  const core::PlanOptions plan = lookahead_options(prepared).plan;
-  return std::any_of(layer.islands.begin(), layer.islands.end(),
-                     [&](const core::Island& island) { return prepared.planner->fits(island, plan); });
-}
-
-}  // namespace
 
 LayerRange parse_layers(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -83,10 +83,13 @@ LayerRange parse_layers(const std::string& text) {
 }
 
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more) {
-  PreparedJob prepared = prepare(load_job(options.job, options.profile), options.layers);
+  Job job = load_job(options.job, options.profile);
+  job.look_ahead = options.look_ahead;
+  PreparedJob prepared = prepare(std::move(job), options.layers);
+  prepared.threads = options.threads;
   std::vector<fs::path> outputs = more;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
-  check_outputs(prepared.job, outputs);
+  check_outputs(inputs_of(prepared.job), outputs);
   for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
   for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
   return prepared;

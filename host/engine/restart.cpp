@@ -56,7 +56,7 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   const gcode::ModalState state = state_at(spool.chunks(), Leg{}, line);
   if (!placed_somewhere(state)) return restart;
   restart.leg.begins_at = line;
-  restart.layer = layer_of(spool.chunks(), line);
+  restart.layer = layer_at(spool.chunks(), *state.position[2]);
   restart.repeated = std::max(sent, certain) - certain;
   note_heights(restart, spool.chunks(), journal, certain, std::max(sent, certain));
   if (ended_in_order) restart.lowest = restart.highest;
@@ -69,17 +69,15 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   return restart;
 }
 
-SpoolExtent catch_up(Run& run, const Spool& spool) {
+void catch_up(Run& run, const Spool& spool) {
   const auto same = [&](const gcode::Chunk& made, const SpooledChunk& kept) {
     if (commands(made.lines) == kept.lines) return;
     throw SpoolError(spool.folder().string(), "",
                      "holds lines that this version of the program would not write",
                      "resume with the version that the print was begun with");
   };
-  SpoolExtent extent;
   ChunkReader reader(spool.chunks());
   while (const auto chunk = reader.next()) {
-    extent.add(*chunk);
     switch (chunk->kind) {
       case SpooledChunk::Kind::start:
         same(run.start(), *chunk);
@@ -87,11 +85,13 @@ SpoolExtent catch_up(Run& run, const Spool& spool) {
       case SpooledChunk::Kind::layer:
         same(run.replay(chunk->layer), *chunk);
         break;
+      case SpooledChunk::Kind::rest:
+        same(run.rest(), *chunk);
+        break;
       case SpooledChunk::Kind::finish:
         same(run.finish(), *chunk);
     }
   }
-  return extent;
 }
 
 }  // namespace unicursal::host

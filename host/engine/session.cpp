@@ -1,12 +1,15 @@
 #include "host/engine/session.hpp"
 
 #include <algorithm>
+#include <asio/bind_executor.hpp>
+#include <asio/co_spawn.hpp>
 #include <asio/post.hpp>
 #include <exception>
 #include <new>
 
 #include "host/engine/rejoining.hpp"
 #include "host/engine/session_impl.hpp"
+#include "host/spool/chunk_reader.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -19,6 +22,33 @@ constexpr double no_time = 0;
 bool moves_away(const std::string& line) {
   const bool move = line.starts_with("G0 ") || line.starts_with("G1 ");
   return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
+}
+
+/// Lines of a lead-in up to the last one that waits for heat: what follows moves.
+std::uint64_t heat_lines(const std::vector<std::string>& lead_in) {
+  const auto waits = [](const std::string& line) {
+    return line.starts_with("M109") || line.starts_with("M190");
+  };
+  const auto last = std::find_if(lead_in.rbegin(), lead_in.rend(), waits);
+  return static_cast<std::uint64_t>(lead_in.rend() - last);
+}
+
+/// The layer, counted from 0, that is printed when so much of the chunk's time has passed.
+std::optional<std::size_t> layer_at(const gcode::Chunk& chunk, double fraction) {
+  if (chunk.layers.empty()) return std::nullopt;
+  double left = fraction * chunk.seconds;
+  for (const gcode::LayerShare& share : chunk.layers) {
+    left -= share.seconds;
+    if (left < 0) return share.layer;
+  }
+  return chunk.layers.back().layer;
+}
+
+/// Of which nothing is left for later chunks.
+std::size_t whole_layers(const gcode::Chunk& chunk) {
+  if (chunk.layers.empty()) return chunk.seconds > 0 ? 1 : 0;
+  return static_cast<std::size_t>(std::count_if(chunk.layers.begin(), chunk.layers.end(),
+                                                [](const gcode::LayerShare& share) { return share.last; }));
 }
 
 LinkOptions link_options(const std::shared_ptr<Clock>& clock) {
@@ -50,7 +80,8 @@ std::string sentence(const std::exception_ptr& error) {
 }
 
 Session::State::State(asio::any_io_executor on, int descriptor, Source& of, StreamSettings with)
-    : port(descriptor),
+    : executor(on),
+      port(descriptor),
       source(of),
       settings(std::move(with)),
       spool(settings.spool),
@@ -64,6 +95,7 @@ Session::State::State(asio::any_io_executor on, int descriptor, Source& of, Stre
       if (const auto alive = weak.lock()) (*alive)->wake.notify();
     });
   });
+  if (settings.continuation) layers_before = spool->extent().layers;
   if (spool) keep_journal();
 }
 
@@ -79,7 +111,7 @@ asio::awaitable<void> Session::State::print() {
   std::exception_ptr error;
   try {
     if (settings.continuation) co_await send_spooled();
-    if (!settings.continuation || settings.continuation->extent.start_lines == 0) co_await start();
+    if (!settings.continuation || spool->extent().start_lines == 0) co_await start();
     co_await send_pieces();
     if (aborted) throw LinkError("the print was stopped at once");
     if (!stopped) co_await between();  // a pause that was asked for in the last lines
@@ -117,8 +149,9 @@ asio::awaitable<void> Session::State::rejoin() {
     lost = Lost{error.what(), std::nullopt};
     co_return;
   }
-  lost = lost_since(before, found, spool->chunks(), settings.continuation->extent);
+  lost = lost_since(before, found, spool->chunks(), spool->extent());
   if (lost) co_return;
+  spool->journal().begin_session();
   first = place = *before.place_of(found.next);
   anew = false;
   spool->journal().anchor({found.next, first}, true);
@@ -126,26 +159,51 @@ asio::awaitable<void> Session::State::rejoin() {
   link.go_on(found.next);
 }
 
+void Session::State::begin_to_catch_up() {
+  caught_up = false;
+  const auto work = [this]() -> asio::awaitable<void> {
+    settings.continuation->catch_up();
+    co_return;
+  };
+  asio::co_spawn(disk, work, asio::bind_executor(executor, [this](std::exception_ptr error) {
+                   caught_up = true;
+                   catching_up_failed = error;
+                   wake.notify();
+                 }));
+}
+
+/// Until then the source's run belongs to another thread.
+asio::awaitable<void> Session::State::catch_up() {
+  const std::function<bool()> done = [this] { return caught_up; };
+  co_await wake.wait(TimePoint::max(), done);
+}
+
 /// What is spooled from here on in this leg.
 asio::awaitable<void> Session::State::send_spooled() {
-  const SpoolExtent& extent = settings.continuation->extent;
+  begin_to_catch_up();
   const Leg& leg = settings.continuation->leg ? *settings.continuation->leg : spool->before().leg;
-  const std::uint64_t hot = leg.lead_in.empty() ? extent.start_lines : leg.lead_in.size();
+  const std::uint64_t hot = leg.lead_in.empty() ? spool->extent().start_lines : heat_lines(leg.lead_in);
   LegReader reader(spool->chunks(), leg, first);
   modal = state_at(spool->chunks(), leg, first);
   heating = first < hot;
+  homeless = heating && !leg.lead_in.empty();
   enter(heating ? SessionState::heating : SessionState::printing);
   while (!stopped) {
-    if (!heating) co_await between();
+    // What leads back to the part is gone through as a whole.
+    if (!heating && place >= leg.lead_in.size()) co_await between();
     if (stopped) break;
-    std::vector<std::string> lines = reader.next(batch);
+    std::vector<std::string> lines =
+        reader.next(heating ? std::min<std::uint64_t>(batch, hot - place) : batch);
     if (lines.empty()) break;
     layers_begun = reader.layers_begun();
     layer_fraction = reader.fraction();
     co_await hand(std::move(lines));
     if (heating && place >= hot) co_await get_hot();
+    homeless = homeless && stopped;
   }
   heating = false;
+  co_await catch_up();
+  if (catching_up_failed) std::rethrow_exception(catching_up_failed);
 }
 
 asio::awaitable<void> Session::State::start() {
@@ -170,17 +228,20 @@ asio::awaitable<void> Session::State::get_hot() {
 }
 
 asio::awaitable<void> Session::State::send_pieces() {
-  for (layers_begun = settings.continuation ? settings.continuation->extent.layers : 0; !stopped;) {
+  std::size_t pieces = layers_before;
+  while (!stopped) {
     std::optional<Piece> piece = co_await next_piece();
-    if (!piece || stopped) break;
-    if (!co_await keep(std::move(piece->record), piece->chunk)) break;
-    chunk_seconds = piece->chunk.seconds;
-    co_await send(piece->chunk);
+    if (!piece || stopped || !co_await keep(std::move(piece->record), piece->chunk)) break;
+    const gcode::Chunk& chunk = piece->chunk;
+    chunk_seconds = chunk.seconds;
+    whole = whole_layers(chunk);
+    layers_begun = layer_at(chunk, 0).value_or(pieces);
+    co_await send(chunk);
     if (stopped) break;
     seconds_sent += std::exchange(chunk_seconds, no_time);
+    layers_sent += std::exchange(whole, 0U);
     layer_fraction = 0;
-    ++layers_begun;
-    ++layers_sent;
+    ++pieces;
   }
 }
 
@@ -219,7 +280,7 @@ void Session::State::tell_position() {
 }
 
 asio::awaitable<void> Session::State::finish() {
-  if (settings.continuation && settings.continuation->extent.finished) {
+  if (settings.continuation && spool->extent().finished) {
     parked = true;
     co_return co_await link.drain();
   }
@@ -241,9 +302,13 @@ asio::awaitable<void> Session::State::finish() {
 
 /// Before its end: these lines are none of the print's own.
 asio::awaitable<void> Session::State::park() {
+  co_await catch_up();
   gcode::Chunk chunk;
   try {
-    chunk = source.finish();
+    if (homeless)
+      chunk.lines = {"M104 S0", "M140 S0", "M107"};
+    else
+      chunk = source.finish();
   } catch (...) {
     link.cool_down();
     throw;
@@ -266,7 +331,10 @@ asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
   for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
     if (!own) co_await between();
     if (stopped && !ending()) co_return;
-    if (!own) layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
+    if (!own) {
+      layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
+      layers_begun = layer_at(chunk, layer_fraction).value_or(layers_begun);
+    }
     const std::size_t end = std::min(i + batch, chunk.lines.size());
     co_await hand({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                    chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -274,11 +342,10 @@ asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
 }
 
 asio::awaitable<void> Session::State::hand(std::vector<std::string> lines) {
-  const std::size_t count = lines.size();
   for (const std::string& line : lines) modal.run(line);
   co_await link.send(std::move(lines));
   if (!parking) {
-    place += count;
+    place = first + link.statistics().lines - extra;  // without those that a stop has made it forget
     note_progress();
     if (!heating) tell_position();
   }

@@ -32,7 +32,6 @@
 #include "firmware_gcode/reply/reply.hpp"
 #include "host/engine/source.hpp"
 #include "host/link/link.hpp"
-#include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool.hpp"
 
 namespace unicursal::host {
@@ -68,8 +67,9 @@ struct StreamResult {
 
 /// A print that goes on.
 struct Continuation {
-  SpoolExtent extent;
   std::optional<Leg> leg;  ///< to begin; absent: the printer is alive, and the last leg goes on
+  /// Brings the source's run to where the spool ends, meanwhile, in a thread of its own.
+  std::function<void()> catch_up;
 };
 
 /// What becomes of the nozzle's heat during a pause. The bed stays warm, or the part would come off.
@@ -81,7 +81,7 @@ enum class PauseHeat {
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
   Spool* spool = nullptr;  ///< that keeps the print, if one does
-  /// With a spool: it holds the first layers already, and the source begins behind them.
+  /// With a spool that holds the first layers already; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;
   /// s after which a pause ends by itself: for where nobody is there to end it.
@@ -115,7 +115,7 @@ struct SessionStatus {
   std::string reason;                ///< of a pause or an end, a sentence; empty where there is none to tell
   std::size_t layer = 0;             ///< that is being sent, counted from 1; 0 before the first
   std::size_t layers = 0;            ///< to be printed
-  double layer_fraction = 0;         ///< of the layer's lines that were sent
+  double layer_fraction = 0;         ///< of the lines at hand, that were sent
   double percent = 0;                ///< of the printing time, as far as it can be foretold
   double elapsed = 0;                ///< s since the session began
   std::optional<double> left;        ///< s of printing, by the time model; absent before the first layer

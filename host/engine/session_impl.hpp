@@ -5,6 +5,7 @@
 
 #include <asio/thread_pool.hpp>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -26,6 +27,8 @@ struct Session::State {
   asio::awaitable<void> begin();
   asio::awaitable<void> rejoin();
   asio::awaitable<void> send_spooled();
+  void begin_to_catch_up();
+  asio::awaitable<void> catch_up();
   asio::awaitable<void> start();
   asio::awaitable<void> get_hot();
   asio::awaitable<void> send_pieces();
@@ -72,6 +75,7 @@ struct Session::State {
   std::string mixture() const;
 
   asio::thread_pool disk{1};
+  const asio::any_io_executor executor;
   const int port;
   Source& source;
   const StreamSettings settings;
@@ -97,7 +101,10 @@ struct Session::State {
   std::deque<std::string> wanted;  ///< lines to be interposed
 
   // Found out
-  bool heating = false;  ///< the printer may be in a wait for heat
+  bool heating = false;   ///< the printer may be in a wait for heat
+  bool homeless = false;  ///< it does not know where its nozzle is: it must not move
+  bool caught_up = true;  ///< the source belongs to this thread
+  std::exception_ptr catching_up_failed;
   bool parking = false;  ///< what is sent is not of the spool
   bool parked = false;
   bool halted = false;  ///< the firmware has said that it has stopped itself
@@ -113,12 +120,14 @@ struct Session::State {
   std::uint64_t place = 0;  ///< before which everything was handed to the link
   std::uint64_t extra = 0;  ///< lines handed that are none of the leg's
   bool interposing = false;
-  bool anew = true;  ///< the next numbering is the first
-  Anchor numbered;   ///< `place` counts all lines of this session
+  bool anew = true;               ///< the next numbering is the first
+  Anchor numbered;                ///< `place` counts all lines of this session
+  std::size_t layers_before = 0;  ///< that the spool held when this session began
   std::size_t layers_begun = 0;
-  double layer_fraction = 0;
+  double layer_fraction = 0;                   ///< of the chunk that is being sent
   double seconds_sent = 0, chunk_seconds = 0;  ///< of the chunks before, of the one that is being sent
   std::size_t layers_sent = 0;                 ///< whose seconds are in `seconds_sent`
+  std::size_t whole = 0;                       ///< layers that end in the chunk that is being sent
 };
 
 /// Whatever was thrown, as a sentence for a person.

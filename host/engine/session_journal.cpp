@@ -22,7 +22,6 @@ void Session::State::keep_journal() {
     const std::uint64_t at = interposing ? place : first + line - extra;
     spool->journal().anchor({number + static_cast<std::uint32_t>(behind), at}, std::exchange(anew, false));
   });
-  spool->journal().begin_session();
 }
 
 void Session::State::note_progress() {

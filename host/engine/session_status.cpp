@@ -118,19 +118,17 @@ void Session::State::warn(const std::string& sentence) {
 
 /// Layers that are not planned yet are taken to last as long as those before them on average.
 double Session::State::seconds_left() const {
-  const double now = chunk_seconds * (1 - layer_fraction);
   const Waiting waiting = source.waiting();
-  const std::size_t known = layers_sent + waiting.layers + (chunk_seconds > 0 ? 1 : 0);
-  const double mean =
-      known > 0 ? (seconds_sent + chunk_seconds + waiting.seconds) / static_cast<double>(known) : 0;
-  const std::size_t all = source.layers();
-  const std::size_t unknown = all > known ? all - known : 0;
-  return now + waiting.seconds + mean * static_cast<double>(unknown);
+  const std::size_t known = layers_sent + whole + waiting.layers;
+  const double sum = seconds_sent + chunk_seconds + waiting.seconds;
+  const double mean = known > 0 ? sum / static_cast<double>(known) : sum;
+  const std::size_t unknown = source.layers() - std::min(source.layers(), layers_before + known);
+  return chunk_seconds * (1 - layer_fraction) + waiting.seconds + mean * static_cast<double>(unknown);
 }
 
 /// By the tool in use and what was last stored into it.
 std::string Session::State::mixture() const {
-  if (!modal.tool) return {};
+  if (!modal.tool || !caught_up) return {};
   const auto tool = modal.tools.find(*modal.tool);
   if (tool == modal.tools.end()) return {};
   std::vector<double> shares;
@@ -167,7 +165,7 @@ SessionStatus Session::State::status() const {
   status.lookahead_layers = waiting.layers;
   status.speed_percent = speed_percent;
   status.flow_percent = flow_percent;
-  status.warnings = source.warnings();
+  if (caught_up) status.warnings = source.warnings();
   status.warnings.insert(status.warnings.end(), warnings.begin(), warnings.end());
   return status;
 }

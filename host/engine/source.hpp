@@ -62,11 +62,13 @@ class Source {
 /// A job's layers as they are planned. What it refers to must outlive it.
 class PlannedSource final : public Source {
  public:
-  PlannedSource(Lookahead& lookahead, Run& run) : lookahead_(lookahead), run_(run) {}
+  /// `rest_given`: nothing is withheld by the run's encoder behind the last layer.
+  PlannedSource(Lookahead& lookahead, Run& run, bool rest_given = false)
+      : lookahead_(lookahead), run_(run), ended_(rest_given) {}
 
   const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
   core::Box extent() const override { return print_settings(run_.prepared()).extent; }
-  double flow() const override { return run_.prepared().job.flow; }
+  double flow() const override { return run_.flow(); }
   std::vector<NamedMixture> mixtures() const override;
   std::vector<std::string> warnings() const override { return run_.warnings(); }
 
@@ -76,13 +78,50 @@ class PlannedSource final : public Source {
   void on_ready(std::function<void()> listener) override { lookahead_.on_ready(std::move(listener)); }
   std::optional<Piece> next() override;
   gcode::Chunk finish() override { return run_.finish(); }
-  void cancel() override { lookahead_.cancel(); }
+  void cancel() override;
   void printed(double now, double left) override { lookahead_.printed(now, left); }
   Waiting waiting() const override { return lookahead_.waiting(); }
 
  private:
   Lookahead& lookahead_;
   Run& run_;
+  bool ended_;  ///< nothing is withheld any more, or wanted
+};
+
+/// A print that needs no planning any more.
+struct FinishedPrint {
+  gcode::Chunk start;              ///< heats; what is sent first
+  std::vector<gcode::Chunk> body;  ///< in order
+  gcode::Chunk finish;             ///< parks and cools, wherever the printer has stopped in what was sent
+};
+
+/// Its chunks; they count as layers. What it refers to must outlive it.
+class FinishedSource final : public Source {
+ public:
+  FinishedSource(const FinishedPrint& print, const gcode::Printer& printer)
+      : print_(print), printer_(printer) {}
+
+  const gcode::Printer& printer() const override { return printer_; }
+  /// It may lie anywhere.
+  core::Box extent() const override { return {{0, 0}, {printer_.bed[0], printer_.bed[1]}}; }
+  double flow() const override { return printer_.max_flow; }
+  std::vector<NamedMixture> mixtures() const override { return {}; }
+  std::vector<std::string> warnings() const override { return {}; }
+
+  std::size_t layers() const override { return print_.body.size(); }
+  gcode::Chunk start() override { return print_.start; }
+  bool ready() const override { return true; }
+  void on_ready(std::function<void()>) override {}
+  std::optional<Piece> next() override;
+  gcode::Chunk finish() override { return print_.finish; }
+  void cancel() override { taken_ = print_.body.size(); }
+  void printed(double, double) override {}
+  Waiting waiting() const override;
+
+ private:
+  const FinishedPrint& print_;
+  const gcode::Printer& printer_;
+  std::size_t taken_ = 0;
 };
 
 }  // namespace unicursal::host

@@ -22,7 +22,6 @@
 #include <string>
 #include <vector>
 
-#include "firmware_gcode/reply/reply.hpp"
 #include "host/link/clock.hpp"
 
 namespace unicursal::host {
@@ -84,10 +83,10 @@ struct LinkStatistics {
 
 /// Where a printer is in a conversation that another program has begun.
 struct Rejoined {
-  std::uint32_t next = 0;                         ///< number of the line that it wants; Repetier: perhaps
-                                                  ///< modulo 65536
-  std::optional<std::array<double, 3>> position;  ///< mm, x y z after all that it has taken
-  gcode::Temperatures temperatures;               ///< °C
+  std::uint32_t next = 0;                           ///< number of the line that it wants; Repetier: perhaps
+                                                    ///< modulo 65536
+  std::optional<std::array<double, 3>> position;    ///< mm, x y z after all that it has taken
+  std::optional<double> nozzle_target, bed_target;  ///< °C
 };
 
 class Link {

@@ -94,8 +94,10 @@ void Link::State::take(const reply::Busy&) {
 }
 
 void Link::State::take(const reply::TemperatureReport& report) {
-  told_temperatures = report.temperatures;
-  if (!report.waiting) return;
+  if (!report.waiting) {
+    told_temperatures = report.temperatures;
+    return;
+  }
   last_life = now();
   if (interruptions <= 0 || failure) return;
   --interruptions;

@@ -1,6 +1,7 @@
 #include "host/spool/chunk_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "host/spool/bytes.hpp"
@@ -20,16 +21,11 @@ std::optional<SpooledChunk> ChunkReader::next() {
   }
 }
 
-std::uint64_t ChunkReader::sound_length() {
-  while (next()) {
-  }
-  return sound_;
-}
-
 void SpoolExtent::add(const SpooledChunk& chunk) {
   lines += chunk.lines.size();
   if (chunk.kind == SpooledChunk::Kind::start) start_lines = lines;
   if (chunk.kind == SpooledChunk::Kind::layer) ++layers;
+  if (chunk.kind == SpooledChunk::Kind::rest) rest = true;
   if (chunk.kind == SpooledChunk::Kind::finish) finished = true;
 }
 
@@ -90,14 +86,14 @@ gcode::ModalState state_at(const std::filesystem::path& chunks, const Leg& leg, 
   return state;
 }
 
-std::optional<LayerPlace> layer_of(const std::filesystem::path& chunks, std::uint64_t line) {
+std::optional<LayerPlace> layer_at(const std::filesystem::path& chunks, double height) {
   std::optional<LayerPlace> place;
   ChunkReader reader(chunks);
   std::size_t layers = 0;
   while (const auto chunk = reader.next()) {
     if (chunk->kind != SpooledChunk::Kind::layer) continue;
-    if (reader.first_line() > line) break;
-    place = LayerPlace{layers++, chunk->layer.top};
+    const LayerPlace here{layers++, chunk->layer.top};
+    if (!place || std::abs(here.top - height) < std::abs(place->top - height)) place = here;
   }
   return place;
 }

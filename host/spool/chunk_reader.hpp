@@ -24,8 +24,8 @@ class ChunkReader {
   std::optional<SpooledChunk> next();
   /// The print's line that the chunk given last begins with.
   std::uint64_t first_line() const { return first_line_; }
-  /// Reads to the end; bytes that hold sound chunks.
-  std::uint64_t sound_length();
+  /// Bytes of sound chunks so far.
+  std::uint64_t sound() const { return sound_; }
 
  private:
   RecordReader records_;
@@ -37,6 +37,7 @@ struct SpoolExtent {
   std::uint64_t lines = 0;
   std::uint64_t start_lines = 0;  ///< of them, those before the first layer
   std::size_t layers = 0;
+  bool rest = false;      ///< what the encoder had withheld is there
   bool finished = false;  ///< the lines that end the print are there, too
 
   void add(const SpooledChunk& chunk);
@@ -70,12 +71,12 @@ class LegReader {
 /// The state of a printer that has run a leg up to `place`, all legs before it included.
 gcode::ModalState state_at(const std::filesystem::path& chunks, const Leg& leg, std::uint64_t place);
 
-/// The layer, counted from 0 among those printed, that a print's line belongs to, with its upper face in mm;
-/// none for lines before the first.
+/// The layer, counted from 0 among those printed, whose upper face is nearest to a height in mm; none if no
+/// layer is spooled. (Lines come later than the layer they were spooled with: the encoder looks ahead.)
 struct LayerPlace {
   std::size_t index = 0;
   double top = 0;
 };
-std::optional<LayerPlace> layer_of(const std::filesystem::path& chunks, std::uint64_t line);
+std::optional<LayerPlace> layer_at(const std::filesystem::path& chunks, double height);
 
 }  // namespace unicursal::host

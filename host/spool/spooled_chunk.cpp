@@ -35,6 +35,36 @@ core::BeadPath path_in(ByteReader& bytes) {
   return path;
 }
 
+constexpr std::size_t point_bytes = 2 * 8;
+
+void put(ByteWriter& bytes, const core::Ring& ring) {
+  bytes.put(static_cast<std::uint32_t>(ring.size()));
+  for (const core::Vec2& point : ring) bytes.put(point.x()).put(point.y());
+}
+
+void put(ByteWriter& bytes, const core::Polygon& polygon) {
+  put(bytes, polygon.outer);
+  bytes.put(static_cast<std::uint32_t>(polygon.holes.size()));
+  for (const core::Ring& hole : polygon.holes) put(bytes, hole);
+}
+
+core::Ring ring_in(ByteReader& bytes) {
+  core::Ring ring(bytes.count(point_bytes));
+  for (core::Vec2& point : ring) {
+    const double x = length_in(bytes), y = length_in(bytes);
+    point = {x, y};
+  }
+  return ring;
+}
+
+core::Polygon polygon_in(ByteReader& bytes) {
+  core::Polygon polygon;
+  polygon.outer = ring_in(bytes);
+  polygon.holes.resize(bytes.count(4));
+  for (core::Ring& hole : polygon.holes) hole = ring_in(bytes);
+  return polygon;
+}
+
 core::Effort effort_in(ByteReader& bytes) {
   core::Effort effort(bytes.count(4));
   for (int& steps : effort) steps = static_cast<int>(bytes.take<std::uint32_t>());
@@ -49,6 +79,8 @@ std::string to_bytes(const SpooledChunk& chunk) {
   bytes.put(chunk.layer.top).put(chunk.layer.height);
   bytes.put(static_cast<std::uint32_t>(chunk.layer.paths.size()));
   for (const core::BeadPath& path : chunk.layer.paths) put(bytes, path);
+  bytes.put(static_cast<std::uint32_t>(chunk.layer.outlines.size()));
+  for (const core::Polygon& outline : chunk.layer.outlines) put(bytes, outline);
   bytes.put(static_cast<std::uint32_t>(chunk.efforts.size()));
   for (const core::Effort& effort : chunk.efforts) {
     bytes.put(static_cast<std::uint32_t>(effort.size()));
@@ -70,6 +102,8 @@ SpooledChunk chunk_from(std::string_view content) {
   chunk.layer.height = length_in(bytes);
   chunk.layer.paths.resize(bytes.count(4));
   for (core::BeadPath& path : chunk.layer.paths) path = path_in(bytes);
+  chunk.layer.outlines.resize(bytes.count(8));
+  for (core::Polygon& outline : chunk.layer.outlines) outline = polygon_in(bytes);
   chunk.efforts.resize(bytes.count(4));
   for (core::Effort& effort : chunk.efforts) effort = effort_in(bytes);
   chunk.lines.resize(bytes.count(4));

@@ -14,7 +14,7 @@
 namespace unicursal::host {
 
 struct SpooledChunk {
-  enum class Kind : std::uint8_t { start, layer, finish };
+  enum class Kind : std::uint8_t { start, layer, rest, finish };
   Kind kind = Kind::start;
   gcode::PlacedLayer layer;           ///< for Kind::layer: what the encoder was given, on the bed, mm
   std::vector<core::Effort> efforts;  ///< of its islands

@@ -1,4 +1,5 @@
-// Damaged files for the readers and what comes of them for the planner: read or refused, nothing else.
+// Damaged files for the readers and what comes of them for the planner, and damaged input for the simulated
+// printer: read or refused, nothing else.
 //
 //   fuzz FOLDER TARGET SECONDS [FIRST]
 //
@@ -17,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/field/direction_file.hpp"
@@ -26,6 +28,8 @@
 #include "tests/core/support/plan_faults.hpp"
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"
+#include "tests/fuzz/simulator.hpp"
+#include "tests/fuzz/spool.hpp"
 #include "tests/host/support/sample_job.hpp"
 
 namespace unicursal {
@@ -129,7 +133,17 @@ void plan(const fs::path& folder, core::Random& random) {
 }
 
 const std::map<std::string, std::function<void(const fs::path&, core::Random&)>> targets{
-    {"drawing", drawing}, {"mesh", mesh}, {"directions", directions}, {"job", job}, {"plan", plan}};
+    {"drawing", drawing},
+    {"mesh", mesh},
+    {"directions", directions},
+    {"job", job},
+    {"plan", plan},
+    {"printer", test::printer},
+    {"lines", test::lines},
+    {"faults", test::faults},
+    {"control", test::control},
+    {"journal", test::journal},
+    {"chunks", test::chunks}};
 
 /// True for a file that was read, false for one that was refused as it should be.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -169,7 +183,10 @@ int run(const std::string& name, const fs::path& folder, double seconds, std::ui
 
 int main(int count, char** words) {
   if (count < 4) {
-    std::fprintf(stderr, "usage: fuzz FOLDER drawing|mesh|directions|job|plan SECONDS [FIRST]\n");
+    std::fprintf(
+        stderr,
+        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks "
+        "SECONDS [FIRST]\n");
     return 2;
   }
   return unicursal::run(words[2], words[1], std::atof(words[3]),
