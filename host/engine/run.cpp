@@ -51,12 +51,8 @@ Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& out
 
 gcode::Chunk Run::layer(PlannedLayer planned) {
   const gcode::PlacedLayer layer = placed(prepared_, planned);
-  gcode::Chunk chunk = encoder_.layer(layer);
-  count(chunk);
-  ++totals_.layers;
+  gcode::Chunk chunk = replay(layer);
   totals_.figures += measure(planned);
-  add_layer(totals_.materials, layer, zone_materials_);
-  add_prime(totals_.materials, chunk);
   if (check_ != nullptr) check_->expect(target_of(prepared_, planned));
   if (log_) {
     nlohmann::json entry = layer_entry(planned, layer, chunk);
@@ -64,6 +60,15 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
     log_->add(entry);
   }
   if (pictures_) pictures_->draw(std::move(planned));
+  return chunk;
+}
+
+gcode::Chunk Run::replay(const gcode::PlacedLayer& layer) {
+  gcode::Chunk chunk = encoder_.layer(layer);
+  count(chunk);
+  ++totals_.layers;
+  add_layer(totals_.materials, layer, zone_materials_);
+  add_prime(totals_.materials, chunk);
   return chunk;
 }
 

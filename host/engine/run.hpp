@@ -39,6 +39,9 @@ class Run {
   /// From now on tells `check` what every layer is to be. It must outlive the last layer.
   void tell(DepositCheck& check) { check_ = &check; }
   gcode::Chunk layer(PlannedLayer planned);
+  /// The same for a layer that was planned in an earlier run, of which only the bead paths are left: neither
+  /// figures nor pictures.
+  gcode::Chunk replay(const gcode::PlacedLayer& layer);
   gcode::Chunk finish();
 
   const PreparedJob& prepared() const { return prepared_; }

@@ -17,6 +17,7 @@ constexpr auto ask_again = 1000ms;      ///< between questions to a firmware tha
 constexpr auto longest_drain = 1000ms;  ///< for printers that never stop talking
 constexpr int number_attempts = 5;      ///< to set the line number, over a noisy line
 constexpr int probe_attempts = 4;       ///< each as long as LinkOptions::silence
+constexpr int find_attempts = 2;        ///< when rejoining, each as long as LinkOptions::silence
 constexpr int patience = 50;            ///< resends in a row that bring the job no further
 constexpr auto finishes_nothing =
     "the printer is alive but has finished no command for very long; look at it, then start again";
@@ -81,6 +82,67 @@ asio::awaitable<void> Link::State::greet() {
   co_await ask_firmware();
   co_await reset_numbers();
   doubt = false;
+  phase = Phase::streaming;
+  if (numbering) numbering(ledger.next_to_number(), 0);
+}
+
+// ---- rejoining
+
+/// What is sent here has no number that could be taken, so that nothing changes however often it is done.
+asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
+  // The newline ends half a line, which its missing checksum gives away. Its refusal may empty the printer's
+  // buffer, the question behind it included.
+  probing = true;
+  write("\n");
+  co_await quiet(options.quiet);
+  co_await ask_for_number(beyond);
+  Rejoined found;
+  // These wait their turn behind everything that was sent before.
+  told_position.reset();
+  const std::function<bool()> located = [this] { return told_position.has_value(); };
+  co_await ask("M114\n", located);
+  found.position = told_position;
+  told_temperatures.reset();
+  const std::function<bool()> warm = [this] { return told_temperatures.has_value(); };
+  co_await ask("M105\n", warm);
+  found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
+  // Only now has everything arrived that the other program had sent.
+  found.next = co_await ask_for_number(beyond);
+  probing = false;
+  co_return found;
+}
+
+asio::awaitable<std::uint32_t> Link::State::ask_for_number(std::uint32_t beyond) {
+  told_next.reset();
+  const std::function<bool()> told = [this] { return told_next.has_value(); };
+  co_await ask(framed(beyond, "M105"), told);
+  if (!told_next) give_up("the printer does not tell which line it wants next; begin the print anew");
+  co_return *told_next;
+}
+
+/// Repeats the question while the printer gives signs of life and no answer: noise may have hit it.
+asio::awaitable<void> Link::State::ask(std::string_view query, const std::function<bool()>& answered) {
+  const std::function<bool()> over = [&] { return answered() || restarted; };
+  const auto lines_before = lines_heard;
+  const auto patient_until = now() + options.slow_ok;
+  for (int attempt = 0; attempt < find_attempts && !over(); ++attempt) {
+    last_life = now();
+    write("\n");  // after an overrun, Marlin is silent until one comes
+    write(query);
+    while (!over() && now() < std::min(last_life + options.silence, patient_until)) {
+      co_await until(over, std::min(last_life + options.silence, patient_until));
+    }
+  }
+  if (!over() && lines_heard == lines_before) {
+    give_up("the printer does not answer; check that it is on, and the cable, then resume again");
+  }
+  co_await quiet(options.quiet);
+  if (restarted) throw PrinterReset("the printer has started anew");
+}
+
+void Link::State::go_on(std::uint32_t next) {
+  ledger = Ledger(options.receive_buffer, next);
+  doubt = true;  // an ok that is still to come may be that of an earlier line
   phase = Phase::streaming;
 }
 
@@ -161,6 +223,7 @@ asio::awaitable<void> Link::State::answer_resend() {
 void Link::State::resume_from(std::uint32_t number, bool with_fence) {
   ledger.rewind(number);
   if (with_fence) ledger.fence();
+  if (with_fence && numbering) numbering(ledger.next_to_number(), ledger.numbered());
   statistics.acknowledged = ledger.acknowledged();
   asked.reset();
   stranger.reset();
