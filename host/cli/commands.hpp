@@ -33,20 +33,31 @@ struct DryRunCommand {
   JobOptions job;
   sim::SimulatorOptions printer;  ///< its personality, chip, faults; and its speed, 0: virtual time
   double charge = 0;              ///< printer seconds for each second of planning, in virtual time
+  std::optional<std::filesystem::path> log;  ///< of the serial line
 };
 
 struct PrintCommand {
   JobOptions job;
   std::optional<std::string> port;             ///< absent: the profile's
   std::optional<std::filesystem::path> spool;  ///< folder of the prints; absent: the user's
+  std::optional<std::filesystem::path> log;    ///< of the serial line
 };
 
 struct ResumeCommand {
   std::optional<std::string> print;            ///< name or beginning of it, or a folder; absent: the newest
   std::optional<std::filesystem::path> spool;  ///< folder of the prints
   std::optional<std::string> port;             ///< absent: the print's
+  std::optional<std::filesystem::path> log;    ///< of the serial line
   bool yes = false;                            ///< agree to what would be asked
   bool list = false;                           ///< only tell which prints there are
+};
+
+struct DoctorCommand {
+  std::optional<std::string> port;               ///< absent: the profile's, or auto
+  std::optional<std::filesystem::path> profile;  ///< what the printer is believed to be
+  std::optional<unsigned> baud;                  ///< absent: the profile's, or 250000
+  std::optional<std::filesystem::path> log;      ///< of the serial line
+  bool json = false;
 };
 
 struct CurveCommand {
@@ -77,6 +88,7 @@ Exit simulate(SimulateCommand command);
 /// Throws core::DataError for a printer that cannot be simulated.
 void check_simulator(const sim::SimulatorOptions& options);
 Exit ports();
+Exit doctor(const DoctorCommand& command);
 
 /// "3", "3:7", ":7" or "3:"; both ends included. Throws core::DataError.
 LayerRange parse_layers(const std::string& text);

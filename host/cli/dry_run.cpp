@@ -37,13 +37,21 @@ Comparison compare_with(const nlohmann::json& simulator, const Run& run, const S
   Fed fed;
   fed.filament_diameter = run.prepared().job.profile.printer.filament_diameter;
   fed.feeder_steps_per_mm = sim::SimulatorOptions{}.feeder_steps_per_mm;
-  fed.lines_sent = result.statistics.lines;
+  fed.lines_sent = result.statistics.lines + result.statistics.queries;
   return compare(run.totals().materials, simulator, fed);
 }
 
-StreamSettings settings_for(const DryRunCommand& command, const SimulatorProcess& simulator) {
-  if (!is_virtual(command)) return {real_clock(command.printer.speed), 0, nullptr, {}};
-  return {std::make_shared<LockstepClock>(simulator.control()), command.charge, nullptr, {}};
+StreamSettings settings_for(const DryRunCommand& command, const Profile& profile,
+                            const SimulatorProcess& simulator) {
+  StreamSettings settings;
+  settings.link = link_options(profile, command.log);
+  if (is_virtual(command)) {
+    settings.clock = std::make_shared<LockstepClock>(simulator.control());
+    settings.charge = command.charge;
+  } else {
+    settings.clock = real_clock(command.printer.speed);
+  }
+  return settings;
 }
 
 /// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.
@@ -96,8 +104,8 @@ Exit dry_run(const DryRunCommand& command) {
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   check_beginning(prepared, lookahead);
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  const StreamResult result =
-      stream_with_progress(port, lookahead, run, "dry run", settings_for(command, simulator));
+  const StreamResult result = stream_with_progress(port, lookahead, run, "dry run",
+                                                   settings_for(command, prepared.job.profile, simulator));
   const nlohmann::json planning = planning_of(command, lookahead, result);
   if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
   nlohmann::json seen = simulator.finish();

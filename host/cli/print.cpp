@@ -32,6 +32,7 @@ Exit print(const PrintCommand& command) {
   Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
   StreamSettings settings;
   settings.spool = &spool;
+  settings.link = link_options(prepared.job.profile, command.log);
   const StreamResult result = stream_with_progress(port, lookahead, run, "printing", settings);
   tell_about_spool(spool, result);
   conclude(run, result, {{"planning", planning_json(lookahead)}});

@@ -127,6 +127,7 @@ class Resumption {
   StreamResult stream(Continuation continuation) {
     StreamSettings settings;
     settings.spool = &spool_;
+    settings.link = link_options(prepared_.job.profile, command_.log);
     settings.continuation = std::move(continuation);
     const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
     return stream_with_progress(port, lookahead_, run_, "printing", settings);

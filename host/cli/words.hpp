@@ -27,6 +27,9 @@ void tell_about_spool(Spool& spool, const StreamResult& result);
 /// The last words of a print that has not failed, and its exit code.
 Exit tell_ending(const StreamResult& result);
 
+/// How the printer of a profile is talked to.
+LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log);
+
 /// The report's "planning": seconds, cpu_seconds, threads.
 nlohmann::json planning_json(const Lookahead& lookahead);
 /// The report's "link".

@@ -66,7 +66,7 @@ class Stream {
         computer_(settings.charge, lookahead.threads(), lookahead.ahead()),
         signals_(loop_, SIGINT, SIGTERM),
         sleep_(loop_.get_executor(), clock_),
-        link_(loop_.get_executor(), port, options(clock_)) {
+        link_(loop_.get_executor(), port, options(settings)) {
     if (!is_ignored(SIGHUP)) signals_.add(SIGHUP);
   }
 
@@ -91,9 +91,9 @@ class Stream {
   }
 
  private:
-  static LinkOptions options(const std::shared_ptr<Clock>& clock) {
-    LinkOptions options;
-    options.clock = clock;
+  static LinkOptions options(const StreamSettings& settings) {
+    LinkOptions options = settings.link;
+    options.clock = settings.clock;
     return options;
   }
 
@@ -318,7 +318,7 @@ class Stream {
 
   void keep_journal() {
     link_.on_numbering([this](std::uint32_t number, std::uint64_t line) {
-      spool_->journal().anchor({number, begin_ + line}, std::exchange(anew_, false));
+      spool_->journal().anchor({number, begin_ + line}, std::exchange(anew_, false) || number == 1);
     });
     spool_->journal().begin_session();
   }

@@ -54,6 +54,7 @@ struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
   double charge = 0;       ///< s of the clock that each second of planning is to take
   Spool* spool = nullptr;  ///< that keeps the print, if one does
+  LinkOptions link = {};   ///< on the clock above
   /// With a spool: it holds the first layers already, and `run` and `lookahead` begin behind them.
   std::optional<Continuation> continuation;
 };

@@ -55,8 +55,9 @@ TEST_CASE("capabilities are what was told, and nothing else") {
 }
 
 TEST_CASE("an answer without sense or without end is no trouble") {
-  for (const std::string& line : {std::string(), std::string("FIRMWARE_NAME:"), std::string(100000, 'A'),
-                                  "FIRMWARE_NAME:9.", "FIRMWARE_NAME:.1.99999999999.3 \xff\x1b"}) {
+  for (const std::string& line :
+       std::vector<std::string>{"", "FIRMWARE_NAME:", std::string(100000, 'A'), "FIRMWARE_NAME:9.",
+                                "FIRMWARE_NAME:.1.99999999999.3 \xff\x1b"}) {
     const Identity identity = identify(line);
     CHECK(identity.family == Family::unknown);
     CHECK(identity.firmware.size() < 4096);
