@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -26,6 +25,8 @@ constexpr std::size_t longest_message = 128;
 /// How long bytes that a host has written may take to reach the other end of the terminal, ms. Microseconds
 /// as a rule; this is for a computer that is very busy.
 constexpr int byte_patience = 30000;
+/// Events of the printer, a fraction of a second's work, after which it is seen whether the host still waits.
+constexpr std::uint64_t steps_between_looks = 100'000;
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -101,23 +102,30 @@ void Lockstep::serve() {
     if (!wait) return;
     if (!std::exchange(opened, true)) printer_.opened(dtr_low_);
     take_bytes(wait->bytes);
-    printer_.advance(wait->until);
+    if (!advance(wait->until)) return;
     answer();
   }
 }
 
-std::optional<Lockstep::Wait> Lockstep::next_wait() {
+std::optional<HostWait> Lockstep::next_wait() {
   const auto message = read_message();
   if (!message) return std::nullopt;
-  std::istringstream words(*message);
-  std::string word;
-  std::int64_t until = 0, bytes = 0;
-  const bool whole = static_cast<bool>(words >> word >> until >> bytes);
-  if (!whole || word != "wait" || bytes < static_cast<std::int64_t>(heard_)) {
+  const auto wait = parse_wait(*message);
+  if (!wait || wait->bytes < heard_) {
     throw std::runtime_error("the host said \"" + *message + "\" on the control socket, which means nothing");
   }
-  constexpr double for_ever = std::numeric_limits<double>::infinity();
-  return Wait{until < 0 ? for_ever : static_cast<double>(until) * ns, static_cast<std::uint64_t>(bytes)};
+  return wait;
+}
+
+/// Much can happen before there is something to read. False: the host hung up meanwhile, or a signal came.
+bool Lockstep::advance(double until) {
+  while (!printer_.advance(until, steps_between_looks)) {
+    pollfd looks[2] = {{stop_.descriptor(), POLLIN, 0}, {host_.get(), POLLIN, 0}};
+    if (::poll(looks, 2, 0) <= 0) continue;
+    stopped_ = stopped_ || looks[0].revents != 0;
+    if (stopped_ || (looks[1].revents & POLLHUP) != 0) return false;
+  }
+  return true;
 }
 
 /// Nothing when the host has closed the socket, or when a signal came.
@@ -131,7 +139,7 @@ std::optional<std::string> Lockstep::read_message() {
     }
     if (pending_.size() > longest_message)
       throw std::runtime_error("the host talks nonsense on the control socket");
-    if (!readable(host_.get())) return std::nullopt;
+    if (host_.get() < 0 || !readable(host_.get())) return std::nullopt;
     std::array<char, longest_message> bytes;
     const auto count = ::read(host_.get(), bytes.data(), bytes.size());
     if (count <= 0) return std::nullopt;

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/host_wait.hpp"
 #include "sim/line/terminal.hpp"
 #include "sim/printer.hpp"
 #include "sim/simulator.hpp"
@@ -40,15 +41,11 @@ class Lockstep {
   void run();
 
  private:
-  struct Wait {
-    double until;         ///< s
-    std::uint64_t bytes;  ///< written by the host
-  };
-
   void listen();
   bool accept_host();
   void serve();
-  std::optional<Wait> next_wait();
+  std::optional<HostWait> next_wait();
+  bool advance(double until);
   std::optional<std::string> read_message();
   void take_bytes(std::uint64_t total);
   void take_rest();

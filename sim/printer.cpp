@@ -53,17 +53,18 @@ bool Printer::busy() const {
   return wire_.next_arrival() || wire_.next_delivery() || firmware_->blocked();
 }
 
-void Printer::advance(double until) {
+bool Printer::advance(double until, std::uint64_t most_steps) {
   deliver();
   const bool was_unplugged = unplugged();
   const auto something = [&] { return has_output() || unplugged() != was_unplugged; };
   while (!something()) {
     const auto next = next_event();
     if (!next || *next > until) break;
+    if (most_steps-- == 0) return false;
     step(*next);
   }
-  if (something()) return;
-  if (until < std::numeric_limits<double>::infinity() && until > now_) step(until);
+  if (!something() && until < std::numeric_limits<double>::infinity() && until > now_) step(until);
+  return true;
 }
 
 /// Everything that is due by `time`, which nothing else precedes.

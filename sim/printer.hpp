@@ -8,6 +8,8 @@
 //   use(printer.take_output());
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +33,8 @@ class Printer {
   /// The computer sends.
   void write(std::string_view bytes);
   /// Lets time run until then, or until something has reached the computer, or the cable is just pulled.
-  void advance(double until);
+  /// False: so many steps have been taken, and there is more to come.
+  bool advance(double until, std::uint64_t most_steps = std::numeric_limits<std::uint64_t>::max());
   /// When the next thing happens by itself.
   std::optional<double> next_event() const;
   double now() const { return now_; }

@@ -6,15 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "core/curve/clearance.hpp"
 #include "core/geometry/segment_grid.hpp"
 
 namespace unicursal::core {
 namespace {
 
-// In bead widths, but for `crowded`.
+// In bead widths, but for shares.
 constexpr double widest_bridge = 1.7;    ///< from one side of a finger to the other
 constexpr double shortest_finger = 2.5;  ///< out and back
 constexpr double longest_finger = 16;
+constexpr double largest_part = 1.0 / 3;  ///< of the whole curve, that a finger may be
 constexpr double crowded = 0.87;       ///< area ÷ length of a finger ÷ bead width, above which it may stay
 constexpr double neighbourhood = 1.3;  ///< what a finger's room is shared with
 constexpr double bridge_clearance = 0.2;
@@ -32,6 +34,7 @@ class Retractor {
       : curve_(curve),
         border_(border),
         width_(width),
+        longest_(std::min(longest_finger * width, largest_part * curve.length())),
         grid_(segments(curve), width),
         along_(curve.size() + 1),
         filled_(curve.size() + 1),
@@ -101,7 +104,7 @@ class Retractor {
     once(around(from, from, widest_bridge * width_), [&](std::size_t j) {
       if ((curve_.vertices[j] - from).norm() > widest_bridge * width_) return;
       const double length = between(along_, i, j);
-      if (length < shortest_finger * width_ || length > longest_finger * width_) return;
+      if (length < shortest_finger * width_ || length > longest_) return;
       if (between(filled_, i, j) < crowded * width_ * length) result.push_back(j);
     });
     std::sort(result.begin(), result.end());
@@ -183,6 +186,7 @@ class Retractor {
   const Curve& curve_;
   const BorderIndex& border_;
   double width_;
+  double longest_;  ///< mm, of a finger
   SegmentGrid grid_;
   std::vector<double> along_, filled_;  ///< sums of length and area before each vertex
   std::vector<std::size_t> seen_;
@@ -196,7 +200,10 @@ Retraction retracted(const Curve& curve, const std::vector<double>& areas, const
   assert(areas.size() == curve.size());
   Retractor retractor(curve, areas, border, bead_width);
   const std::vector<Finger> fingers = retractor.fingers();
-  return {retractor.without(fingers), fingers.size()};
+  Retraction result{retractor.without(fingers), fingers.size()};
+  assert(result.fingers == 0 ||
+         (self_intersections(result.curve) == 0 && segments_outside(result.curve, border) == 0));
+  return result;
 }
 
 }  // namespace unicursal::core

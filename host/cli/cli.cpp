@@ -266,7 +266,8 @@ class CommandLine {
     app->add_option("--link", link_, "symbolic link to make to the pseudo-terminal")->type_name("PATH");
     app->add_option("--speed", speed_, "printer seconds per second; 0, the default, is as fast as lines come")
         ->check(finite_number(0, std::numeric_limits<double>::max()));
-    app->add_option("--profile", job_.profile, "bed, filament and accelerations of this printer")
+    app->add_option("--profile", job_.profile,
+                    "bed, filament, feeders, speeds, accelerations and chamber of this printer")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was seen as JSON at the end")->type_name("FILE");
     app->add_option("--picture", job_.pictures,

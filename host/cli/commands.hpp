@@ -75,7 +75,7 @@ struct CurveCommand {
 
 struct SimulateCommand {
   sim::SimulatorOptions options;
-  std::optional<std::filesystem::path> profile;  ///< bed, filament, accelerations and feeders of this printer
+  std::optional<std::filesystem::path> profile;  ///< of the printer to be
   std::optional<double> baud;                    ///< bits/s; absent: the profile's
 };
 

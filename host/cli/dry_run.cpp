@@ -88,11 +88,27 @@ void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
   conclude(run, result, extra);
 }
 
+/// The simulator's own report; where it fails at its very end, that is how the dry run ended.
+nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult result, DepositCheck& check,
+                       const nlohmann::json& planning) {
+  try {
+    return simulator.finish();
+  } catch (const SimulatorError& error) {
+    check.finish();
+    result.ending = Ending::failed;
+    result.reason = error.what();
+    conclude(run, result, {{"planning", planning}, {"laid", check.to_json()}});
+    throw;
+  }
+}
+
 }  // namespace
 
 Exit dry_run(const DryRunCommand& command) {
   check_simulator(command.printer);
   const PreparedJob prepared = prepare_and_warn(command.job);
+  if (command.printer.fault_file && command.job.outputs.report)
+    check_outputs({*command.printer.fault_file}, {*command.job.outputs.report});
   Run run(prepared, "dry-run", outputs_of(command));
   // Outlives the simulator, whose end is that of the stream it waits for.
   DepositCheck check(intended_mixtures(run), command.job.outputs.pictures);
@@ -108,7 +124,7 @@ Exit dry_run(const DryRunCommand& command) {
                                                    settings_for(command, prepared.job.profile, simulator));
   const nlohmann::json planning = planning_of(command, lookahead, result);
   if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
-  nlohmann::json seen = simulator.finish();
+  nlohmann::json seen = seen_by(simulator, run, result, check, planning);
   check.finish();
   const MotionFindings motion = motion_findings(seen, prepared.job.flow);
   leave_out_histograms(seen);

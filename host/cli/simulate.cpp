@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/show.hpp"
+#include "host/cli/words.hpp"
 #include "host/job/profile.hpp"
 
 namespace unicursal::host {
@@ -19,9 +20,19 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.bed.assign(printer.bed.begin(), printer.bed.end());
   options.filament_diameter = printer.filament_diameter;
   options.max_acceleration.assign(printer.max_acceleration.begin(), printer.max_acceleration.end());
+  options.max_speed.assign(printer.max_speed.begin(), printer.max_speed.end());
   options.dead_volume = printer.dead_volume;
   options.mixing_volume = printer.mixing_volume;
   options.feeders = static_cast<std::size_t>(printer.feeders);
+}
+
+std::vector<std::filesystem::path> present(
+    std::initializer_list<std::optional<std::filesystem::path>> names) {
+  std::vector<std::filesystem::path> result;
+  for (const auto& name : names) {
+    if (name) result.push_back(*name);
+  }
+  return result;
 }
 
 }  // namespace
@@ -41,6 +52,9 @@ Exit simulate(SimulateCommand command) {
   if (command.profile) follow(load_profile(*command.profile), command.options);
   if (command.baud) command.options.baud = *command.baud;
   check_simulator(command.options);
+  const sim::SimulatorOptions& options = command.options;
+  check_outputs(present({command.profile, options.fault_file}),
+                present({options.report, options.transcript, options.rasters}));
   const int code = sim::run_simulator(command.options, [](const std::string& port) {
     show(stdout, "{}\n", port);
     std::fflush(stdout);

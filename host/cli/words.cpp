@@ -43,19 +43,6 @@ std::vector<fs::path> inputs_of(const Job& job) {
   return inputs;
 }
 
-void check_outputs(const Job& job, const std::vector<fs::path>& outputs) {
-  std::vector<fs::path> taken = inputs_of(job);
-  for (const fs::path& output : outputs) {
-    for (const fs::path& other : taken) {
-      if (!same_file(output, other)) continue;
-      throw core::DataError(output.string(), "",
-                            "is an output, but the same file as " + other.string() + ", which would be lost",
-                            "choose another name for it");
-    }
-    taken.push_back(output);
-  }
-}
-
 bool has_curve(const PlannedLayer& layer) {
   for (const core::IslandPlan& plan : layer.plans) {
     for (const core::PlannedCurve& curve : plan.curves) {
@@ -97,6 +84,19 @@ std::string tame(const std::string& message) {
 
 }  // namespace
 
+void check_outputs(std::vector<fs::path> inputs, const std::vector<fs::path>& outputs) {
+  std::vector<fs::path>& taken = inputs;
+  for (const fs::path& output : outputs) {
+    for (const fs::path& other : taken) {
+      if (!same_file(output, other)) continue;
+      throw core::DataError(output.string(), "",
+                            "is an output, but the same file as " + other.string() + ", which would be lost",
+                            "choose another name for it");
+    }
+    taken.push_back(output);
+  }
+}
+
 LayerRange parse_layers(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string_view view = text;
@@ -115,7 +115,7 @@ PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::pa
   PreparedJob prepared = prepare(load_job(options.job, options.profile), options.layers);
   std::vector<fs::path> outputs = more;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
-  check_outputs(prepared.job, outputs);
+  check_outputs(inputs_of(prepared.job), outputs);
   for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
   for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
   return prepared;

@@ -9,6 +9,10 @@
 
 namespace unicursal::host {
 
+/// Throws core::DataError for an output that is one of the inputs, or another output.
+void check_outputs(std::vector<std::filesystem::path> inputs,
+                   const std::vector<std::filesystem::path>& outputs);
+
 /// Loads, checks and places a job; its warnings go to standard error. Refuses outputs, those of the options
 /// and `more`, that are one of the job's own files or one another.
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<std::filesystem::path>& more = {});

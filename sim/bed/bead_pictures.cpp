@@ -40,14 +40,20 @@ View from_above(const Extents& extents, double pixel, double around) {
   return {projection, pixels(width * scale, longest_side), pixels(height * scale, longest_side)};
 }
 
+bool holds(const Extents& box, const StoredBead& bead) {
+  constexpr double rounding = 0.01;  // mm; beads are stored with fewer digits
+  return bead.x0 > box.min_x - rounding && bead.x0 < box.max_x + rounding && bead.y0 > box.min_y - rounding &&
+         bead.y0 < box.max_y + rounding;
+}
+
 /// x runs to the right and away, y to the left and away; both rise by half of what they go sideways.
 class CornerView {
  public:
-  /// Shows these beads and the walls below them; `around` mm of margin.
+  /// Shows the part and the walls below it; `around` mm of margin.
   CornerView(BeadStore& store, double around) {
-    const bool only_first = store.layers().size() == 1;
+    const Extents part = store.part();
     store.for_each([&](std::size_t layer, const StoredBead& bead) {
-      if (layer == 0 && !only_first) return;
+      if (!holds(part, bead)) return;
       include(bead.x0, bead.y0, store.layers()[layer].z);
       include(bead.x0, bead.y0, 0);
     });
@@ -93,6 +99,8 @@ void clear_pictures(const std::filesystem::path& folder) {
 
 void draw_layers(BeadStore& store, const std::filesystem::path& folder, double pixel) {
   const double around = margin + std::min(store.widest() / 2, margin);
+  if (store.layers().empty()) return;
+  const View view = from_above(store.part(), pixel, around);
   std::optional<picture::Image> image;
   std::optional<Pen> pen;
   std::size_t current = 0;
@@ -106,7 +114,6 @@ void draw_layers(BeadStore& store, const std::filesystem::path& folder, double p
     if (!image || layer != current) {
       finish();
       current = layer;
-      const View view = from_above(layer == 0 ? store.all() : store.above(), pixel, around);
       image.emplace(view.width, view.height, background);
       pen.emplace(*image, view.projection, Ink{});
     }

@@ -11,6 +11,7 @@ namespace unicursal::sim {
 
 namespace {
 
+constexpr double joined = 0.01;     // mm from the end of one bead to the next that goes on from it
 constexpr double widest_drawn = 5;  // mm: what a nozzle that stands still piles up is drawn no wider
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
@@ -40,15 +41,30 @@ void BeadStore::bead(std::size_t layer, const DepositedLayer& about, const Bead&
   ++layers_[layer].beads;
   const double drawn = std::min(width, widest_drawn);
   widest_ = std::max(widest_, drawn);
-  for (Extents* extents : {&all_, &above_}) {
-    if (layer == 0 && extents == &above_) continue;
-    extents->include(bead.from);
-    extents->include(bead.to);
-  }
+  note_place(layer, bead);
   const auto narrow = [](double mm) { return static_cast<float>(mm); };
   const StoredBead stored{narrow(bead.from.x), narrow(bead.from.y), narrow(bead.to.x),
                           narrow(bead.to.y),   narrow(drawn),       picture::mixed_filaments(bead.shares)};
   if (std::fwrite(&stored, sizeof stored, 1, file_.get()) != 1) fail(path_);
+}
+
+void BeadStore::note_place(std::size_t layer, const Bead& bead) {
+  const bool goes_on = first_.empty() || std::hypot(bead.from.x - end_.x, bead.from.y - end_.y) < joined;
+  in_first_ = in_first_ && goes_on && layer == 0;
+  Extents& extents = in_first_ ? first_ : rest_;
+  extents.include(bead.from);
+  extents.include(bead.to);
+  end_ = bead.to;
+}
+
+Extents BeadStore::part() const {
+  const double thickness = std::min(first_.max_x - first_.min_x, first_.max_y - first_.min_y);
+  if (!rest_.empty() && thickness < widest_) return rest_;
+  Extents all = rest_;
+  if (first_.empty()) return all;
+  all.include({first_.min_x, first_.min_y, first_.min_z});
+  all.include({first_.max_x, first_.max_y, first_.max_z});
+  return all;
 }
 
 void BeadStore::for_each(const std::function<void(std::size_t layer, const StoredBead& bead)>& use) {

@@ -40,11 +40,13 @@ class BeadStore : public BeadSink {
   void for_each(const std::function<void(std::size_t layer, const StoredBead& bead)>& use);
 
   const std::vector<StoredLayer>& layers() const { return layers_; }
-  const Extents& all() const { return all_; }      ///< of the centre lines
-  const Extents& above() const { return above_; }  ///< the same without the first layer
+  /// Of the centre lines, without a prime line: a straight strand laid first, in one go, apart from the rest.
+  Extents part() const;
   double widest() const { return widest_; }
 
  private:
+  void note_place(std::size_t layer, const Bead& bead);
+
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
@@ -52,7 +54,9 @@ class BeadStore : public BeadSink {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::vector<StoredLayer> layers_;
-  Extents all_, above_;
+  Extents first_, rest_;  ///< of the strand laid first, and of all after it
+  Position end_;          ///< of the bead before
+  bool in_first_ = true;
   double widest_ = 0;
 };
 

@@ -8,7 +8,8 @@
 // A moment is `t=SECONDS` of printer time, `line=NUMBER` when that numbered line is first received, or
 // `command=WORD` whenever a line with that command is. A kind that has a chance needs that or a moment (it
 // then strikes at its next occasion, once for every time that the moment comes); every other kind needs a
-// moment. A file holds one fault on each line, blank lines, comments from `#` on, and `seed NUMBER`.
+// moment, also `answer`, whose occasion is the next ok. A file holds one fault on each line, blank lines,
+// comments from `#` on, and `seed NUMBER`.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +31,14 @@ enum class FaultKind {
   // each line to the printer
   merged_lines,
   false_alarm,
+  false_number,
+  false_missing,
+  rewind,
   // each reply
   lost_ok,
   double_ok,
   broken_ok,
+  other_ok,
   lost_resend,
   double_resend,
   noise,
@@ -58,7 +63,7 @@ struct Fault {
   FaultKind kind{};
   double chance = 0;                   ///< at every occasion
   double seconds = 0;                  ///< of a stall, a disconnection (0: for ever), at most of a slow reply
-  std::string text;                    ///< to be said
+  std::string text;                    ///< to be said, or what an ok is to be instead
   std::optional<double> time;          ///< s since power-up
   std::optional<std::int64_t> line;    ///< number
   std::optional<std::string> command;  ///< "G28"

@@ -91,7 +91,7 @@ void Faults::damage_byte(WireByte byte, std::vector<WireByte>& bytes) {
   bytes.push_back(byte);
 }
 
-bool Faults::received(std::string_view line) {
+Misreading Faults::received(std::string_view line) {
   const auto number = number_of(line);
   for (Armed& armed : armed_) {
     const Fault& fault = armed.fault;
@@ -99,7 +99,14 @@ bool Faults::received(std::string_view line) {
     const bool by_command = fault.command && is_command(line, *fault.command);
     if (by_line || by_command) arm(armed);
   }
-  return strikes(FaultKind::false_alarm);
+  // Each has its turn whatever the others do, so that its chances do not depend on them.
+  const bool damaged = strikes(FaultKind::false_alarm), misnumbered = strikes(FaultKind::false_number),
+             unchecked = strikes(FaultKind::false_missing), forgotten = number && strikes(FaultKind::rewind);
+  return damaged       ? Misreading::damaged
+         : misnumbered ? Misreading::misnumbered
+         : unchecked   ? Misreading::unchecked
+         : forgotten   ? Misreading::forgotten
+                       : Misreading::none;
 }
 
 // ---- lines from the printer
@@ -110,6 +117,7 @@ std::string Faults::from_printer(std::string_view line) {
   if (is_ok(line)) {
     if (strikes(FaultKind::lost_ok)) whole.clear();
     if (strikes(FaultKind::broken_ok)) whole = misspelt_ok();
+    if (const auto other = other_ok()) whole = *other + '\n';
     if (strikes(FaultKind::double_ok)) whole += whole;
   } else if (is_resend(line)) {
     if (strikes(FaultKind::lost_resend)) whole.clear();
@@ -121,6 +129,14 @@ std::string Faults::from_printer(std::string_view line) {
 std::string Faults::misspelt_ok() {
   static constexpr std::array<const char*, 6> spellings{"k\n", "o", "kok\n", "OK\n", "ok", "o\x1bk\n"};
   return spellings[details_() % spellings.size()];
+}
+
+std::optional<std::string> Faults::other_ok() {
+  std::optional<std::string> text;
+  for (Armed& armed : armed_) {
+    if (armed.fault.kind == FaultKind::other_ok && strikes(armed)) text = armed.fault.text;
+  }
+  return text;
 }
 
 std::string Faults::before_reply() {

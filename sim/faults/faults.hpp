@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sim/faults/fault.hpp"
+#include "sim/line/line_check.hpp"
 #include "sim/line/wire.hpp"
 
 namespace unicursal::sim {
@@ -26,8 +27,8 @@ class Faults {
   std::string from_printer(std::string_view line);
   /// By how many seconds a reply is late.
   double delay();
-  /// A complete line has been received. True: the firmware takes it for damaged though it is not.
-  bool received(std::string_view line);
+  /// A complete line has been received; what the firmware takes it for.
+  Misreading received(std::string_view line);
 
   /// When the next fault with a time strikes.
   std::optional<double> next_time() const;
@@ -49,6 +50,7 @@ class Faults {
   bool strikes(Armed& armed);
   void arm(Armed& armed);
   std::string misspelt_ok();
+  std::optional<std::string> other_ok();
   std::string before_reply();
   std::string noise();
   std::string damaged(std::string text);

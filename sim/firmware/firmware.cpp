@@ -212,11 +212,23 @@ void Firmware::read_lines() {
 }
 
 void Firmware::take(const std::string& line, bool damaged) {
+  using Kind = LineVerdict::Kind;
   ++counts_.received;
-  if (watch_ && watch_(line)) return refuse(LineVerdict::Kind::wrong_checksum);
+  const Misreading misreading = watch_ ? watch_(line) : Misreading::none;
+  if (misreading == Misreading::damaged) return refuse(Kind::wrong_checksum);
+  if (misreading == Misreading::misnumbered) return refuse(Kind::wrong_number);
+  if (misreading == Misreading::unchecked) return refuse(Kind::no_checksum);
   LineVerdict verdict = check_.check(line);
-  if (verdict.kind == LineVerdict::Kind::repeated) return repeated(*verdict.number);
-  if (verdict.kind != LineVerdict::Kind::accepted) return refuse(verdict.kind);
+  if (verdict.kind == Kind::repeated) return repeated(*verdict.number);
+  if (verdict.kind != Kind::accepted) return refuse(verdict.kind);
+  const bool forgotten = verdict.number && misreading == Misreading::forgotten;
+  accept(std::move(verdict), damaged);
+  if (!forgotten) return;
+  check_.set_last(check_.last() - 1);
+  refuse(Kind::wrong_number);
+}
+
+void Firmware::accept(LineVerdict verdict, bool damaged) {
   if (verdict.number) ++counts_.accepted;
   if (damaged) ++(verdict.number ? counts_.unseen_damage : counts_.disguised);
   if (!verdict.number && handled_at_once(verdict.body)) return;

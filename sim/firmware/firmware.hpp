@@ -65,8 +65,8 @@ class Firmware {
  public:
   /// Takes one line of reply, without its newline.
   using Reply = std::function<void(std::string_view line)>;
-  /// Sees every complete line that comes in; true makes the firmware take it for damaged.
-  using LineWatch = std::function<bool(std::string_view line)>;
+  /// Sees every complete line that comes in, and says what the firmware takes it for.
+  using LineWatch = std::function<Misreading(std::string_view line)>;
   /// Sees every command that is executed, without its number and checksum.
   using CommandWatch = std::function<void(const std::string& command)>;
 
@@ -162,6 +162,7 @@ class Firmware {
   void settle();
   void read_lines();
   void take(const std::string& line, bool damaged);
+  void accept(LineVerdict verdict, bool damaged);
   void start_next();
   bool progress();
   bool over(Wait& wait);

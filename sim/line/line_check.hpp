@@ -23,6 +23,15 @@ struct LineVerdict {
   std::string body;                    ///< an accepted line without number and checksum
 };
 
+/// What a firmware that errs takes a sound line for.
+enum class Misreading {
+  none,
+  damaged,
+  misnumbered,
+  unchecked,
+  forgotten,  ///< it takes the line and does not know it afterwards
+};
+
 class LineCheck {
  public:
   enum class Rules { marlin, repetier };

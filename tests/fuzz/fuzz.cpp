@@ -1,4 +1,5 @@
-// Damaged files for the readers and what comes of them for the planner: read or refused, nothing else.
+// Damaged files for the readers and what comes of them for the planner, and damaged input for the simulated
+// printer: read or refused, nothing else.
 //
 //   fuzz FOLDER TARGET SECONDS [FIRST]
 //
@@ -27,6 +28,7 @@
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"
 #include "tests/fuzz/replies.hpp"
+#include "tests/fuzz/simulator.hpp"
 #include "tests/host/support/sample_job.hpp"
 
 namespace unicursal {
@@ -135,8 +137,12 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"directions", directions},
     {"job", job},
     {"plan", plan},
-    {"replies", read_replies},
-    {"conversation", converse}};
+    {"printer", test::printer},
+    {"lines", test::lines},
+    {"faults", test::faults},
+    {"control", test::control},
+    {"replies", test::read_replies},
+    {"conversation", test::converse}};
 
 /// True for a file that was read, false for one that was refused as it should be.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -176,8 +182,10 @@ int run(const std::string& name, const fs::path& folder, double seconds, std::ui
 
 int main(int count, char** words) {
   if (count < 4) {
-    std::fprintf(
-        stderr, "usage: fuzz FOLDER drawing|mesh|directions|job|plan|replies|conversation SECONDS [FIRST]\n");
+    std::fprintf(stderr,
+                 "usage: fuzz FOLDER "
+                 "drawing|mesh|directions|job|plan|printer|lines|faults|control|replies|conversation SECONDS "
+                 "[FIRST]\n");
     return 2;
   }
   return unicursal::run(words[2], words[1], std::atof(words[3]),

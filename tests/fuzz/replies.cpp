@@ -24,7 +24,7 @@
 #include "host/link/link.hpp"
 #include "tests/fuzz/damage.hpp"
 
-namespace unicursal {
+namespace unicursal::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +35,7 @@ constexpr std::array corpus{"marlin", "advanced-ok", "repetier"};
 std::string damaged_transcript(const fs::path& folder, core::Random& random) {
   const fs::path sound = fs::path(TEST_DATA) / "replies" / corpus[random.below(corpus.size())];
   std::string bytes = core::file_bytes(sound);
-  for (std::size_t n = random.below(8); n > 0; --n) bytes = test::damaged(bytes, random);
+  for (std::size_t n = random.below(8); n > 0; --n) bytes = damaged(bytes, random);
   std::ofstream(folder / "replies", std::ios::binary) << bytes;
   return bytes;
 }
@@ -146,4 +146,4 @@ void converse(const fs::path& folder, core::Random& random) {
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace unicursal
+}  // namespace unicursal::test

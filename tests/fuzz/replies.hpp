@@ -5,7 +5,7 @@
 
 #include "core/geometry/random.hpp"
 
-namespace unicursal {
+namespace unicursal::test {
 
 /// The line splitter, the vocabulary of replies, the answers to M115 and M503. Throws std::runtime_error for
 /// what must not come of any bytes.
@@ -15,4 +15,4 @@ void read_replies(const std::filesystem::path& folder, core::Random& random);
 /// or with a LinkError.
 void converse(const std::filesystem::path& folder, core::Random& random);
 
-}  // namespace unicursal
+}  // namespace unicursal::test

@@ -206,6 +206,34 @@ TEST_CASE("false alarms: a good line is asked for again") {
   CHECK(desk.lines().accepted == 2);
 }
 
+TEST_CASE("a good line is refused for a number that was right, or a checksum that was there") {
+  const auto [fault, reason] = GENERATE(table<std::string, std::string>({
+      {"falsenumber@line=2", "Line Number is not Last Line Number+1"},
+      {"falsemissing@line=2", "No Checksum with line number"},
+  }));
+  Desk desk({fault});
+  desk.send(1, "G90");
+  desk.send(2, "M83");
+  CHECK(desk.said("Error:" + reason + ", Last Line: 1\nResend: 2\nok\n"));
+  desk.send(2, "M83");
+  CHECK(desk.count("ok") == 3);
+  CHECK(desk.lines().accepted == 2);
+}
+
+TEST_CASE("rewind: a line is taken and asked for once more, so that it is executed twice") {
+  const std::string who = GENERATE("marlin", "repetier");
+  Desk desk({"rewind@line=3"}, who);
+  desk.send(1, "G91");
+  desk.send(2, "G1 X1 F600");
+  desk.send(3, "G1 X10");
+  CHECK(desk.said(who == "marlin" ? "Last Line: 2\nResend: 3\nok\n" : "\nResend:3\nok\n"));
+  desk.send(3, "G1 X10");
+  desk.send(4, "M114");
+  desk.listen(5);
+  CHECK(desk.said("X:21.00"));
+  CHECK_FALSE(desk.lines().executed_in_order);
+}
+
 // ---- faults on the way back
 
 TEST_CASE("oks are lost, doubled, misspelt") {
@@ -224,6 +252,12 @@ TEST_CASE("a misspelt ok is none") {
   CHECK(desk.struck("brokenok") == 40);
   CHECK(desk.count("ok") < 20);
   CHECK(desk.lines().accepted == 40);
+}
+
+TEST_CASE("the next ok reads as one pleases") {
+  Desk desk({"answer:ok 17 ready@line=2"});
+  for (int i = 1; i <= 3; ++i) desk.send(i, "G90");
+  CHECK(desk.heard == "ok\nok 17 ready\nok\n");
 }
 
 TEST_CASE("requests to resend are lost, or doubled") {
@@ -363,4 +397,11 @@ TEST_CASE("the same seed strikes the same way, another one does not, and one fau
   CHECK(errors({"lostok:0.1"}, 3) == errors({"lostok:0.1"}, 3));
   CHECK(errors({"lostok:0.1"}, 3) != errors({"lostok:0.1"}, 4));
   CHECK(errors({"lostok:0.1"}, 3) == errors({"lostok:0.1", "replyflip:0"}, 3));
+  // An alarm at every line keeps the next kind from striking, not its dice from being thrown.
+  const auto forgotten = [](const std::vector<std::string>& faults) {
+    Desk desk(faults);
+    for (int i = 1; i <= 100; ++i) desk.send(i, "G90");
+    return desk.struck("falsenumber");
+  };
+  CHECK(forgotten({"falsenumber:0.3"}) == forgotten({"falsenumber:0.3", "falsealarm:1"}));
 }

@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "child.hpp"
@@ -40,9 +41,12 @@ class Clock {
   }
   ~Clock() { ::close(socket_); }
 
-  std::string ask(const std::string& question) {
-    const std::string line = question + "\n";
+  void say(const std::string& words) {
+    const std::string line = words + "\n";
     REQUIRE(::send(socket_, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size()));
+  }
+  std::string ask(const std::string& question) {
+    say(question);
     std::string answer;
     for (char byte = 0; ::read(socket_, &byte, 1) == 1 && byte != '\n';) answer += byte;
     return answer;
@@ -162,11 +166,33 @@ TEST_CASE("in lockstep time passes only as far as the host says, or to what it c
   CHECK_FALSE(std::filesystem::exists(*options.control));
 }
 
+TEST_CASE("a host that waits for ever, and leaves, holds up nobody; nor does a signal come in vain") {
+  const Folder folder;
+  SimulatorOptions options = in(folder);
+  options.control = folder.path() / "clock";
+  const bool hot = GENERATE(true, false), leaves = GENERATE(true, false);
+  options.once = hot;  // who has written nothing has not used it
+  Child child(options);
+  Host host(child.path());
+  auto clock = std::make_unique<Clock>(*options.control);
+  while (!clock->ask("wait 2000000000 0").starts_with("at 2000000000 ")) {
+  }
+  if (hot) host.write("M104 S200\n");
+  const std::string written = hot ? "10" : "0";
+  while (!clock->ask("wait 30000000000 " + written).starts_with("at 30000000000 ")) {
+  }
+  clock->say("wait -1 " + written);  // the heater works on, and nothing will ever be said again
+  if (leaves) clock.reset();
+  CHECK((leaves && hot ? child.wait() : child.stop()) == 0);
+  CHECK(report_of(options)["printer_seconds"] > 30);
+}
+
 TEST_CASE("a host that talks nonsense on the control socket ends the simulation") {
   const Folder folder;
   SimulatorOptions options = in(folder);
   options.control = folder.path() / "clock";
-  const std::string words = GENERATE("hello", "wait", "wait 1", "wait x y", "wait 5 -1");
+  const std::string words = GENERATE("hello", "wait", "wait 1", "wait x y", "wait 5 -1", "wait 5 0 0",
+                                     "wait 5  0", " wait 5 0", "wait 99999999999999999999 0");
   Child child(options);
   Clock clock(*options.control);
   CHECK(clock.ask(words).empty());

@@ -214,6 +214,19 @@ TEST_CASE("Outputs never overwrite what the job is made of, nor one another") {
   }
   CHECK(run({"plan", job.string(), "-o", out, "--report", (folder / "./out.gcode").string()}).code == 2);
   CHECK(run({"curve", job.string(), "--layer", "0", "-o", drawing.string()}).code == 2);
+  const auto faults = folder.write("faults.txt", "noise:0.01\n");
+  const auto simulate = [&](const std::vector<std::string>& outputs) {
+    std::vector<std::string> all{"simulate",       "--once",   "--profile",
+                                 profile.string(), "--faults", faults.string()};
+    all.insert(all.end(), outputs.begin(), outputs.end());
+    return run(all).code;
+  };
+  CHECK(simulate({"--report", profile.string()}) == 2);
+  CHECK(simulate({"--transcript", faults.string()}) == 2);
+  CHECK(simulate({"--rasters", profile.string()}) == 2);
+  CHECK(simulate({"--report", out, "--transcript", out}) == 2);
+  CHECK(run({"dry-run", job.string(), "--faults", faults.string(), "--report", faults.string()}).code == 2);
+  CHECK(test::read_text(faults) == "noise:0.01\n");
   CHECK(test::read_text(profile) == sample_profile);
   CHECK(test::read_text(drawing) == sample_drawing);
   CHECK(test::read_text(job) == sample_job);

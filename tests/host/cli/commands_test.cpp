@@ -187,6 +187,28 @@ TEST_CASE("A simulator that stands alone takes a print, more than one process aw
   CHECK(read_json(shop.path("seen.json"))["last_line"] == read_json(shop.path("r.json"))["link"]["lines"]);
 }
 
+TEST_CASE("A simulator moves no faster than its profile's axes") {
+  const TempFolder folder;
+  const std::string link = (folder / "printer").string(), report = (folder / "seen.json").string();
+  const std::string limits = GENERATE("", "max_speed = [20, 150, 10]");
+  const auto profile =
+      folder.write("bench.toml", test::replaced(test::sample_profile, "[extruder]", limits + "\n[extruder]"));
+  test::Child simulator(
+      {"simulate", "--once", "--profile", profile.string(), "--link", link, "--report", report});
+  while (!std::filesystem::exists(link)) {
+    REQUIRE(simulator.running());
+    poll(nullptr, 0, 5);
+  }
+  const int port = open(link.c_str(), O_RDWR | O_NOCTTY);
+  REQUIRE(port >= 0);
+  const std::string words = "G1 X100 F7200\nM400\n";
+  REQUIRE(write(port, words.data(), words.size()) == static_cast<ssize_t>(words.size()));
+  close(port);
+  REQUIRE(simulator.wait().code == 0);
+  const double seconds = read_json(report)["printer_seconds"];
+  CHECK((seconds > 100 / 20.0) == !limits.empty());
+}
+
 TEST_CASE("Ctrl-C parks and cools, and the simulator goes with its host") {
   const Workshop shop;
   test::Child host({"dry-run", shop.job, "--speed", "60", "--report", shop.path("r.json")});

@@ -1,4 +1,6 @@
 // Dry runs in virtual time, as real processes: host and simulator in lockstep.
+#include <poll.h>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +37,7 @@ class Runs {
   void write_profile(const std::string& text) { folder_.write("bench.toml", text); }
   std::string text() const { return test::read_text(report()); }
   json seen() const { return json::parse(text()); }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   std::filesystem::path report() const { return folder_ / "report.json"; }
 
  private:
@@ -71,7 +74,8 @@ TEST_CASE("Another seed gives other faults, and every line is still executed onc
 
 TEST_CASE("Planning that is charged for makes the print wait in printer time") {
   Runs runs;
-  runs.write_profile(std::string(test::sample_profile) + barely_warm);  // or it would be done while that heats
+  runs.write_profile(std::string(test::sample_profile) +
+                     barely_warm);  // or it would be done while that heats
   REQUIRE(runs.run({}).code == 0);
   const json free = runs.seen();
   REQUIRE(runs.run({"--charge-planning", "4000"}).code == 0);
@@ -109,6 +113,29 @@ TEST_CASE(
   CHECK(outcome.code == 1);
   CHECK(outcome.err.find(reason) != std::string::npos);
   CHECK(runs.seen()["simulator"]["faults"].size() == 1);
+}
+
+TEST_CASE("A simulator that fails at its very end leaves a report that says so") {
+  Runs runs;
+  const std::filesystem::path pictures = runs.folder() / "pictures";
+  // A folder in the place of its last picture; again, should the picture have been there first.
+  for (bool blocked = false; !blocked;) {
+    std::filesystem::remove_all(pictures);
+    test::Child child({"dry-run", (runs.folder() / "job.toml").string(), "--report", runs.report().string(),
+                       "--picture", pictures.string()});
+    while (child.running() && !std::filesystem::exists(pictures / "curve-0000.png")) poll(nullptr, 0, 1);
+    std::error_code taken;
+    blocked = std::filesystem::create_directory(pictures / "motion.png", taken);
+    const Outcome outcome = child.wait();
+    if (!blocked) continue;
+    INFO(outcome.err);
+    CHECK(outcome.code == 1);
+    const json report = runs.seen();
+    CHECK(report["ended"] == "failed");
+    CHECK(report["reason"].get<std::string>().find("simulator ended with exit code") != std::string::npos);
+    CHECK(report["layer_count"] == 2);
+    CHECK(report["laid"]["layers"].size() == 2);
+  }
 }
 
 TEST_CASE("Every personality that the host can print to prints a job whole") {

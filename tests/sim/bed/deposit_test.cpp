@@ -121,13 +121,21 @@ struct Pixels {
 
 }  // namespace
 
-TEST_CASE("each layer gives a picture with the bead where it lies; a prime line does not shrink later ones") {
+TEST_CASE(
+    "each layer gives a picture with the bead where it lies, all in one frame, which no prime line widens") {
   const Folder folder;
+  const bool apart = GENERATE(true, false);
   {
     clear_pictures(folder.path());
     BeadStore store(folder.path());
     Deposit deposit({&store});
+    if (apart) {
+      deposit.laid(bead({100, 90, 0.2}, {160, 90, 0.2}, 60 * 0.2 * 0.5));
+      deposit.laid(bead({160, 90, 0.2}, {190, 90, 0.2}, 30 * 0.2 * 0.5));
+      deposit.travelled({190, 90, 0.2}, {10, 10, 0.2});
+    }
     deposit.laid(bead({10, 10, 0.2}, {30, 10, 0.2}, 20 * 0.2 * 0.5));
+    deposit.laid(bead({30, 10, 0.2}, {30, 20, 0.2}, 10 * 0.2 * 0.5));
     deposit.laid(bead({20, 10, 0.4}, {20, 20, 0.4}, 10 * 0.2 * 0.5));
     draw_layers(store, folder.path(), 0.1);
     draw_part(store, folder.path());
@@ -137,15 +145,18 @@ TEST_CASE("each layer gives a picture with the bead where it lies; a prime line 
   std::sort(files.begin(), files.end());
   CHECK(files == std::vector<fs::path>{"deposit-0000.png", "deposit-0001.png", "part.png"});
 
-  // The first shows 20 × 10 mm of centre lines, the second only the upright bead of 10 mm, both with a
-  // margin.
+  // 20 × 10 mm of centre lines with a margin.
   const Pixels first(folder.path() / "deposit-0000.png"), second(folder.path() / "deposit-0001.png");
-  CHECK(first.width - second.width == 200);
+  CHECK(first.width == second.width);
   CHECK(first.height == second.height);
-  // The level bead runs along the lower border, the upright one through the middle.
+  CHECK(first.width - first.height == 100);
+  CHECK(first.width < 260);
+  // Of the first layer one bead runs along the lower border; the second's goes upright through the middle.
   const std::size_t bottom = first.height - (first.height - 100) / 2;
   CHECK_FALSE(first.same(first.width / 2, bottom, 0, 0));
   CHECK(first.same(first.width / 2, first.height / 2, 0, 0));
   CHECK_FALSE(second.same(second.width / 2, second.height / 2, 0, 0));
   CHECK(second.same(second.width - 1, second.height / 2, 0, 0));
+  const Pixels part(folder.path() / "part.png");
+  CHECK(part.width < 700);  // 27 mm across at 16 pixels for a mm
 }

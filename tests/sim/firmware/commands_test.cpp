@@ -271,6 +271,36 @@ TEST_CASE("a mixture is copied into each move when that is planned") {
   CHECK(feeder_steps(bench) == PerFeeder<std::int64_t>{400, 400, 0});
 }
 
+TEST_CASE(
+    "a feeder or a tool that is not there is ignored with a plain ok; a negative one is worth a warning") {
+  Bench bench;
+  bench.heat();
+  bench.finish("M83");
+  bench.finish("M163 S0 P1");
+  for (const char* line : {"M163 S7 P9", "M163 S-1 P9", "M164 S16", "M164 S-1"})
+    CHECK(bench.finish(line) == Replies{"ok"});
+  CHECK(bench.firmware.warnings().size() == 1);
+  bench.finish("M164 S1");
+  bench.finish("T1");
+  bench.finish("G1 X50 E10 F600");
+  CHECK(feeder_steps(bench) == PerFeeder<std::int64_t>{4000, 0, 0});
+}
+
+TEST_CASE("a change of tools costs no stop") {
+  const auto seconds = [](const char* between) {
+    Bench bench;
+    bench.heat();
+    bench.finish("M83");
+    for (int i = 1; i <= 10; ++i) {
+      bench.finish(fmt::format("G1 X{} E0.3 F1800", 5 * i));
+      bench.finish(fmt::format(fmt::runtime(between), i % 3));
+    }
+    bench.firmware.run_down();
+    return bench.sink.moves.back().end - bench.sink.moves.front().start;
+  };
+  CHECK(seconds("T{}") == seconds("M117 {}"));
+}
+
 TEST_CASE("a mixture of zeros hangs the firmware") {
   Bench bench;
   bench.heat();

@@ -13,7 +13,15 @@ TEST_CASE("a board introduces itself") {
   bench.firmware.advance(2);
   REQUIRE(bench.replies.size() > 3);
   CHECK(bench.replies.front() == "start");
+  CHECK(bench.replies[1] == "PowerUp");
   CHECK(std::find(bench.replies.begin(), bench.replies.end(), "Marlin 2.1.2.1") != bench.replies.end());
+}
+
+TEST_CASE("at boot a board may have wishes of its own to the host") {
+  Bench bench("marlin-8bit");
+  bench.firmware.boot();
+  bench.firmware.advance(2);
+  CHECK(bench.replies.back().starts_with("//action:"));
 }
 
 TEST_CASE("numbered lines are answered with ok") {
@@ -55,6 +63,16 @@ TEST_CASE("an error empties the receive buffer: what was under way vanishes") {
   CHECK(bench.replies == Replies{"Error:checksum mismatch, Last Line: 1", "Resend: 2", "ok", "ok"});
   CHECK(bench.firmware.counts().received == 2);
   CHECK(bench.firmware.buffer().flushed() > 0);
+}
+
+TEST_CASE("lines that arrive after an error each raise their own, until the one asked for comes") {
+  Bench bench;
+  bench.send(1, "G90");
+  bench.send("N2 M83*1");
+  const Replies again{"Error:Line Number is not Last Line Number+1, Last Line: 1", "Resend: 2", "ok"};
+  for (const int number : {3, 4, 5}) CHECK(bench.send(number, "M83") == again);
+  CHECK(bench.send(2, "M83") == Replies{"ok"});
+  CHECK(bench.firmware.counts().resends == 4);
 }
 
 TEST_CASE("an error is told when received, before the oks of earlier lines") {
