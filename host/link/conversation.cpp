@@ -122,6 +122,8 @@ asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
   const std::function<bool()> warm = [this] { return told_temperatures.has_value(); };
   co_await ask("M105\n", warm);
   found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
+  const std::function<bool()> named = [this] { return !firmware.empty(); };
+  co_await ask("M115\n", named);
   // Only now has everything arrived that the other program had sent.
   found.next = co_await ask_for_number(beyond);
   probing = false;
@@ -159,6 +161,8 @@ asio::awaitable<void> Link::State::ask(std::string_view query, const std::functi
 void Link::State::go_on(std::uint32_t next) {
   ledger = Ledger(options.receive_buffer, next, options.last_number);
   doubt = true;  // an ok that is still to come may be that of an earlier line
+  if (options.temperatures.count() > 0 && !identity.can("AUTOREPORT_TEMP"))
+    ask_at = now() + options.temperatures;
   phase = Phase::streaming;
 }
 
@@ -240,8 +244,8 @@ void Link::State::insert_query() {
   if (numbering) numbering(ledger.next_to_number(), ledger.numbered());
 }
 
-/// M110 may act once more when it is executed, and then must find no newer line before it. A firmware whose oks
-/// come at receipt has to be idle for that, which it says every second.
+/// M110 may act once more when it is executed, and then must find no newer line before it. A firmware whose
+/// oks come at receipt has to be idle for that, which it says every second.
 asio::awaitable<void> Link::State::count_anew() {
   holding = true;
   if (identity.family == gcode::Family::repetier) {

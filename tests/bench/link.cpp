@@ -123,12 +123,11 @@ struct Order {
   std::uint64_t others = 0;  ///< executed beside them: what damage made of lines, and the link's own
 };
 
-/// Walks along both. A line that was changed on its way stands where another was to be: then the next one
+/// Walks along both. A line that was changed on its way counts as another at first, until the next one
 /// fits.
 Order compare(const std::vector<std::string>& lines, const std::filesystem::path& transcript) {
   Order order;
   std::ifstream stream(transcript);
-  std::string changed;
   std::size_t next = 0;
   for (std::string executed; std::getline(stream, executed);) {
     if (next < lines.size() && executed == lines[next]) {

@@ -162,9 +162,11 @@ TEST_CASE("facts: a printer at work is not disturbed, however long it takes") {
 TEST_CASE("facts: damage of every kind is made good, at rest and at work") {
   const std::string who = GENERATE(from_range(personalities));
   // The byte behind the line of this number is hit; at work the lines in flight wait behind a dwell.
-  for (const std::string fault : {"bitflip@line=40", "lostbyte@line=40", "merge@line=40", "replyflip@line=40",
-                                  "lostreply@line=40", "lostok@line=40", "doubleok@line=40",
-                                  "brokenok@line=40", "noise@line=40", "badutf8@line=40", "nul@line=40"}) {
+  for (const std::string fault :
+       {"bitflip@line=40", "lostbyte@line=40", "merge@line=40", "replyflip@line=40", "lostreply@line=40",
+        "lostok@line=40", "doubleok@line=40", "brokenok@line=40", "noise@line=40", "badutf8@line=40",
+        "nul@line=40", "falsealarm@line=40", "falsenumber@line=40", "falsemissing@line=40", "slow:0.05",
+        "stall:20@line=40"}) {
     auto lines = moves(80);
     lines.insert(lines.begin() + 37, "G4 S3");
     VirtualPrinter printer({"--personality", who, "--fault", fault});
@@ -333,6 +335,21 @@ TEST_CASE("facts: a reset in mid-print ends it, and nothing is sent into the pri
   const nlohmann::json report = printer.report();
   CHECK(report["last_line"] == 0);
   CHECK(printer.executed().size() <= 40);
+}
+
+TEST_CASE("soak: a hundred thousand lines, faults on one in a thousand each", "[long]") {
+  const std::string who = GENERATE(from_range(personalities));
+  std::vector<std::string> arguments = {"--personality", who, "--baud", "4000000"};
+  for (const std::string fault :
+       {"bitflip:3e-5", "lostbyte:3e-5", "lostok:1e-3", "noise:1e-3", "falsealarm:1e-3", "doubleresend:0.5"})
+    arguments.insert(arguments.end(), {"--fault", fault});
+  VirtualPrinter printer(arguments);
+  const auto lines = moves(100000);
+  const Talk talk = printer.print(lines);
+  INFO(who);
+  CHECK(talk.statistics.resends > 100);
+  CHECK(printer.report()["lines"]["unseen_damage"] == 0);  // by the luck of this seed
+  check_all_executed(printer, talk, lines);
 }
 
 TEST_CASE("facts: line numbers beyond 16 bits", "[long]") {
