@@ -49,6 +49,8 @@ std::optional<double> value(const Command& command, char letter) {
   return text ? number_in(*text) : std::nullopt;
 }
 
+constexpr double most_tools = 255;  ///< of any firmware; greater numbers are none
+
 constexpr std::array<char, 3> axes{'X', 'Y', 'Z'};
 
 void move(ModalState& state, const Command& command) {
@@ -149,7 +151,8 @@ void ModalState::run(std::string_view line) {
   if (command.code != 164) return;
   Lines lines = std::exchange(collected_, {});
   lines.emplace_back(line);
-  if (const auto stored = value(command, 'S')) tools[static_cast<int>(*stored)] = std::move(lines);
+  const auto stored = value(command, 'S');
+  if (stored && *stored >= 0 && *stored <= most_tools) tools[static_cast<int>(*stored)] = std::move(lines);
 }
 
 }  // namespace unicursal::gcode

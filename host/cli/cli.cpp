@@ -369,6 +369,7 @@ int report(const std::exception& error, Exit code) {
 
 int run_command_line(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a closed terminal must not end a print
+  std::signal(SIGXFSZ, SIG_IGN);  // nor a limit on file sizes: it is told like a full disk
   try {
     CommandLine line;
     try {

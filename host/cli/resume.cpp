@@ -56,8 +56,9 @@ PreparedJob prepare_again(const Spool& spool) {
 
 LookaheadOptions behind(const PreparedJob& prepared, const SpoolExtent& extent) {
   LookaheadOptions options = lookahead_options(prepared);
-  options.first += extent.layers;
-  options.count -= std::min(options.count, extent.layers);
+  const std::size_t done = std::min(options.count, extent.layers);
+  options.first += done;
+  options.count -= done;
   return options;
 }
 
@@ -111,24 +112,22 @@ class Resumption {
         spool_(spool),
         prepared_(prepare_again(spool)),
         run_(prepared_, "resume", {}),
-        extent_(catch_up(run_, spool)),
-        lookahead_(*prepared_.part, behind(prepared_, extent_)) {}
+        lookahead_(*prepared_.part, behind(prepared_, spool.extent())) {}
 
   Exit operator()() {
     const JournalState& before = spool_.before();
     const bool nothing_sent = before.anchors.empty();
     if (!before.parking.empty()) return restart({"it was parked and cooled", std::nullopt});
-    const StreamResult result =
-        nothing_sent ? stream({extent_, before.leg}) : stream({extent_, std::nullopt});
+    const StreamResult result = stream(nothing_sent ? std::optional(before.leg) : std::nullopt);
     return result.lost ? restart(*result.lost) : end(result);
   }
 
  private:
-  StreamResult stream(Continuation continuation) {
+  StreamResult stream(std::optional<Leg> leg) {
     StreamSettings settings;
     settings.spool = &spool_;
     settings.link = link_options(prepared_.job.profile, command_.log);
-    settings.continuation = std::move(continuation);
+    settings.continuation = Continuation{std::move(leg), [this] { catch_up(run_, spool_); }};
     const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
     return stream_with_progress(port, lookahead_, run_, "printing", settings);
   }
@@ -137,7 +136,7 @@ class Resumption {
     const Restart restart = restart_after(prepared_, spool_, lost);
     tell(restart, lost, spool_);
     if (!agreed(command_)) return Exit::failed;
-    return end(stream({extent_, restart.leg}));
+    return end(stream(restart.leg));
   }
 
   Exit end(const StreamResult& result) {
@@ -150,7 +149,6 @@ class Resumption {
   Spool& spool_;
   const PreparedJob prepared_;
   Run run_;
-  const SpoolExtent extent_;
   Lookahead lookahead_;
 };
 

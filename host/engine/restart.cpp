@@ -69,17 +69,15 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   return restart;
 }
 
-SpoolExtent catch_up(Run& run, const Spool& spool) {
+void catch_up(Run& run, const Spool& spool) {
   const auto same = [&](const gcode::Chunk& made, const SpooledChunk& kept) {
     if (commands(made.lines) == kept.lines) return;
     throw SpoolError(spool.folder().string(), "",
                      "holds lines that this version of the program would not write",
                      "resume with the version that the print was begun with");
   };
-  SpoolExtent extent;
   ChunkReader reader(spool.chunks());
   while (const auto chunk = reader.next()) {
-    extent.add(*chunk);
     switch (chunk->kind) {
       case SpooledChunk::Kind::start:
         same(run.start(), *chunk);
@@ -91,7 +89,6 @@ SpoolExtent catch_up(Run& run, const Spool& spool) {
         same(run.finish(), *chunk);
     }
   }
-  return extent;
 }
 
 }  // namespace unicursal::host

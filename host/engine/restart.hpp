@@ -31,6 +31,6 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
 
 /// Brings the encoder of a fresh run to where the spool's last chunk has left it. Throws SpoolError when it
 /// makes other lines than were spooled.
-SpoolExtent catch_up(Run& run, const Spool& spool);
+void catch_up(Run& run, const Spool& spool);
 
 }  // namespace unicursal::host

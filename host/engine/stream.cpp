@@ -1,6 +1,7 @@
 #include "host/engine/stream.hpp"
 
 #include <algorithm>
+#include <asio/bind_executor.hpp>
 #include <asio/co_spawn.hpp>
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
@@ -43,6 +44,15 @@ std::string sentence(const std::exception_ptr& error) {
   } catch (...) {
     return "something unknown went wrong";
   }
+}
+
+/// Lines of a lead-in up to the last one that waits for heat: what follows moves.
+std::uint64_t heat_lines(const std::vector<std::string>& lead_in) {
+  const auto waits = [](const std::string& line) {
+    return line.starts_with("M109") || line.starts_with("M190");
+  };
+  const auto last = std::find_if(lead_in.rbegin(), lead_in.rend(), waits);
+  return static_cast<std::uint64_t>(lead_in.rend() - last);
 }
 
 SpooledChunk spooled(const PlannedLayer& planned, const PreparedJob& prepared) {
@@ -144,7 +154,7 @@ class Stream {
     std::exception_ptr error;
     try {
       if (continuation_) co_await send_spooled();
-      if (!continuation_ || continuation_->extent.start_lines == 0) co_await start();
+      if (!continuation_ || spool_->extent().start_lines == 0) co_await start();
       co_await send_layers();
     } catch (const LinkError&) {
       throw;
@@ -172,29 +182,53 @@ class Stream {
       lost_ = Lost{error.what(), std::nullopt};
       co_return;
     }
-    lost_ = lost_since(before, found, spool_->chunks(), continuation_->extent);
+    lost_ = lost_since(before, found, spool_->chunks(), spool_->extent());
     if (lost_) co_return;
+    spool_->journal().begin_session();
     begin_ = place_ = *before.place_of(found.next);
     anew_ = false;
     spool_->journal().anchor({found.next, begin_}, true);
     link_.go_on(found.next);
   }
 
+  void begin_to_catch_up() {
+    caught_up_ = false;
+    const auto work = [this]() -> asio::awaitable<void> {
+      continuation_->catch_up();
+      co_return;
+    };
+    asio::co_spawn(disk_, work, asio::bind_executor(loop_.get_executor(), [this](std::exception_ptr error) {
+                     caught_up_ = true;
+                     catching_up_failed_ = error;
+                     sleep_.notify();
+                   }));
+  }
+
+  /// Until then the run belongs to another thread.
+  asio::awaitable<void> catch_up() {
+    const std::function<bool()> caught_up = [this] { return caught_up_; };
+    co_await sleep_.wait(TimePoint::max(), caught_up);
+  }
+
   /// What is spooled from here on in this leg.
   asio::awaitable<void> send_spooled() {
-    const SpoolExtent& extent = continuation_->extent;
+    begin_to_catch_up();
     const Leg& leg = continuation_->leg ? *continuation_->leg : spool_->before().leg;
-    const std::uint64_t hot = leg.lead_in.empty() ? extent.start_lines : leg.lead_in.size();
+    const std::uint64_t hot = leg.lead_in.empty() ? spool_->extent().start_lines : heat_lines(leg.lead_in);
     LegReader reader(spool_->chunks(), leg, begin_);
     heating_ = begin_ < hot;
+    homeless_ = heating_ && !leg.lead_in.empty();
     while (!stopped_) {
-      std::vector<std::string> lines = reader.next(batch);
+      std::vector<std::string> lines = reader.next(heating_ ? std::min(batch, hot - place_) : batch);
       if (lines.empty()) break;
       listeners_.progress(reader.layers_begun(), reader.fraction());
       co_await hand(std::move(lines));
       if (heating_ && place_ >= hot) co_await get_hot();
+      homeless_ = homeless_ && stopped_;
     }
     heating_ = false;
+    co_await catch_up();
+    if (catching_up_failed_) std::rethrow_exception(catching_up_failed_);
   }
 
   // ---- a print from its beginning, or behind what was spooled
@@ -215,7 +249,7 @@ class Stream {
   }
 
   asio::awaitable<void> send_layers() {
-    for (std::size_t done = continuation_ ? continuation_->extent.layers : 0; !stopped_; ++done) {
+    for (std::size_t done = continuation_ ? spool_->extent().layers : 0; !stopped_; ++done) {
       std::optional<PlannedLayer> layer = co_await next_layer();
       if (!layer) break;
       SpooledChunk record;
@@ -227,7 +261,7 @@ class Stream {
   }
 
   asio::awaitable<void> finish() {
-    if (continuation_ && continuation_->extent.finished) {
+    if (continuation_ && spool_->extent().finished) {
       parked_ = true;
       co_return co_await link_.drain();
     }
@@ -250,9 +284,13 @@ class Stream {
 
   /// Before its end: these lines are none of the print's own.
   asio::awaitable<void> park() {
+    co_await catch_up();
     gcode::Chunk chunk;
     try {
-      chunk = run_.finish();
+      if (homeless_)
+        chunk.lines = {"M104 S0", "M140 S0", "M107"};
+      else
+        chunk = run_.finish();
     } catch (...) {
       link_.cool_down();
       throw;
@@ -307,10 +345,9 @@ class Stream {
   }
 
   asio::awaitable<void> hand(std::vector<std::string> lines) {
-    const std::size_t count = lines.size();
     co_await link_.send(std::move(lines));
     if (parking_) co_return;
-    place_ += count;
+    place_ = begin_ + link_.statistics().lines;  // without those that a stop has made it forget
     note_progress();
   }
 
@@ -320,7 +357,6 @@ class Stream {
     link_.on_numbering([this](std::uint32_t number, std::uint64_t line) {
       spool_->journal().anchor({number, begin_ + line}, std::exchange(anew_, false) || number == 1);
     });
-    spool_->journal().begin_session();
   }
 
   void note_progress() {
@@ -379,13 +415,16 @@ class Stream {
   std::uint64_t begin_ = 0;  ///< place in the leg at which this program begins
   std::uint64_t place_ = 0;  ///< before which everything was handed to the link
   bool anew_ = true;         ///< the next numbering is the first
+  bool caught_up_ = true;
+  std::exception_ptr catching_up_failed_;
   bool stopped_ = false;
   bool finishing_ = false;
   bool parking_ = false;  ///< what is sent is not of the spool
   bool aborted_ = false;
   bool heating_ = false;  ///< the start is under way
   bool parked_ = false;
-  double waited_ = 0;  ///< s for layers
+  bool homeless_ = false;  ///< the printer does not know where its nozzle is: it must not move
+  double waited_ = 0;      ///< s for layers
   std::optional<Lost> lost_;
 };
 

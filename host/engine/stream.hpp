@@ -46,8 +46,9 @@ struct StreamResult {
 
 /// A print that goes on.
 struct Continuation {
-  SpoolExtent extent;
   std::optional<Leg> leg;  ///< to begin; absent: the printer is alive, and the last leg goes on
+  /// Brings `run` to where the spool ends, meanwhile, in a thread of its own.
+  std::function<void()> catch_up;
 };
 
 struct StreamSettings {
@@ -55,7 +56,7 @@ struct StreamSettings {
   double charge = 0;       ///< s of the clock that each second of planning is to take
   Spool* spool = nullptr;  ///< that keeps the print, if one does
   LinkOptions link = {};   ///< on the clock above
-  /// With a spool: it holds the first layers already, and `run` and `lookahead` begin behind them.
+  /// With a spool that holds the first layers already; `lookahead` begins behind them.
   std::optional<Continuation> continuation;
 };
 

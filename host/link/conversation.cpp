@@ -18,6 +18,7 @@ constexpr auto longest_drain = 1000ms;  ///< for printers that never stop talkin
 constexpr int number_attempts = 5;      ///< to set the line number, over a noisy line
 constexpr int probe_attempts = 4;       ///< each as long as LinkOptions::silence
 constexpr int find_attempts = 2;        ///< when rejoining, each as long as LinkOptions::silence
+constexpr int most_asks = 20;           ///< the same question, when refusals come in between
 constexpr int most_resends = 50;        ///< in a row that bring the job no further
 constexpr auto finishes_nothing =
     "the printer is alive but has finished no command for very long; look at it, then start again";
@@ -106,55 +107,60 @@ asio::awaitable<void> Link::State::begin_reports() {
 
 /// What is sent here has no number that could be taken, so that nothing changes however often it is done.
 asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
-  // The newline ends half a line, which its missing checksum gives away. Its refusal may empty the printer's
-  // buffer, the question behind it included.
   probing = true;
-  write("\n");
+  const auto lines_before = lines_heard;
+  write("\n");  // ends half a line, which its missing checksum gives away
   co_await quiet(options.quiet);
-  co_await ask_for_number(beyond);
   Rejoined found;
-  // These wait their turn behind everything that was sent before.
-  told_position.reset();
-  const std::function<bool()> located = [this] { return told_position.has_value(); };
-  co_await ask("M114\n", located);
-  found.position = told_position;
-  told_temperatures.reset();
   const std::function<bool()> warm = [this] { return told_temperatures.has_value(); };
   co_await ask("M105\n", warm);
+  if (lines_heard == lines_before) {
+    give_up("the printer does not answer; check that it is on, and the cable, then resume again");
+  }
+  // Waits its turn behind everything that was sent before. Twice, since homing answers like that, too.
+  const std::function<bool()> located = [this] { return told_position.has_value(); };
+  for (int i = 0; i < 2; ++i) {
+    told_position.reset();
+    co_await ask("M114\n", located);
+  }
+  found.position = told_position;
   found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
   const std::function<bool()> named = [this] { return !firmware.empty(); };
   co_await ask("M115\n", named);
-  // Only now has everything arrived that the other program had sent.
   found.next = co_await ask_for_number(beyond);
   probing = false;
   co_return found;
 }
 
+/// A Repetier that waits for a line already does not answer, but asks for it by its own clock.
 asio::awaitable<std::uint32_t> Link::State::ask_for_number(std::uint32_t beyond) {
-  told_next.reset();
+  const auto told_before = std::exchange(told_next, std::nullopt);
   const std::function<bool()> told = [this] { return told_next.has_value(); };
   co_await ask(framed(beyond, "M105"), told);
+  if (!told_next) told_next = told_before;
   if (!told_next) give_up("the printer does not tell which line it wants next; begin the print anew");
   co_return *told_next;
 }
 
-/// Repeats the question while the printer gives signs of life and no answer: noise may have hit it.
+/// Repeats the question when a refusal may have emptied the printer's buffer, and after silence: noise may
+/// have hit it.
 asio::awaitable<void> Link::State::ask(std::string_view query, const std::function<bool()>& answered) {
+  auto refusals_before = refusals;
   const std::function<bool()> over = [&] { return answered() || restarted; };
-  const auto lines_before = lines_heard;
+  const std::function<bool()> over_or_refused = [&] { return over() || refusals != refusals_before; };
   const auto patient_until = now() + options.slow_ok;
-  for (int attempt = 0; attempt < find_attempts && !over(); ++attempt) {
+  int silences = 0;
+  for (int asks = 0; asks < most_asks && silences < find_attempts && !over(); ++asks) {
     last_life = now();
+    refusals_before = refusals;
     write("\n");  // after an overrun, Marlin is silent until one comes
     write(query);
-    while (!over() && now() < std::min(last_life + options.silence, patient_until)) {
-      co_await until(over, std::min(last_life + options.silence, patient_until));
+    while (!over_or_refused() && now() < std::min(last_life + options.silence, patient_until)) {
+      co_await until(over_or_refused, std::min(last_life + options.silence, patient_until));
     }
+    if (!over_or_refused()) ++silences;
+    co_await quiet(options.quiet);
   }
-  if (!over() && lines_heard == lines_before) {
-    give_up("the printer does not answer; check that it is on, and the cable, then resume again");
-  }
-  co_await quiet(options.quiet);
   if (restarted) throw PrinterReset("the printer has started anew");
 }
 

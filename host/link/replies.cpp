@@ -41,7 +41,10 @@ void Link::State::take(const reply::Ok& ok) {
   ++oks;
   last_ok = last_life = now();
   idle_words = 0;
-  if (!ok.temperatures.empty()) note(ok.temperatures);
+  if (!ok.temperatures.empty()) {
+    told_temperatures = ok.temperatures;
+    note(ok.temperatures);
+  }
   const std::uint32_t queued = note_places(ok);
   if (phase == Phase::greeting || holding) return;
   bool expected;
@@ -56,7 +59,6 @@ void Link::State::take(const reply::Ok& ok) {
 }
 
 void Link::State::note(const Temperatures& told) {
-  told_temperatures = told;
   if (told.nozzle) temperatures.nozzle = told.nozzle, temperatures.nozzle_target = told.nozzle_target;
   if (told.bed) temperatures.bed = told.bed, temperatures.bed_target = told.bed_target;
 }
@@ -126,7 +128,10 @@ void Link::State::take(const reply::Wait&) {
 
 void Link::State::take(const reply::TemperatureReport& report) {
   note(report.temperatures);
-  if (!report.waiting) return;
+  if (!report.waiting) {
+    told_temperatures = report.temperatures;
+    return;
+  }
   last_life = now();
   if (interruptions <= 0 || failure) return;
   --interruptions;

@@ -20,12 +20,6 @@ std::optional<SpooledChunk> ChunkReader::next() {
   }
 }
 
-std::uint64_t ChunkReader::sound_length() {
-  while (next()) {
-  }
-  return sound_;
-}
-
 void SpoolExtent::add(const SpooledChunk& chunk) {
   lines += chunk.lines.size();
   if (chunk.kind == SpooledChunk::Kind::start) start_lines = lines;

@@ -24,8 +24,8 @@ class ChunkReader {
   std::optional<SpooledChunk> next();
   /// The print's line that the chunk given last begins with.
   std::uint64_t first_line() const { return first_line_; }
-  /// Reads to the end; bytes that hold sound chunks.
-  std::uint64_t sound_length();
+  /// Bytes of sound chunks so far.
+  std::uint64_t sound() const { return sound_; }
 
  private:
   RecordReader records_;

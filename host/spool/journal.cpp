@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 constexpr auto sync_interval = 1s;
 constexpr std::uint64_t reserve = 1 << 16;  ///< bytes set aside for what must be written on a full disk
 constexpr std::int64_t repetier_modulus = 65536;
+constexpr std::uint64_t most_lines = 1'000'000'000'000;  ///< of one print, fifty years' worth
 
 /// First byte of a record. Numbers of the format: never given a new meaning.
 enum class Event : std::uint8_t { session = 1, leg, anchor, progress, park, end, superseded };
@@ -38,9 +39,15 @@ std::vector<std::string> lines_in(ByteReader& bytes) {
   return lines;
 }
 
+std::uint64_t place_in(ByteReader& bytes) {
+  const auto place = bytes.take<std::uint64_t>();
+  if (place > most_lines) throw DamagedBytes("tells of more lines than any print has");
+  return place;
+}
+
 Leg leg_in(ByteReader& bytes) {
   Leg leg;
-  leg.begins_at = bytes.take<std::uint64_t>();
+  leg.begins_at = place_in(bytes);
   leg.height = bytes.number();
   if (!std::isfinite(leg.height)) throw DamagedBytes("holds a height that is no number");
   leg.lead_in = lines_in(bytes);
@@ -71,12 +78,12 @@ void apply(JournalState& state, ByteReader bytes) {
     case Event::anchor: {
       if (bytes.take<std::uint8_t>() != 0) state.anchors.clear();
       const auto number = bytes.take<std::uint32_t>();
-      state.anchors.push_back({number, bytes.take<std::uint64_t>()});
+      state.anchors.push_back({number, place_in(bytes)});
       break;
     }
     case Event::progress:
-      state.handed = bytes.take<std::uint64_t>();
-      state.acknowledged = bytes.take<std::uint64_t>();
+      state.handed = place_in(bytes);
+      state.acknowledged = place_in(bytes);
       break;
     case Event::park:
       state.parking = lines_in(bytes);

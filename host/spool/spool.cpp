@@ -14,7 +14,6 @@
 
 #include "host/report/draft.hpp"
 #include "host/spool/bytes.hpp"
-#include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool_error.hpp"
 
 namespace unicursal::host {
@@ -168,6 +167,7 @@ void remove_old(const fs::path& root) {
   for (std::size_t i = kept; i < prints.size(); ++i) {
     try {
       const Lock lock(prints[i]);
+      read_order(prints[i]);  // nothing is removed that is no print
       std::error_code ignored;
       fs::remove_all(prints[i], ignored);
     } catch (const SpoolError&) {
@@ -202,6 +202,7 @@ struct Spool::State {
   RecordWriter chunks;
   Journal journal;
   JournalState before;
+  SpoolExtent extent;
   std::unique_ptr<Lock> lock;
 };
 
@@ -234,8 +235,11 @@ Spool Spool::open(const fs::path& folder) {
   json record = read_order(folder);
   std::uint64_t sound_journal = 0;
   JournalState before = read_journal(journal_file(folder), &sound_journal);
-  const std::uint64_t sound_chunks = ChunkReader(chunk_file(folder)).sound_length();
-  auto state = std::make_unique<State>(folder, std::move(record), sound_chunks, sound_journal);
+  SpoolExtent extent;
+  ChunkReader chunks(chunk_file(folder));
+  while (const auto chunk = chunks.next()) extent.add(*chunk);
+  auto state = std::make_unique<State>(folder, std::move(record), chunks.sound(), sound_journal);
+  state->extent = extent;
   state->lock = std::move(lock);
   state->before = std::move(before);
   return Spool(std::move(state));
@@ -255,6 +259,10 @@ Journal& Spool::journal() {
 }
 const JournalState& Spool::before() const {
   return state_->before;
+}
+
+const SpoolExtent& Spool::extent() const {
+  return state_->extent;
 }
 
 Job Spool::job() const {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "host/job/job.hpp"
+#include "host/spool/chunk_reader.hpp"
 #include "host/spool/journal.hpp"
 #include "host/spool/spooled_chunk.hpp"
 
@@ -57,8 +58,9 @@ class Spool {
   /// The printer is about to move: prints that were interrupted on the same port learn that it is no longer
   /// where they left it.
   void supersede_others() noexcept;
-  /// What the journal told when the spool was opened.
+  /// What the journal told, and what was spooled, when the spool was opened.
   const JournalState& before() const;
+  const SpoolExtent& extent() const;
 
  private:
   struct State;

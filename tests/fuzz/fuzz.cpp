@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/field/direction_file.hpp"
@@ -29,6 +30,7 @@
 #include "tests/fuzz/damage.hpp"
 #include "tests/fuzz/replies.hpp"
 #include "tests/fuzz/simulator.hpp"
+#include "tests/fuzz/spool.hpp"
 #include "tests/host/support/sample_job.hpp"
 
 namespace unicursal {
@@ -141,6 +143,8 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"lines", test::lines},
     {"faults", test::faults},
     {"control", test::control},
+    {"journal", test::journal},
+    {"chunks", test::chunks},
     {"replies", test::read_replies},
     {"conversation", test::converse}};
 
@@ -182,10 +186,11 @@ int run(const std::string& name, const fs::path& folder, double seconds, std::ui
 
 int main(int count, char** words) {
   if (count < 4) {
-    std::fprintf(stderr,
-                 "usage: fuzz FOLDER "
-                 "drawing|mesh|directions|job|plan|printer|lines|faults|control|replies|conversation SECONDS "
-                 "[FIRST]\n");
+    std::fprintf(
+        stderr,
+        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|"
+        "replies|conversation "
+        "SECONDS [FIRST]\n");
     return 2;
   }
   return unicursal::run(words[2], words[1], std::atof(words[3]),
