@@ -21,19 +21,20 @@ class Pace {
       : enough_(std::move(enough)), recorded_(recorded) {}
 
   /// Begins the next stage. The result refers to this object and is used up before the next stage begins.
-  Another stage() {
+  /// The first `kept` steps are granted even when it is enough: a stage that all before it were for.
+  Another stage(int kept = 0) {
     spent_.push_back(0);
-    return [this] { return another(); };
+    return [this, kept] { return another(kept); };
   }
 
   const std::vector<int>& spent() const { return spent_; }
 
  private:
-  bool another() {
+  bool another(int kept) {
     const std::size_t stage = spent_.size() - 1;
     if (recorded_ != nullptr) {
       if (stage >= recorded_->size() || spent_[stage] >= (*recorded_)[stage]) return false;
-    } else if (enough_ && enough_()) {
+    } else if (spent_[stage] >= kept && enough_ && enough_()) {
       return false;
     }
     ++spent_[stage];

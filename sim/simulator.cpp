@@ -57,6 +57,7 @@ void check(const SimulatorOptions& options) {
   require(options.dead_volume >= 0 && options.dead_volume <= 1000 && options.mixing_volume >= 0 &&
               options.mixing_volume <= 1000,
           "the chamber's volumes are 0 to 1000 mm³");
+  require(options.tanks >= 1 && options.tanks <= 8, "the chamber mixes in one to eight tanks");
   require(std::isfinite(options.speed) && options.speed >= 0, "the clock's speed is 0 or a positive number");
   require(options.feeders >= 1 && options.feeders <= max_feeders, "a printer has one to six feeders");
   require(positive(options.baud), "the line needs a positive number of bits per second");
@@ -130,7 +131,8 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
     deposit = Deposit({pictures ? &*pictures : nullptr, &*spread, &*rasters});
   }
   Nozzle nozzle(options.filament_diameter,
-                Chamber({options.dead_volume, options.mixing_volume}, options.feeders), deposit);
+                Chamber({options.dead_volume, options.mixing_volume, options.tanks}, options.feeders),
+                deposit);
   FeedLog feed;
   MotionLog motion(nozzle.filament_area());
   MoveSinks sinks({&feed, &nozzle, &motion});

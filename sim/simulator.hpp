@@ -31,6 +31,7 @@ struct SimulatorOptions {
   double raster_pixel = 0.05;                    ///< mm; coarser on a bed so big that memory asks for it
   double dead_volume = 2.1;                      ///< mm³ that pass before the first trace of a new mixture
   double mixing_volume = 4.0;                    ///< mm³ from there to 95 % of it
+  std::size_t tanks = 2;                         ///< stirred tanks in a row that mix, 1 to 8
   std::vector<double> bed = {200, 200, 200};     ///< mm, x y z
   double filament_diameter = 1.75;               ///< mm
   std::vector<double> steps_per_mm = {80, 80, 400};          ///< x y z

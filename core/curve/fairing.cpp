@@ -24,6 +24,7 @@ constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle 
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
 constexpr double slack_in_widths = 0.1;    ///< lists of near segments hold for such moves
+constexpr double vertex_spacing = 0.75;    ///< bead widths, on the curve as it comes
 constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr double finest_wave = 4;          ///< bead widths; what vertices do together (long_waves.hpp)
@@ -66,16 +67,18 @@ class Fairer {
 
   Curve run(Curve curve) {
     curve.vertices = turned(std::move(curve.vertices), irrational_turn);
-    curve = spread(curve);
+    curve = spread(curve, vertex_spacing);
     curve = descend(std::move(curve), options_.coarse_iterations / 2);
     curve = relieved(curve);
-    curve = spread(curve);
+    curve = spread(curve, vertex_spacing);
     curve = descend(std::move(curve), options_.coarse_iterations - options_.coarse_iterations / 2);
     curve = relieved(curve);
     if (options_.fine_iterations > 0) {
-      curve = subdivided(spread(curve));
+      curve = subdivided(spread(curve, vertex_spacing));
       alignment_weight_ = options_.fine_alignment;
-      curve = descend(std::move(curve), options_.fine_iterations);
+      curve = descend(std::move(curve), options_.fine_iterations / 2);
+      curve = spread(curve, vertex_spacing / 2);
+      curve = descend(std::move(curve), options_.fine_iterations - options_.fine_iterations / 2);
     }
     curve = thinned(curve, border_, final_spacing * options_.bead_width, options_.workers);
     curve.vertices = turned(std::move(curve.vertices), -irrational_turn);
@@ -89,8 +92,8 @@ class Fairer {
     return options.bead_width / options.samples_per_width;
   }
 
-  Curve spread(const Curve& curve) const {
-    return respaced(curve, border_, 0.75 * options_.bead_width, options_.workers);
+  Curve spread(const Curve& curve, double spacing) const {
+    return respaced(curve, border_, spacing * options_.bead_width, options_.workers);
   }
 
   /// Without the fingers that are too many where they are.
@@ -106,8 +109,8 @@ class Fairer {
     double value = coverage_.evaluate(curve, 1, gradient);
     // One vertex of the subdivided curve stands for half the length: scale so that bending costs the same.
     const double per_vertex = area_ / static_cast<double>(curve.size());
-    const double spacing = area_ / (0.75 * options_.bead_width * options_.bead_width);
-    const double finer = static_cast<double>(curve.size()) / spacing;
+    const double coarse = area_ / (vertex_spacing * options_.bead_width * options_.bead_width);
+    const double finer = static_cast<double>(curve.size()) / coarse;
     const double smooth = options_.smoothness * per_vertex * finer * finer * finer;
     value += smooth * smoothness_with_gradient(curve, smooth, gradient);
     if (!alignment_.empty()) {

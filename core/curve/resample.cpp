@@ -1,28 +1,86 @@
 #include "core/curve/resample.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/curve/clearance.hpp"
+#include "core/geometry/segment_grid.hpp"
+#include "core/graph/voronoi.hpp"
 
 namespace unicursal::core {
 namespace {
 
 constexpr double too_close = 0.5, too_far = 1.5;  ///< of the spacing
+// A segment as short as this leaves its neighbours next to no clearance from one another, and would stay so;
+// so would a hairpin whose strands are as near.
+constexpr double collapsed = 0.1;
 constexpr std::size_t fewest_vertices = 8;
 constexpr int most_sweeps = 6;
+
+/// Corners of a curve that may be cut off although no clearance says so: the curve stays simple and inside if
+/// its triangle holds no other vertex of curve or border, since whatever enters it has to end there.
+class Corners {
+ public:
+  Corners(const Curve& curve, const BorderIndex& border, double pitch)
+      : curve_(curve), border_(border), pitch_(pitch) {}
+
+  bool empty(std::size_t vertex) {
+    const std::size_t before = curve_.before(vertex), after = curve_.after(vertex);
+    const std::array<Vec2, 3> corner{curve_.vertices[before], curve_.vertices[vertex],
+                                     curve_.vertices[after]};
+    const Box box{corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
+                  corner[0].cwiseMax(corner[1]).cwiseMax(corner[2])};
+    bool free = true;
+    grid().near(box, [&](std::size_t i) {
+      if (i != before && i != vertex && i != after) free = free && !holds(corner, curve_.vertices[i]);
+    });
+    border_.near(box, [&](std::size_t e) { free = free && !holds(corner, border_.edges()[e].a); });
+    return free;
+  }
+
+ private:
+  /// Most curves never ask.
+  const SegmentGrid& grid() {
+    if (!grid_) {
+      std::vector<Segment> segments(curve_.size());
+      for (std::size_t i = 0; i < segments.size(); ++i)
+        segments[i] = {curve_.vertices[i], curve_.vertices[curve_.after(i)]};
+      grid_.emplace(segments, pitch_);
+    }
+    return *grid_;
+  }
+
+  /// Exact; the triangle's sides and, where it is flat, their whole line count as inside.
+  static bool holds(const std::array<Vec2, 3>& corner, const Vec2& point) {
+    const int a = orientation(corner[0], corner[1], point), b = orientation(corner[1], corner[2], point),
+              c = orientation(corner[2], corner[0], point);
+    return !((a > 0 || b > 0 || c > 0) && (a < 0 || b < 0 || c < 0));
+  }
+
+  const Curve& curve_;
+  const BorderIndex& border_;
+  double pitch_;
+  std::optional<SegmentGrid> grid_;
+};
 
 /// One sweep; a dropped vertex's neighbours stay, so that every move is measured against its own clearance.
 Curve thinned_once(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers) {
   const std::vector<double> free = freedom(curve, border, spacing, {}, workers);
   Curve result;
+  Corners corners(curve, border, spacing);
   bool dropped = true;  // the first vertex stays
   std::size_t left = curve.size();
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vec2 &before = curve.vertices[curve.before(i)], &here = curve.vertices[i];
     const Vec2& after = curve.vertices[curve.after(i)];
     const double nearest = std::min((here - before).norm(), (after - here).norm());
-    if (!dropped && i + 1 < curve.size() && left > fewest_vertices && nearest < too_close * spacing &&
-        (after - before).norm() < too_far * spacing && distance_to_segment(here, before, after) < free[i]) {
+    const double apart = (after - before).norm();
+    const bool movable = nearest < too_close * spacing && distance_to_segment(here, before, after) < free[i];
+    const bool in_doubt =
+        !dropped && i + 1 < curve.size() && left > fewest_vertices && apart < too_far * spacing;
+    if (in_doubt && (movable || (std::min(nearest, apart) < collapsed * spacing && corners.empty(i)))) {
       dropped = true;
       --left;
       continue;

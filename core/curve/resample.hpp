@@ -8,7 +8,8 @@
 namespace unicursal::core {
 
 /// Drops vertices that stand closer than half of `spacing` to their neighbours, where the curve moves by less
-/// than its clearance (so it stays simple and inside).
+/// than its clearance (so it stays simple and inside). Where a segment or a hairpin has come down to a tenth
+/// of it, there is no clearance left; then it is enough that nothing lies in the corner that is cut off.
 Curve thinned(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers = nullptr);
 
 /// The same, and cuts segments longer than 1.5 `spacing` in equal pieces.

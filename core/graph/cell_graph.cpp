@@ -300,11 +300,20 @@ std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptio
   }
   for (int attempt = 0; attempt < tries; ++attempt) {
     std::vector<std::size_t> untouched;
+    std::vector<Segment> needles;
     std::optional<Voronoi> diagram;
-    if (tessellation && attempt < needle_tries)
-      diagram = needle_diagram(tessellation->needles(seeds), bounds(domain));
-    if (!diagram) diagram = voronoi(seeds, bounds(domain));
-    if (std::optional<CellGraph> graph = clip_to_domain(*diagram, domain, untouched)) return graph;
+    if (tessellation && attempt < needle_tries) {
+      needles = tessellation->needles(seeds);
+      diagram = needle_diagram(needles, bounds(domain));
+    }
+    if (!diagram) {
+      needles = as_points(seeds);
+      diagram = voronoi(seeds, bounds(domain));
+    }
+    if (std::optional<CellGraph> graph = clip_to_domain(*diagram, domain, untouched)) {
+      graph->needles = std::move(needles);
+      return graph;
+    }
     if (untouched.empty() && attempt + 2 == tries) seeds = place_seeds(domain, options.seeds, random);
     for (const std::size_t hole : untouched) add_seed_beyond(domain.holes[hole], domain, seeds);
     shake(seeds, domain, d, random);

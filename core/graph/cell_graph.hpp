@@ -21,7 +21,10 @@
 namespace unicursal::core {
 
 /// A cubic, bridgeless, connected planar multigraph whose faces are the cells, each a topological disc.
-struct CellGraph : PlanarGraph {};
+struct CellGraph : PlanarGraph {
+  /// What the cells are nearest to; seeds without a direction have no length. From make_cell_graph() only.
+  std::vector<Segment> needles;
+};
 
 struct GraphOptions {
   /// For needles d ≈ 1.7 bead widths spaces the first cycle right; rows along the mean direction of the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/geometry/random.hpp"
 #include "core/pace.hpp"
@@ -10,6 +11,7 @@
 #include "core/planner/fillable.hpp"
 #include "core/planner/plan_island.hpp"
 #include "core/planner/preset.hpp"
+#include "core/planner/stages.hpp"
 
 namespace unicursal::core {
 
@@ -33,7 +35,8 @@ struct Draft {
   Curve curve;
   std::size_t split_and_reconnect = 0, doubled_edges = 0;
   bool faired = false;
-  int perimeters = 0;  ///< contours laid
+  int perimeters = 0;                    ///< contours laid
+  std::vector<CycleStages> cycles = {};  ///< what the curve was made from, if the options want it kept
 };
 
 /// mm: half the least width that can be laid.

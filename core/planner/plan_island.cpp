@@ -1,17 +1,32 @@
 #include "core/planner/plan_island.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 #include "core/curve/clearance.hpp"
+#include "core/curve/evenness.hpp"
 #include "core/geometry/segment_diagram.hpp"
 #include "core/planner/draft.hpp"
 #include "core/planner/measure.hpp"
+#include "core/planner/stages.hpp"
 #include "core/planner/stopwatch.hpp"
 #include "core/planner/zones_along.hpp"
 
 namespace unicursal::core {
 namespace {
+
+constexpr double strokes_every = 1.5;  ///< bead widths, in a picture of the asked directions
+
+void tell_widths(PlannedCurve& planned, const PlanOptions& options) {
+  const std::vector<double> widths = widths_around(planned.path, options.bead_width);
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (widths[i] < options.min_bead_width) planned.narrow_length += planned.path.length(i);
+    if (options.max_bead_width && widths[i] > *options.max_bead_width)
+      planned.wide_length += planned.path.length(i);
+  }
+}
 
 PlannedCurve finish(const Draft& draft, const FillableRegion& part, IslandWork& work) {
   const Stopwatch watch(work.plan.widths);
@@ -22,6 +37,7 @@ PlannedCurve finish(const Draft& draft, const FillableRegion& part, IslandWork& 
   planned.path = along_zones(draft.curve, segment_areas(diagram, draft.curve, w), work.island);
   planned.objectives = objectives(diagram, draft.curve, planned.area, w, work.demands.field());
   measure_path(planned.path, work.zones, w, planned.objectives);
+  tell_widths(planned, work.options);
   planned.zone_crossings = material_changes(planned.path, work.zones);
   planned.self_intersections = self_intersections(draft.curve);
   planned.outside_segments = segments_outside(draft.curve, BorderIndex(part.region, w));
@@ -66,13 +82,18 @@ IslandPlan IslandPlanner::plan(const Island& island, double z, const PlanOptions
                   std::move(times),
                   Workers(options.threads)};
   work.plan.unfilled_area = parts.too_thin;
+  if (options.stages != nullptr)
+    *options.stages = {asked_directions(demands->field(), island.outline, strokes_every * options.bead_width),
+                       {}};
   for (const FillableRegion& part : parts.regions) {
-    const std::optional<Draft> curve = draft(part, parts.regions.size() == 1, work);
+    std::optional<Draft> curve = draft(part, parts.regions.size() == 1, work);
     if (!curve) {
       work.plan.unfilled_area += area(part.region);
       continue;
     }
     work.plan.curves.push_back(finish(*curve, part, work));
+    if (options.stages != nullptr)
+      std::move(curve->cycles.begin(), curve->cycles.end(), std::back_inserter(options.stages->cycles));
   }
   work.plan.effort = work.pace.spent();
   return std::move(work.plan);

@@ -14,6 +14,8 @@
 
 namespace unicursal::core {
 
+struct Stages;
+
 /// Weights of the optimisers, by name.
 enum class Preset {
   best,   ///< what measures best over all example jobs
@@ -25,17 +27,20 @@ enum class Preset {
 using Effort = std::vector<int>;
 
 struct PlanOptions {
-  double bead_width = 0;                ///< mm; the curve's length aims at area ÷ bead_width
-  std::optional<double> seed_distance;  ///< mm, the paper's d; follows from the bead width when absent
-  double min_bead_width = 0;            ///< mm; what is narrower than this cannot be laid
-  int perimeters = 0;                   ///< contours around the fill, in the same closed curve
+  double bead_width = 0;                 ///< mm; the curve's length aims at area ÷ bead_width
+  std::optional<double> seed_distance;   ///< mm, the paper's d; follows from the bead width when absent
+  double min_bead_width = 0;             ///< mm; what is narrower than this cannot be laid
+  std::optional<double> max_bead_width;  ///< mm; what is wider is told
+  int perimeters = 0;                    ///< contours around the fill, in the same closed curve
   int threads = 1;  ///< that share one island's work; the result is the same for any number, and the stages'
                     ///< processor time is that of the calling one
   std::uint64_t seed = 0;  ///< of the random jitter; differ it from layer to layer
   Preset preset = Preset::best;
   double quality = 1;              ///< how long the optimisers run; more is better and slower
-  std::function<bool()> enough;    ///< asked between steps; once true, what there is is finished and returned
+  std::function<bool()> enough;    ///< asked between steps; once true, what there is gets a few last steps of
+                                   ///< fairing and is returned
   std::optional<Effort> recorded;  ///< repeat a plan with the effort that it took; `enough` is not asked then
+  Stages* stages = nullptr;        ///< receives what each stage leaves behind (stages.hpp), if wanted
 };
 
 /// Wall and processor time of one stage, s.
@@ -78,6 +83,8 @@ struct PlannedCurve {
   std::size_t split_and_reconnect = 0;  ///< paper Table 1
   std::size_t doubled_edges = 0;        ///< paper Table 1
   double farthest = 0;                  ///< mm, greatest distance from the opened island to the curve
+  double narrow_length = 0;  ///< mm of the curve whose bead is narrower than can be laid, as in a neck
+  double wide_length = 0;    ///< mm of the curve whose bead is wider than can be laid
 };
 
 /// All that became of one island.

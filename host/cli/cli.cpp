@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <limits>
 
@@ -38,8 +39,11 @@ CLI::Validator finite_number(double least, double most) {
   return {problem, "NUMBER"};
 }
 
+constexpr double most_threads = 256;
+
 struct JobArguments {
   std::string job, profile, layers, report, pictures;
+  std::size_t threads = 0;
 
   void declare(CLI::App& app) {
     app.add_option("job", job, "the job, a TOML file")->required()->type_name("JOB");
@@ -49,20 +53,31 @@ struct JobArguments {
         ->type_name("A:B");
     app.add_option("--report", report, "write what was measured as JSON")->type_name("FILE");
     app.add_option("--picture", pictures, "write a picture of each layer into this folder")->type_name("DIR");
+    app.add_option("--threads", threads,
+                   "that plan layers; one for each core by default, any number gives the same bytes")
+        ->check(finite_number(1, most_threads))
+        ->type_name("N");
   }
 
   JobOptions options() const {
-    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}};
+    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}, threads};
     if (!layers.empty()) result.layers = parse_layers(layers);
     return result;
   }
 };
+
+void declare_tanks(CLI::App& app, std::size_t& tanks) {
+  app.add_option("--tanks", tanks, "stirred tanks in a row that the nozzle mixes in, 1 to 8; 2 if left out")
+      ->check(CLI::Range(1, 8))
+      ->type_name("NUMBER");
+}
 
 /// Which printer is simulated, and what goes wrong with it.
 struct PrinterArguments {
   std::string personality = "marlin", usb = "cdc", fault_file;
   std::vector<std::string> faults;
   std::uint64_t seed = 0;
+  std::size_t tanks = 2;
   CLI::Option* seed_given[2] = {nullptr, nullptr};
 
   void declare(CLI::App& app) {
@@ -77,6 +92,7 @@ struct PrinterArguments {
         ->expected(1);
     app.add_option("--faults", fault_file, "a file with one fault on each line, and perhaps `seed NUMBER`")
         ->type_name("FILE");
+    declare_tanks(app, tanks);
     (seed_given[0] ? seed_given[1] : seed_given[0]) =
         app.add_option("--seed", seed, "of the faults' chance; the same seed gives the same faults")
             ->type_name("NUMBER");
@@ -87,9 +103,96 @@ struct PrinterArguments {
     options.usb = usb;
     options.faults = faults;
     options.fault_file = path_if(fault_file);
+    options.tanks = tanks;
     for (const CLI::Option* given : seed_given) {
       if (given && given->count() > 0) options.seed = seed;
     }
+  }
+};
+
+/// Of `tune transition`.
+struct TuneArguments {
+  TuneCommand command;
+  std::size_t from = 1, to = 2;  ///< counted from 1, as people do
+  std::string profile, output, port, machine, pictures;
+  CLI::App* app = nullptr;
+
+  void declare(CLI::App& parent) {
+    app = parent.add_subcommand("transition", "find dead and mixing volume, and write them into the profile");
+    declare_strip();
+    declare_ways();
+    declare_reading();
+    app->footer(
+        "Examples:\n  unicursal tune transition diamond.toml --port auto\n"
+        "  unicursal tune transition diamond.toml -o strip.gcode      print that, then:\n"
+        "  unicursal tune transition diamond.toml --began 31 --half 45 --stopped 73\n\n"
+        "The strip is one bead in which the mixture changes at tick 0. Three lines below it show how it "
+        "looks\n"
+        "when 5, 50 and 95 % of the change have come: the questions are where the bead looks like them. The\n"
+        "profile changes only when you say yes, and then only its two numbers. Two strong colours are read "
+        "best;\n"
+        "in a dark one a trace of a light one can hardly be seen.");
+  }
+
+  void declare_strip() {
+    app->add_option("profile", profile, "the printer's profile, a TOML file")
+        ->required()
+        ->type_name("PROFILE");
+    app->add_option("--from", from, "feeder of the first colour, counted from 1")->check(CLI::Range(1, 3));
+    app->add_option("--to", to, "feeder that it changes to")->check(CLI::Range(1, 3));
+    app->add_option("--range", command.range,
+                    "mm³ of transition that the strip can show; 60, or as much as the bed holds, if left out")
+        ->check(finite_number(1, 1000))
+        ->type_name("MM3");
+  }
+
+  void declare_ways() {
+    CLI::Option* port_option =
+        app->add_option("--port", port, "print it: serial port, or auto")->type_name("PORT");
+    app->add_option("-o,--output", output, "write it as a G-code file")->type_name("FILE");
+    CLI::Option* simulate =
+        app->add_flag("--simulate", command.simulate, "print it on the simulated printer");
+    simulate->excludes(port_option);
+    app->add_option("--machine", machine, "profile with the simulated printer's true volumes")
+        ->needs(simulate)
+        ->type_name("FILE");
+    declare_tanks(*app, command.tanks);
+    app->add_option("--picture", pictures,
+                    "folder for the picture of the simulated strip; transition-strip if left out")
+        ->needs(simulate)
+        ->type_name("DIR");
+    app->add_flag("--read-simulated", command.read_simulated, "read the simulated strip instead of asking")
+        ->needs(simulate);
+  }
+
+  void declare_reading() {
+    const auto tick = finite_number(0, 1e6);
+    CLI::Option* began =
+        app->add_option("--began", command.began, "tick where the bead looks like the line 5")
+            ->check(tick)
+            ->type_name("TICK");
+    CLI::Option* stopped =
+        app->add_option("--stopped", command.stopped, "tick where it looks like the line 95")
+            ->check(tick)
+            ->type_name("TICK");
+    app->add_option("--half", command.half, "tick where it looks like the line 50; makes the result finer")
+        ->check(tick)
+        ->needs(began)
+        ->type_name("TICK");
+    began->needs(stopped);
+    stopped->needs(began);
+    app->add_flag("--yes", command.yes, "write into the profile without asking");
+  }
+
+  TuneCommand finished() const {
+    TuneCommand result = command;
+    result.profile = profile;
+    result.feeders = {from - 1, to - 1};
+    result.output = path_if(output);
+    if (!port.empty()) result.port = port;
+    result.machine = path_if(machine);
+    result.pictures = path_if(pictures);
+    return result;
   }
 };
 
@@ -114,6 +217,7 @@ class CommandLine {
     declare_curve();
     declare_simulate();
     declare_doctor();
+    declare_tune();
     command("ports", "list the serial ports that a printer may hang on", "unicursal ports");
   }
 
@@ -129,6 +233,7 @@ class CommandLine {
     if (name == "doctor") return doctor(doctor_command());
     if (name == "curve") return curve(curve_command());
     if (name == "simulate") return simulate(simulate_command());
+    if (name == "tune") return tune(tune_.finished());
     return ports();
   }
 
@@ -249,6 +354,13 @@ class CommandLine {
     app->add_option("-o,--output", outputs_, ".txt (x y width), .svg or .png; may be given several times")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was measured as JSON")->type_name("FILE");
+    app->add_option("--picture", job_.pictures,
+                    "write a picture of each stage into this folder, from 1-field.png to 6-width.png")
+        ->type_name("DIR");
+    app->add_option("--threads", job_.threads,
+                    "that share the island, 1 by default; any number gives the same bytes")
+        ->check(finite_number(1, most_threads))
+        ->type_name("N");
     app->add_option("--preset", preset_, "weights of the optimisers: best (the default) or paper")
         ->check(CLI::IsMember({"best", "paper"}));
     app->add_option("--quality", quality_, "how long the optimisers run; 1 is the default, more is better")
@@ -295,6 +407,13 @@ class CommandLine {
         fault_footer());
   }
 
+  void declare_tune() {
+    CLI::App* app = command("tune", "print and read what a profile has to know",
+                            "unicursal tune transition diamond.toml");
+    app->require_subcommand(1);
+    tune_.declare(*app);
+  }
+
   CurveCommand curve_command() const {
     CurveCommand command;
     command.job = job_.job;
@@ -302,6 +421,8 @@ class CommandLine {
     command.layer = layer_;
     command.island = island_;
     command.report = path_if(job_.report);
+    command.pictures = path_if(job_.pictures);
+    command.threads = std::max(static_cast<int>(job_.threads), 1);
     command.outputs.assign(outputs_.begin(), outputs_.end());
     command.preset = preset_ == "paper" ? core::Preset::paper : core::Preset::best;
     command.quality = quality_;
@@ -347,6 +468,7 @@ class CommandLine {
                 "unicursal"};
   JobArguments job_;
   PrinterArguments printer_;
+  TuneArguments tune_;
   double speed_ = 0, charge_ = 0, baud_ = 250000;
   CLI::Option *baud_given_ = nullptr, *doctor_baud_given_ = nullptr;
   bool json_ = false;

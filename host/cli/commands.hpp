@@ -12,6 +12,7 @@
 #include "host/cli/cli.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
+#include "host/tune/strip_print.hpp"
 #include "sim/simulator.hpp"
 
 namespace unicursal::host {
@@ -22,6 +23,7 @@ struct JobOptions {
   std::optional<std::filesystem::path> profile;
   std::optional<LayerRange> layers;
   RunOutputs outputs;
+  std::size_t threads = 0;  ///< that plan; 0: one for each core
 };
 
 struct PlanCommand {
@@ -67,6 +69,8 @@ struct CurveCommand {
   std::size_t island = 0;  ///< 0: the largest
   std::vector<std::filesystem::path> outputs;
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> pictures;  ///< folder, for one of each stage
+  int threads = 1;                                ///< that share the island
   core::Preset preset = core::Preset::best;
   double quality = 1;                           ///< how long the optimisers run
   std::optional<double> budget;                 ///< s of planning; what there is then is finished
@@ -79,12 +83,28 @@ struct SimulateCommand {
   std::optional<double> baud;                    ///< bits/s; absent: the profile's
 };
 
+struct TuneCommand {
+  std::filesystem::path profile;
+  StripFeeders feeders;
+  std::optional<double> range;                  ///< mm³ that the strip holds
+  std::optional<std::filesystem::path> output;  ///< G-code
+  std::optional<std::string> port;
+  bool simulate = false;
+  std::optional<std::filesystem::path> machine;   ///< the simulated printer's profile
+  std::size_t tanks = 2;                          ///< of the simulated nozzle
+  std::optional<std::filesystem::path> pictures;  ///< folder
+  bool read_simulated = false;                    ///< off the raster instead of asking
+  std::optional<double> began, half, stopped;     ///< ticks
+  bool yes = false;                               ///< write without asking
+};
+
 Exit plan(const PlanCommand& command);
 Exit dry_run(const DryRunCommand& command);
 Exit print(const PrintCommand& command);
 Exit resume(const ResumeCommand& command);
 Exit curve(const CurveCommand& command);
 Exit simulate(SimulateCommand command);
+Exit tune(const TuneCommand& command);
 /// Throws core::DataError for a printer that cannot be simulated.
 void check_simulator(const sim::SimulatorOptions& options);
 Exit ports();

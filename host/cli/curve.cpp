@@ -9,6 +9,9 @@
 #include "host/cli/show.hpp"
 #include "host/cli/words.hpp"
 #include "host/report/curve_file.hpp"
+#include "host/report/picture_writer.hpp"
+#include "host/report/stage_pictures.hpp"
+#include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -36,13 +39,14 @@ core::Effort effort_in(const std::filesystem::path& file) {
 void apply(const CurveCommand& command, core::PlanOptions& options) {
   options.preset = command.preset;
   options.quality = command.quality;
+  options.threads = command.threads;
   if (command.replay) options.recorded = effort_in(*command.replay);
   if (!command.budget) return;
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(*command.budget);
   options.enough = [end] { return std::chrono::steady_clock::now() >= end; };
 }
 
-PlannedLayer plan_one(const PreparedJob& prepared, const CurveCommand& command) {
+PlannedLayer plan_one(const PreparedJob& prepared, const CurveCommand& command, core::Stages* stages) {
   const std::size_t island = command.island;
   PlannedLayer planned;
   planned.layer = prepared.part->layer(prepared.first);
@@ -56,6 +60,7 @@ PlannedLayer plan_one(const PreparedJob& prepared, const CurveCommand& command) 
   core::PlanOptions options = lookahead_options(prepared).plan;
   options.seed = island_seed(options.seed, planned.layer.index, island);
   apply(command, options);
+  options.stages = stages;
   planned.plans.push_back(prepared.planner->plan(islands[island], planned.layer.z, options));
   islands = {core::Island(islands[island])};
   return planned;
@@ -85,12 +90,19 @@ Exit curve(const CurveCommand& command) {
   const JobOptions options{
       command.job, command.profile, LayerRange{command.layer, command.layer}, {command.report, {}}};
   const PreparedJob prepared = prepare_and_warn(options, command.outputs);
-  const PlannedLayer planned = plan_one(prepared, command);
+  if (command.pictures) make_picture_folder(*command.pictures);
+  core::Stages stages;
+  const PlannedLayer planned = plan_one(prepared, command, command.pictures ? &stages : nullptr);
   for (const std::filesystem::path& file : command.outputs) write_curve(file, planned, curve_style(prepared));
+  if (command.pictures) {
+    const IslandStory story{planned.layer.islands.front(), stages, planned.plans.front()};
+    write_stage_pictures(*command.pictures, story, curve_style(prepared));
+  }
   if (command.report) write_json(*command.report, curve_report(command, prepared, planned));
   const Figures figures = measure(planned);
   show(stdout, "{} vertices, {:.1f} mm of curve {:.3f} mm apart over {:.2f} mm²\n", figures.vertices,
        figures.length, figures.mean_spacing(), figures.area);
+  show(stdout, "{}", odd_widths(figures));
   if (figures.curves == 0) show(stdout, "too thin, {:.2f} mm² not filled\n", figures.unfilled_area);
   return Exit::success;
 }

@@ -23,7 +23,8 @@ std::vector<std::string> simulator_arguments(const DryRunCommand& command, const
                                         "--speed",       fmt::format("{}", printer.speed),
                                         "--baud",        fmt::format("{}", prepared.job.profile.baud),
                                         "--personality", printer.personality,
-                                        "--usb",         printer.usb};
+                                        "--usb",         printer.usb,
+                                        "--tanks",       fmt::format("{}", printer.tanks)};
   for (const std::string& fault : printer.faults) arguments.insert(arguments.end(), {"--fault", fault});
   if (printer.fault_file) arguments.insert(arguments.end(), {"--faults", printer.fault_file->string()});
   if (printer.seed) arguments.insert(arguments.end(), {"--seed", fmt::format("{}", *printer.seed)});

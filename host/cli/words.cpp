@@ -82,6 +82,15 @@ std::string tame(const std::string& message) {
   return text;
 }
 
+StreamListeners listeners_for(Progress& progress) {
+  StreamListeners listeners;
+  listeners.progress = [&](std::size_t layers, double fraction) { progress.update(layers, fraction); };
+  listeners.message = [&](const std::string& message) {
+    if (worth_showing(message)) progress.say(tame(message));
+  };
+  return listeners;
+}
+
 }  // namespace
 
 void check_outputs(std::vector<fs::path> inputs, const std::vector<fs::path>& outputs) {
@@ -113,6 +122,7 @@ LayerRange parse_layers(const std::string& text) {
 
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more) {
   PreparedJob prepared = prepare(load_job(options.job, options.profile), options.layers);
+  prepared.threads = options.threads;
   std::vector<fs::path> outputs = more;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
   check_outputs(inputs_of(prepared.job), outputs);
@@ -196,12 +206,13 @@ nlohmann::json link_json(const StreamResult& result) {
 StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const std::string& what,
                                   const StreamSettings& settings) {
   Progress progress(what, run.prepared().count);
-  StreamListeners listeners;
-  listeners.progress = [&](std::size_t layers, double fraction) { progress.update(layers, fraction); };
-  listeners.message = [&](const std::string& message) {
-    if (worth_showing(message)) progress.say(tame(message));
-  };
-  return stream(port, lookahead, run, listeners, settings);
+  return stream(port, lookahead, run, listeners_for(progress), settings);
+}
+
+StreamResult stream_with_progress(int port, const FinishedPrint& print, const std::string& what,
+                                  const StreamSettings& settings) {
+  Progress progress(what, print.body.size());
+  return stream(port, print, listeners_for(progress), settings);
 }
 
 }  // namespace unicursal::host

@@ -42,5 +42,7 @@ nlohmann::json link_json(const StreamResult& result);
 /// Streams with a progress line; what the printer complains about is shown above it.
 StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const std::string& what,
                                   const StreamSettings& settings = {});
+StreamResult stream_with_progress(int port, const FinishedPrint& print, const std::string& what,
+                                  const StreamSettings& settings = {});
 
 }  // namespace unicursal::host

@@ -106,7 +106,9 @@ LookaheadOptions lookahead_options(const PreparedJob& prepared) {
   options.plan.perimeters = prepared.job.perimeters;
   options.plan.seed_distance = prepared.job.seed_distance;
   options.plan.min_bead_width = prepared.job.profile.printer.bead_width_range[0];
+  options.plan.max_bead_width = prepared.job.profile.printer.bead_width_range[1];
   options.planner = prepared.planner;
+  options.threads = prepared.threads;
   options.first = prepared.first;
   options.count = prepared.count;
   return options;

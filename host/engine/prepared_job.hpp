@@ -27,6 +27,7 @@ struct PreparedJob {
   core::Vec2 offset{0, 0};                             ///< from the part's frame to the bed's
   std::size_t first = 0;                               ///< index of the first layer to print
   std::size_t count = 0;                               ///< how many
+  std::size_t threads = 0;                             ///< that plan; 0: one for each core
   double lowered = 0;  ///< by how much the layers come down, so that the first one lies on the bed
 };
 

@@ -63,17 +63,80 @@ SpooledChunk spooled(const PlannedLayer& planned, const PreparedJob& prepared) {
   return chunk;
 }
 
+/// A stretch of the print and what planning it has cost, in s of this computer's processors.
+struct Piece {
+  gcode::Chunk chunk;
+  double cpu_seconds = 0;
+  SpooledChunk record;  ///< what a spool keeps of it, if there is one; the lines are still missing
+};
+
+/// What there is to print, piece by piece. All of it is called on the loop's thread.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual const gcode::Chunk& start() = 0;
+  virtual asio::awaitable<std::optional<Piece>> next() = 0;
+  virtual gcode::Chunk finish() = 0;
+  /// No further piece is needed.
+  virtual void cancel() = 0;
+  /// The computer that plans it, `charge` times slower.
+  virtual SlowComputer computer(double charge) const = 0;
+};
+
+class PlannedSource final : public Source {
+ public:
+  PlannedSource(Lookahead& lookahead, Run& run, bool spooling)
+      : lookahead_(lookahead), run_(run), spooling_(spooling) {}
+
+  const gcode::Chunk& start() override { return run_.start(); }
+  asio::awaitable<std::optional<Piece>> next() override {
+    std::optional<PlannedLayer> layer = co_await lookahead_.next();
+    if (!layer) co_return std::nullopt;
+    Piece piece;
+    piece.cpu_seconds = layer->cpu_seconds;
+    if (spooling_) piece.record = spooled(*layer, run_.prepared());
+    piece.chunk = run_.layer(std::move(*layer));
+    co_return piece;
+  }
+  gcode::Chunk finish() override { return run_.finish(); }
+  void cancel() override { lookahead_.cancel(); }
+  SlowComputer computer(double charge) const override {
+    return {charge, lookahead_.threads(), lookahead_.ahead()};
+  }
+
+ private:
+  Lookahead& lookahead_;
+  Run& run_;
+  const bool spooling_;
+};
+
+class FinishedSource final : public Source {
+ public:
+  explicit FinishedSource(const FinishedPrint& print) : print_(print) {}
+
+  const gcode::Chunk& start() override { return print_.start; }
+  asio::awaitable<std::optional<Piece>> next() override {
+    if (taken_ == print_.body.size()) co_return std::nullopt;
+    co_return Piece{print_.body[taken_++], 0, {}};
+  }
+  gcode::Chunk finish() override { return print_.finish; }
+  void cancel() override { taken_ = print_.body.size(); }
+  SlowComputer computer(double) const override { return {0, 1, 1}; }
+
+ private:
+  const FinishedPrint& print_;
+  std::size_t taken_ = 0;
+};
+
 class Stream {
  public:
-  Stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
-         const StreamSettings& settings)
-      : lookahead_(lookahead),
-        run_(run),
+  Stream(int port, Source& source, const StreamListeners& listeners, const StreamSettings& settings)
+      : source_(source),
         listeners_(listeners),
         spool_(settings.spool),
         continuation_(settings.continuation),
         clock_(settings.clock),
-        computer_(settings.charge, lookahead.threads(), lookahead.ahead()),
+        computer_(source.computer(settings.charge)),
         signals_(loop_, SIGINT, SIGTERM),
         sleep_(loop_.get_executor(), clock_),
         link_(loop_.get_executor(), port, options(settings)) {
@@ -130,7 +193,7 @@ class Stream {
   void stop() {
     stopped_ = true;
     sleep_.notify();
-    lookahead_.cancel();
+    source_.cancel();
     if (heating_) link_.cool_down();
     listeners_.message(heating_ ? "stopping: heating ends; once more stops the printer at once"
                                 : "stopping: the printer is parked and cooled; once more stops it at once");
@@ -155,7 +218,7 @@ class Stream {
     try {
       if (continuation_) co_await send_spooled();
       if (!continuation_ || spool_->extent().start_lines == 0) co_await start();
-      co_await send_layers();
+      co_await send_pieces();
     } catch (const LinkError&) {
       throw;
     } catch (...) {
@@ -235,7 +298,7 @@ class Stream {
 
   asio::awaitable<void> start() {
     if (stopped_) co_return;
-    gcode::Chunk chunk = run_.start();
+    gcode::Chunk chunk = source_.start();
     if (!co_await keep({}, chunk)) co_return;
     heating_ = true;
     co_await send(chunk, 0);
@@ -248,15 +311,12 @@ class Stream {
     heating_ = false;
   }
 
-  asio::awaitable<void> send_layers() {
-    for (std::size_t done = continuation_ ? spool_->extent().layers : 0; !stopped_; ++done) {
-      std::optional<PlannedLayer> layer = co_await next_layer();
-      if (!layer) break;
-      SpooledChunk record;
-      if (spool_) record = spooled(*layer, run_.prepared());
-      gcode::Chunk chunk = run_.layer(std::move(*layer));
-      if (!co_await keep(std::move(record), chunk)) break;
-      co_await send(chunk, done);
+  asio::awaitable<void> send_pieces() {
+    if (continuation_) sent_ = spool_->extent().layers;
+    while (!stopped_) {
+      std::optional<Piece> piece = co_await next_piece();
+      if (!piece || !co_await keep(std::move(piece->record), piece->chunk)) break;
+      co_await send(piece->chunk, sent_++);
     }
   }
 
@@ -267,7 +327,7 @@ class Stream {
     }
     gcode::Chunk chunk;
     try {
-      chunk = run_.finish();
+      chunk = source_.finish();
     } catch (...) {
       link_.cool_down();
       throw;
@@ -277,7 +337,7 @@ class Stream {
     if (!co_await keep(std::move(record), chunk)) co_return co_await send_last(chunk);
     parked_ = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
     finishing_ = true;
-    co_await send(chunk, run_.totals().layers);
+    co_await send(chunk, sent_);
     co_await link_.drain();
     note_progress();
   }
@@ -290,7 +350,7 @@ class Stream {
       if (homeless_)
         chunk.lines = {"M104 S0", "M140 S0", "M107"};
       else
-        chunk = run_.finish();
+        chunk = source_.finish();
     } catch (...) {
       link_.cool_down();
       throw;
@@ -304,26 +364,26 @@ class Stream {
     if (spool_) spool_->journal().park(chunk.lines);
     parking_ = finishing_ = true;
     parked_ = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
-    co_await send(chunk, run_.totals().layers);
+    co_await send(chunk, sent_);
     co_await link_.drain();
   }
 
   /// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile,
   /// and what is charged for planning passes afterwards.
-  asio::awaitable<std::optional<PlannedLayer>> next_layer() {
+  asio::awaitable<std::optional<Piece>> next_piece() {
     const TimePoint asked = clock_->now();
-    std::optional<PlannedLayer> layer;
+    std::optional<Piece> piece;
     {
       const Clock::Hold hold(*clock_);
-      layer = co_await lookahead_.next();
+      piece = co_await source_.next();
     }
-    if (layer) {
-      const double ready = computer_.ready(layer->cpu_seconds, seconds(clock_->now() - started_));
+    if (piece) {
+      const double ready = computer_.ready(piece->cpu_seconds, seconds(clock_->now() - started_));
       const std::function<bool()> stopped = [this] { return stopped_; };
       co_await sleep_.wait(started_ + duration(ready), stopped);
     }
     waited_ += seconds(clock_->now() - asked);
-    co_return layer;
+    co_return piece;
   }
 
   static double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -335,9 +395,9 @@ class Stream {
     std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
   }
 
-  asio::awaitable<void> send(const gcode::Chunk& chunk, std::size_t layers_done) {
+  asio::awaitable<void> send(const gcode::Chunk& chunk, std::size_t pieces_done) {
     for (std::size_t i = 0; i < chunk.lines.size() && (finishing_ || !stopped_); i += batch) {
-      listeners_.progress(layers_done, static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
+      listeners_.progress(pieces_done, static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
       const std::size_t end = std::min(i + batch, chunk.lines.size());
       co_await hand({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                      chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -401,8 +461,7 @@ class Stream {
 
   asio::io_context loop_{1};
   asio::thread_pool disk_{1};
-  Lookahead& lookahead_;
-  Run& run_;
+  Source& source_;
   const StreamListeners& listeners_;
   Spool* const spool_;
   const std::optional<Continuation> continuation_;
@@ -424,7 +483,8 @@ class Stream {
   bool heating_ = false;  ///< the start is under way
   bool parked_ = false;
   bool homeless_ = false;  ///< the printer does not know where its nozzle is: it must not move
-  double waited_ = 0;      ///< s for layers
+  std::size_t sent_ = 0;   ///< pieces begun
+  double waited_ = 0;      ///< s for pieces
   std::optional<Lost> lost_;
 };
 
@@ -432,7 +492,14 @@ class Stream {
 
 StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
                     const StreamSettings& settings) {
-  return Stream(port, lookahead, run, listeners, settings)();
+  PlannedSource source(lookahead, run, settings.spool != nullptr);
+  return Stream(port, source, listeners, settings)();
+}
+
+StreamResult stream(int port, const FinishedPrint& print, const StreamListeners& listeners,
+                    const StreamSettings& settings) {
+  FinishedSource source(print);
+  return Stream(port, source, listeners, settings)();
 }
 
 }  // namespace unicursal::host

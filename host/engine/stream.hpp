@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "host/engine/run.hpp"
 #include "host/link/link.hpp"
@@ -66,11 +67,21 @@ struct StreamListeners {
   std::function<void(const std::string&)> message;  ///< what the printer says, and what happens
 };
 
+/// A print that needs no planning any more.
+struct FinishedPrint {
+  gcode::Chunk start;              ///< heats; what is sent first
+  std::vector<gcode::Chunk> body;  ///< in order
+  gcode::Chunk finish;             ///< parks and cools, wherever the printer has stopped in what was sent
+};
+
 /// Sends a whole print to the port, whose descriptor it takes over; blocks until every line is acknowledged.
 /// SIGINT or SIGTERM once parks and cools, twice stops at once. SIGHUP, which a closed terminal may send
 /// twice, counts as one of them at most, and not at all where it is ignored (nohup). Whatever goes wrong is
 /// told in the result, since a report is due then as well. When the spool's disk is full, the print waits.
 StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
+                    const StreamSettings& settings = {});
+/// The same; progress counts chunks of the body instead of layers.
+StreamResult stream(int port, const FinishedPrint& print, const StreamListeners& listeners,
                     const StreamSettings& settings = {});
 
 }  // namespace unicursal::host

@@ -6,6 +6,7 @@
 #include "core/picture/image.hpp"
 #include "firmware_gcode/toolpath/encoder.hpp"
 #include "host/lookahead/lookahead.hpp"
+#include "host/report/canvas.hpp"
 
 namespace unicursal::host {
 
@@ -19,6 +20,9 @@ struct CurveStyle {
   std::vector<picture::Colour> zone_colours;  ///< by Bead::zone
   double bead_width = 0.4;                    ///< mm; the line is drawn at some half of it
 };
+
+/// The closed line, each stretch in its zone's colour.
+void draw_path(Canvas& canvas, const core::BeadPath& path, const CurveStyle& style);
 
 /// Islands light with a thin outline, curves on top, y up.
 picture::Image draw_curves(const PlannedLayer& layer, const CurveStyle& style);

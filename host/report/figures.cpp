@@ -34,6 +34,8 @@ void add(Figures& sum, const core::PlannedCurve& curve) {
   ++sum.curves_by_perimeters[curve.perimeters];
   sum.split_and_reconnect += curve.split_and_reconnect;
   sum.doubled_edges += curve.doubled_edges;
+  sum.narrow_length += curve.narrow_length;
+  sum.wide_length += curve.wide_length;
   sum.farthest = std::max(sum.farthest, curve.farthest);
 }
 
@@ -83,6 +85,8 @@ Figures& operator+=(Figures& sum, const Figures& more) {
   sum.split_and_reconnect += more.split_and_reconnect;
   sum.doubled_edges += more.doubled_edges;
   sum.farthest = std::max(sum.farthest, more.farthest);
+  sum.narrow_length += more.narrow_length;
+  sum.wide_length += more.wide_length;
   sum.unfilled_area += more.unfilled_area;
   sum.far_area += more.far_area;
   add(sum.graph, more.graph);
@@ -106,6 +110,8 @@ nlohmann::json to_json(const Figures& f) {
       {"farthest_mm", f.farthest},
       {"unfilled_mm2", f.unfilled_area},
       {"far_mm2", f.far_area},
+      {"too_narrow_mm", f.narrow_length},
+      {"too_wide_mm", f.wide_length},
       {"objectives",
        {{"coverage", f.objectives.coverage},
         {"normalised_coverage", f.normalised_coverage()},

@@ -26,6 +26,8 @@ struct Figures {
   std::size_t doubled_edges = 0;
   double farthest = 0;       ///< the greatest
   double unfilled_area = 0;  ///< too thin for a bead
+  double narrow_length = 0;  ///< whose bead is narrower than the nozzle can lay
+  double wide_length = 0;    ///< whose bead is wider than the nozzle can lay
   double far_area = 0;       ///< farther than 1.2 bead widths from the curve
   core::StageTime graph, cycle, fairing, widths;
 

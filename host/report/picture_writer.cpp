@@ -6,14 +6,18 @@
 
 namespace unicursal::host {
 
-PictureWriter::PictureWriter(std::filesystem::path folder, CurveStyle style)
-    : folder_(std::move(folder)), style_(std::move(style)) {
+void make_picture_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error || !std::filesystem::is_directory(folder_)) {
-    throw core::FileError(folder_.string(), "", "is no folder that pictures can be written to",
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw core::FileError(folder.string(), "", "is no folder that pictures can be written to",
                           "name a folder in a place where you may write");
   }
+}
+
+PictureWriter::PictureWriter(std::filesystem::path folder, CurveStyle style)
+    : folder_(std::move(folder)), style_(std::move(style)) {
+  make_picture_folder(folder_);
 }
 
 void PictureWriter::draw(PlannedLayer layer) {

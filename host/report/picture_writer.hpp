@@ -10,6 +10,9 @@
 
 namespace unicursal::host {
 
+/// Throws core::FileError when there is no folder of that name and none can be made.
+void make_picture_folder(const std::filesystem::path& folder);
+
 class PictureWriter {
  public:
   /// Makes the folder. Throws core::FileError when that is not possible.

@@ -21,6 +21,14 @@ std::string duration_words(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
+std::string odd_widths(const Figures& f) {
+  if (!(f.narrow_length > 0 || f.wide_length > 0)) return "";
+  return fmt::format(
+      "widths:    {:.1f} mm of bead narrower and {:.1f} mm wider than the profile's "
+      "bead_width_range\n",
+      f.narrow_length, f.wide_length);
+}
+
 std::string summary(const RunTotals& totals, const PlanningEffort& planning) {
   const Figures& f = totals.figures;
   std::string text;
@@ -42,6 +50,7 @@ std::string summary(const RunTotals& totals, const PlanningEffort& planning) {
     fmt::format_to(out, "not filled: {:.2f} mm² too thin for a bead, {:.2f} mm² too far from one\n",
                    f.unfilled_area, f.far_area);
   }
+  text += odd_widths(f);
   return text;
 }
 

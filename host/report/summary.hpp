@@ -9,6 +9,9 @@
 
 namespace unicursal::host {
 
+/// A line on the beads outside of the profile's bead_width_range; empty if there are none.
+std::string odd_widths(const Figures& figures);
+
 /// "2 h 05 min", "3 min 20 s", "12.4 s"
 std::string duration_words(double seconds);
 

@@ -1,5 +1,6 @@
 #include "core/curve/fairing.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "core/curve/clearance.hpp"
@@ -109,6 +110,28 @@ TEST_CASE("respacing drops and halves without breaking anything") {
   const Curve fine = subdivided(spread);
   CHECK(fine.size() == 2 * spread.size());
   CHECK(fine.length() == Approx(spread.length()));
+}
+
+TEST_CASE("vertices that have fallen together are parted again, unless something lies between them") {
+  // A square of 4 mm whose lower side turns by a step of a hundredth of the spacing: next to no clearance.
+  const Polygon island = rectangle(10, 10);
+  const BorderIndex border(island, 1.0);
+  Curve curve{{{3, 3}, {5, 3}, {5.001, 3.006}, {7, 3.006}, {7, 7}, {3, 7}}};
+  for (double x = 6; x > 3.5; x -= 0.5) curve.vertices.push_back({3, x});
+  const Curve thin = thinned(curve, border, 2.5);
+  check_sound(thin, island);
+  for (std::size_t i = 0; i < thin.size(); ++i)
+    CHECK((thin.vertices[thin.after(i)] - thin.vertices[i]).norm() > 0.1);
+  // A thorn of the island's border in the corner that would be cut off.
+  Polygon thorned = island;
+  thorned.holes = {{{5.0004, 3.004}, {5.0004, 3.00401}, {5.00041, 3.004}}};
+  Curve around{
+      {{3, 3}, {5, 3}, {5.001, 3.006}, {4, 6}, {3.5, 6}, {3.4, 5}, {3.3, 4.5}, {3.2, 4}, {3.1, 3.5}}};
+  REQUIRE(segments_outside(around, BorderIndex(thorned, 1.0)) == 0);
+  const Curve kept = thinned(around, BorderIndex(thorned, 1.0), 2.5);
+  check_sound(kept, thorned);
+  for (const Vec2& corner : {Vec2(5, 3), Vec2(5.001, 3.006)})
+    CHECK(std::count(kept.vertices.begin(), kept.vertices.end(), corner) == 1);
 }
 
 TEST_CASE("fairing holds the length, stays inside and simple, and covers well") {

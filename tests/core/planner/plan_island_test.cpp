@@ -83,6 +83,114 @@ TEST_CASE("a neck too thin to pass makes two curves") {
   CHECK(plan.curves.size() == 2);
 }
 
+namespace {
+
+struct Neck {
+  double rounds = 0;    ///< length of the curve in the neck ÷ length of the neck
+  double width = 0;     ///< mean, mm, of the beads there
+  double narrow = 0;    ///< mm of all that was planned
+  double unfilled = 0;  ///< mm²
+  std::size_t curves = 0;
+};
+
+/// Two plates of 6 × 6 mm with a neck of 5 mm between them.
+Neck plan_neck(double width, double w) {
+  const Polygon left = rectangle(6, 6);
+  const Polygon right{{{11, 0}, {17, 0}, {17, 6}, {11, 6}}, {}};
+  const Polygon bridge{{{5, 3 - width / 2}, {12, 3 - width / 2}, {12, 3 + width / 2}, {5, 3 + width / 2}},
+                       {}};
+  const Region island = unite({left, right}, {bridge});
+  const IslandPlan plan = plan_island(whole(island.front()), one_zone(), options_for(w));
+  check_plan(plan, island.front(), w);
+  Neck neck;
+  neck.unfilled = plan.unfilled_area;
+  neck.curves = plan.curves.size();
+  double length = 0, filled = 0;
+  for (const PlannedCurve& curve : plan.curves) {
+    neck.narrow += curve.narrow_length;
+    for (std::size_t i = 0; i < curve.path.size(); ++i) {
+      const double x = (curve.path.start(i).x() + curve.path.end(i).x()) / 2;
+      if (x < 6.5 || x > 10.5) continue;
+      length += curve.path.length(i);
+      filled += curve.path.beads[i].area;
+    }
+  }
+  neck.rounds = length / 4;
+  neck.width = length > 0 ? filled / length : 0;
+  return neck;
+}
+
+}  // namespace
+
+TEST_CASE("a neck is passed there and back with half its width; what cannot be laid is told") {
+  const double w = 0.5;  // at least 0.55 w can be laid
+  const double width = GENERATE(0.5, 0.8, 1.0, 1.5, 2.0);
+  const Neck neck = plan_neck(width * w, w);
+  INFO(width << " bead widths");
+  if (width < 0.55) {
+    CHECK(neck.curves == 2);
+    CHECK(neck.unfilled == Approx(5 * width * w).epsilon(0.05));
+    return;
+  }
+  CHECK(neck.curves == 1);
+  CHECK(neck.unfilled == Approx(0).margin(1e-6));
+  CHECK(neck.rounds == Approx(2).margin(0.15));
+  CHECK(neck.width == Approx(width * w / 2).epsilon(0.08));
+  if (width < 1.1) CHECK(neck.narrow == Approx(10).margin(1.5));  // the neck, both ways
+  if (width > 1.1) CHECK(neck.narrow < 1);
+}
+
+TEST_CASE("a ring of one bead is passed once, and nothing of it is too narrow") {
+  const double w = 0.5;
+  const Polygon ring{circle({0, 0}, 8.25, 200), {circle({0, 0}, 7.75, 200, false)}};
+  const IslandPlan plan = plan_island(whole(ring), one_zone(), options_for(w));
+  check_plan(plan, ring, w);
+  REQUIRE(plan.curves.size() == 1);
+  CHECK(plan.curves.front().path.total_length() == Approx(16 * 3.1416).epsilon(0.02));
+  CHECK(plan.curves.front().narrow_length == 0);
+}
+
+TEST_CASE("beads wider than the nozzle lays are told") {
+  // A square of 1.6 bead widths is one small loop.
+  const Polygon square = rectangle(0.8, 0.8);
+  PlanOptions options = options_for(0.5);
+  CHECK(plan_island(whole(square), one_zone(), options).curves.front().wide_length == 0);
+  options.max_bead_width = 0.3;
+  const PlannedCurve curve = plan_island(whole(square), one_zone(), options).curves.front();
+  CHECK(curve.wide_length == Approx(curve.path.total_length()));
+}
+
+TEST_CASE("the longer planning may go on, the better the curve; stopped at once it is faired all the same") {
+  const Polygon square = rectangle(14, 14);
+  const double w = 0.7;
+  double last = 0.1;  // unfaired it is 0.107 and more
+  for (const int steps : {0, 200, 400, 430, 500}) {
+    double coverage = 0;
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      PlanOptions options = options_for(w, seed);
+      int left = steps;
+      options.enough = [&left] { return left-- <= 0; };
+      const IslandPlan plan = plan_island(whole(square), one_zone(), options);
+      check_plan(plan, square, w);
+      coverage += plan.curves.front().objectives.normalised_coverage / 3;
+      const BeadPath& path = plan.curves.front().path;
+      CHECK(path.total_length() == Approx(area(square) / w).epsilon(0.02));
+      // What was really spent gives the same again.
+      options.enough = {};
+      options.recorded = plan.effort;
+      if (seed == 1 && steps == 0) {
+        const IslandPlan again = plan_island(whole(square), one_zone(), options);
+        REQUIRE(again.curves.front().path.size() == path.size());
+        CHECK(again.curves.front().path.beads[7].position == path.beads[7].position);
+        CHECK(again.effort == plan.effort);
+      }
+    }
+    INFO(steps << " steps");
+    CHECK(coverage < last + 1e-4);
+    last = coverage;
+  }
+}
+
 TEST_CASE("thin branches do not starve: the curve reaches their ends") {
   // A plus of arms 0.7 mm wide, beads of 0.5 mm.
   const Region plus = unite({{{{-10, -0.35}, {10, -0.35}, {10, 0.35}, {-10, 0.35}}, {}}},

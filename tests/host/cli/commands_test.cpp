@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
@@ -38,6 +39,17 @@ bool is_png(const std::filesystem::path& file) {
   return bytes.rfind("\x89PNG\r\n\x1a\n", 0) == 0 && bytes.find("IEND") != std::string::npos;
 }
 
+/// Width and height, pixels.
+std::pair<unsigned, unsigned> png_size(const std::filesystem::path& file) {
+  const std::string bytes = test::read_text(file);
+  const auto number = [&](std::size_t at) {
+    unsigned value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(i));
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
 /// A simulator names its profile, which lies in the test's own folder.
 bool simulator_runs_on(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -50,7 +62,7 @@ bool simulator_runs_on(const std::string& folder) {
 
 TEST_CASE("Help and version are answers, not errors") {
   CHECK(run({"--version"}).out == "unicursal 0.1.0\n");
-  for (const char* command : {"dry-run", "plan", "print", "curve", "simulate", "ports"}) {
+  for (const char* command : {"dry-run", "plan", "print", "curve", "simulate", "tune", "ports"}) {
     const Outcome outcome = run({command, "--help"});
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("Example:\n  unicursal " + std::string(command)) != std::string::npos);
@@ -169,6 +181,46 @@ TEST_CASE("A curve's three files and its report belong together") {
   CHECK(area == Approx(report["island_area_mm2"].get<double>()).epsilon(1e-9));
   CHECK(is_png(shop.folder / "c.png"));
   CHECK(test::read_text(shop.path("c.svg")).find("</svg>") != std::string::npos);
+}
+
+TEST_CASE("A curve's stages are six pictures of one size, and the bytes do not depend on the threads") {
+  const Workshop shop;
+  const std::string pictures = shop.path("stages");
+  const Outcome outcome = run({"curve", shop.job, "--picture", pictures, "-o", shop.path("1.txt")});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  std::set<std::string> contents;
+  for (const char* name : {"1-field.png", "2-graph.png", "3-first-cycle.png", "4-optimised-cycle.png",
+                           "5-curve.png", "6-width.png"}) {
+    INFO(name);
+    const std::filesystem::path file = std::filesystem::path(pictures) / name;
+    REQUIRE(is_png(file));
+    // 14 pixels a bead of 1 mm and a margin of 8 around the plate of 20 × 16 mm; 34 for the caption.
+    CHECK(png_size(file) == std::pair<unsigned, unsigned>(420, 16 * 14 + 16 + 34));
+    contents.insert(test::read_text(file));
+  }
+  CHECK(contents.size() == 6);
+  REQUIRE(run({"curve", shop.job, "--threads", "3", "-o", shop.path("3.txt")}).code == 0);
+  CHECK(test::read_text(shop.path("3.txt")) == test::read_text(shop.path("1.txt")));
+  // A file in the way of the folder.
+  const Outcome refused = run({"curve", shop.job, "--picture", shop.job});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find(shop.job) != std::string::npos);
+}
+
+TEST_CASE("Any number of threads plans the same bytes, and a number it must be") {
+  const Workshop shop;
+  REQUIRE(
+      run({"plan", shop.job, "--threads", "1", "-o", shop.path("1.gcode"), "--report", shop.path("r.json")})
+          .code == 0);
+  REQUIRE(run({"plan", shop.job, "--threads", "3", "-o", shop.path("3.gcode")}).code == 0);
+  CHECK(test::read_text(shop.path("3.gcode")) == test::read_text(shop.path("1.gcode")));
+  CHECK(read_json(shop.path("r.json"))["planning"]["threads"] == 1);
+  for (const char* number : {"0", "-1", "two", "1e9"}) {
+    const Outcome outcome = run({"plan", shop.job, "--threads", number, "-o", shop.path("x.gcode")});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("--threads") != std::string::npos);
+  }
 }
 
 TEST_CASE("A simulator that stands alone takes a print, more than one process away") {

@@ -78,7 +78,8 @@ class Bench {
     Seen seen;
     std::istringstream transcript(test::read_text(path("t.txt")));
     for (std::string line; std::getline(transcript, line);) {
-      const bool question = line == "M115" || line == "M105" || line == "M114" || line.rfind("M110", 0) == 0;
+      const bool question = line == "M115" || line == "M105" || line == "M114" ||
+                            line.rfind("M155", 0) == 0 || line.rfind("M110", 0) == 0;
       if (!question) seen.lines.push_back(line);
     }
     seen.report = json::parse(test::read_text(path("seen.json")));
@@ -227,6 +228,32 @@ TEST_CASE("after a reset the print goes on at the last place that is certain, if
   CHECK(run_before - again <= 20 + 16);
   // Every layer is as high as it was to be: z was found again.
   REQUIRE(seen.report["layers"].size() == whole.report["layers"].size());
+  CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
+}
+
+TEST_CASE("a stop while a lost printer heats again moves nothing, and the print can still go on") {
+  const Seen whole = undisturbed(0).seen;
+  Bench bench(50, {"--fault", "reset@line=700"});
+  REQUIRE(test::run(bench.print()).code == 1);
+  auto arguments = bench.resume();
+  arguments.push_back("--yes");
+  Child child(arguments);
+  const auto heating = [&] {
+    const host::JournalState state = host::read_journal(bench.print_folder() / "journal");
+    return state.legs == 2 && state.handed > 0;
+  };
+  Bench::wait_for(heating, child);
+  kill(child.id(), SIGINT);
+  const Outcome stopped = child.wait();
+  INFO(stopped.out << stopped.err);
+  REQUIRE(stopped.code == 1);
+  CHECK(stopped.out.find("parked and cooling") == std::string::npos);
+  const Outcome resumed = bench.resume_anyway();
+  INFO(resumed.out << resumed.err);
+  REQUIRE(resumed.code == 0);
+  const Seen seen = bench.seen();
+  CHECK(std::count(seen.lines.begin(), seen.lines.end(), "G28 X Y") == 1);
+  CHECK(ends_like(seen.lines, whole.lines, 750));
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 

@@ -21,8 +21,9 @@ struct Outcome {
 
 class Child {
  public:
-  /// `error_file`: where standard error goes instead of err().
-  explicit Child(const std::vector<std::string>& arguments, const std::string& error_file = {}) {
+  /// `error_file`: where standard error goes instead of err(). `input_file`: what it reads.
+  explicit Child(const std::vector<std::string>& arguments, const std::string& error_file = {},
+                 const std::string& input_file = "/dev/null") {
     std::vector<char*> pointers;
     std::vector<std::string> all = {UNICURSAL_PROGRAM};
     all.insert(all.end(), arguments.begin(), arguments.end());
@@ -33,6 +34,7 @@ class Child {
     if (id_ < 0) throw std::runtime_error("no child process");
     if (id_ == 0) {
       setenv("XDG_STATE_HOME", folder_.path().c_str(), 1);  // prints of tests are kept where tests end
+      dup2(open(input_file.c_str(), O_RDONLY), STDIN_FILENO);
       dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), STDOUT_FILENO);
       dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
       execv(pointers[0], pointers.data());

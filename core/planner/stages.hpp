@@ -1,0 +1,44 @@
+// What the stages of one island leave behind (paper, Figure 2), as points and lines to be drawn. mm, radians.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/geometry/polygon.hpp"
+
+namespace unicursal::core {
+
+class DirectionField;
+struct CellGraph;
+
+/// A straight or bent line from one end to the other.
+using Polyline = std::vector<Vec2>;
+
+/// The direction that the curve is asked to have at a point, if any.
+struct AskedDirection {
+  Vec2 point{0, 0};
+  std::optional<double> angle;
+};
+
+/// Of one curve before it is faired, and joined to others where there are several.
+struct CycleStages {
+  std::vector<Vec2> nodes;        ///< of the cell graph; it has three edges at each
+  std::vector<Polyline> edges;    ///< between cells, and around them
+  std::vector<Polyline> needles;  ///< that the cells belong to; the two ends of a point seed are the same
+  Ring first;                     ///< the first Hamiltonian cycle, through all nodes
+  Ring optimised;                 ///< the same after the local operations
+};
+
+struct Stages {
+  std::vector<AskedDirection> field;
+  std::vector<CycleStages> cycles;  ///< none for an island that only a contour fits in
+};
+
+/// Points `step` mm apart in the polygon.
+std::vector<AskedDirection> asked_directions(const DirectionField& field, const Polygon& polygon,
+                                             double step);
+
+/// The graph's part of it.
+CycleStages drawn(const CellGraph& graph);
+
+}  // namespace unicursal::core

@@ -1,0 +1,39 @@
+// Reads the strip off the simulator's raster as a person would off the bed: compares the bead with the lines
+// of 5, 50 and 95 %, and tells the nearest printed tick.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host/tune/reading.hpp"
+#include "host/tune/strip_print.hpp"
+#include "sim/raster.hpp"
+
+namespace unicursal::host {
+
+class StripOnRaster final : public StripReader {
+ public:
+  StripOnRaster(const Strip& strip, const std::array<gcode::Mixture, shade_count>& mixtures);
+
+  /// Takes a layer from the stream.
+  void take(const sim::RasterFrame& frame, sim::RasterReader& rasters);
+
+  StripReading read(const Strip& strip) override;
+
+ private:
+  struct Sample {
+    core::Vec2 place{0, 0};
+    double change = 0;  ///< share of the change that came here
+    bool seen = false;  ///< something lies here
+  };
+
+  double change_in(const sim::RasterPixel& pixel) const;
+  double change_around(std::size_t sample) const;
+  double first_at_least(double change) const;
+
+  std::array<gcode::Mixture, shade_count> mixtures_;
+  std::array<Sample, 3> references_;
+  std::vector<Sample> samples_;  ///< along the bead from the switch
+};
+
+}  // namespace unicursal::host

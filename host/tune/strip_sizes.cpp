@@ -1,0 +1,41 @@
+#include "host/tune/strip_sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unicursal::host {
+namespace {
+
+constexpr double margin = 10;            ///< mm to the bed's edge: room for clips, and for the turns' ticks
+constexpr double height_part = 1.0 / 3;  ///< of the nozzle's opening: sticks, and squeezes fine beads out
+constexpr double finest = 0.5;           ///< nozzle openings; thinner beads tear off
+constexpr double fattest = 2;            ///< nozzle openings; fatter beads are no longer even
+constexpr double lines_per_tick = 0.6;   ///< mm of opening that 1 mm from tick to tick has room for
+
+}  // namespace
+
+StripSizes::StripSizes(const gcode::Printer& printer)
+    : left(margin),
+      right(printer.bed[0] - margin),
+      front(margin),
+      back(printer.bed[1] - margin),
+      layer_height(printer.nozzle * height_part),
+      line(printer.nozzle) {
+  const double opening = printer.nozzle;
+  const double thin_width =
+      std::min(printer.bead_width_range[1], std::max(printer.bead_width_range[0], finest * opening));
+  fat_width = std::max(thin_width, std::min(printer.bead_width_range[1], fattest * opening));
+  thin = thin_width * layer_height;
+  fat = fat_width * layer_height;
+  tick = std::max(1.0, std::ceil(opening / lines_per_tick - 1e-9));
+  gap = fat_width / 2 + 1.2 * opening;
+  plain_tick = 2.5 * opening;
+  fifth_tick = 4 * opening;
+  tenth_tick = 5 * opening;
+  digit_width = 3 * opening;
+  digit_height = 6 * opening;
+  digit_step = 5 * opening;
+  number_gap = 1.5 * opening;
+}
+
+}  // namespace unicursal::host

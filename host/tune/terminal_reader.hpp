@@ -1,0 +1,30 @@
+// Asks a person at a terminal what the strip shows.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "host/tune/reading.hpp"
+
+namespace unicursal::host {
+
+class TerminalReader final : public StripReader {
+ public:
+  /// Both must outlive the reader.
+  TerminalReader(std::istream& in, std::ostream& out) : in_(in), out_(out) {}
+
+  /// Asks until the answers fit the strip. `q` and the end of the input cancel.
+  StripReading read(const Strip& strip) override;
+
+ private:
+  std::optional<double> ask(const Strip& strip, const std::string& question, bool needed);
+  StripReading ask_all(const Strip& strip);
+
+  std::istream& in_;
+  std::ostream& out_;
+};
+
+/// Asks whether to go on; anything but yes is no.
+bool confirmed(std::istream& in, std::ostream& out, const std::string& question);
+
+}  // namespace unicursal::host
