@@ -35,7 +35,7 @@ std::optional<std::uint32_t> take_count(std::string_view& text) {
   return value;
 }
 
-std::optional<double> take_degrees(std::string_view& text) {
+std::optional<double> take_decimal(std::string_view& text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] =
@@ -57,8 +57,8 @@ Temperatures temperatures_in(std::string_view text) {
   Temperatures result;
   const auto read = [&](std::string_view label, auto& now, auto& target) {
     std::string_view rest = after_label(text, label);
-    now = take_degrees(rest);
-    if (now && take(rest = trimmed(rest), "/")) target = take_degrees(rest);
+    now = take_decimal(rest);
+    if (now && take(rest = trimmed(rest), "/")) target = take_decimal(rest);
   };
   read("T:", result.nozzle, result.nozzle_target);
   read("B:", result.bed, result.bed_target);
@@ -94,6 +94,21 @@ reply::Error error_with(std::string_view rest) {
   return error;
 }
 
+/// Of "X:1.00 Y:2.00 Z:3.00 E:0.00 Count X:80 …" what stands before the count of steps.
+reply::Position position_with(std::string_view text) {
+  reply::Position position{std::string(text), std::nullopt};
+  std::array<double, 3> mm{};
+  constexpr std::array<std::string_view, 3> labels{"X:", "Y:", "Z:"};
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    std::string_view rest = after_label(text.substr(0, text.find("Count")), labels[i]);
+    const auto value = take_decimal(rest);
+    if (!value) return position;
+    mm[i] = *value;
+  }
+  position.mm = mm;
+  return position;
+}
+
 bool ends_word(std::string_view rest) {
   return rest.empty() || is_space(rest.front());
 }
@@ -123,7 +138,7 @@ Reply parse_reply(std::string_view line) {
   }
   if (take(rest, "//action:")) return reply::Action{std::string(trimmed(rest))};
   if (rest.starts_with("FIRMWARE_NAME:")) return reply::Firmware{std::string(rest)};
-  if (rest.starts_with("X:") && !after_label(rest, "Y:").empty()) return reply::Position{std::string(rest)};
+  if (rest.starts_with("X:") && !after_label(rest, "Y:").empty()) return position_with(rest);
   if (rest.starts_with("T:") || rest.starts_with("B:")) {
     if (const Temperatures t = temperatures_in(rest); !t.empty()) {
       return reply::TemperatureReport{t, !after_label(rest, "W:").empty()};

@@ -3,6 +3,7 @@
 // every byte sequence parses to something, nothing is trusted, numbers are bounded.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -68,6 +69,7 @@ struct Echo {
 /// "X:0.00 Y:0.00 Z:0.00 E:0.00 Count X:0 …", the answer to M114 and to G28.
 struct Position {
   std::string text;
+  std::optional<std::array<double, 3>> mm;  ///< x y z, if all of them are told
 };
 struct Blank {};
 /// Anything else, noise included.

@@ -22,6 +22,10 @@ std::optional<std::filesystem::path> path_if(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
 }
 
+std::optional<std::string> text_if(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
 /// CLI11's own ranges let "nan" pass.
 CLI::Validator finite_number(double least, double most) {
   const auto problem = [least, most](const std::string& text) {
@@ -217,6 +221,7 @@ class CommandLine {
     declare_dry_run();
     declare_plan();
     declare_print();
+    declare_resume();
     declare_curve();
     declare_simulate();
     declare_tune();
@@ -229,7 +234,8 @@ class CommandLine {
     const std::string name = app_.get_subcommands().front()->get_name();
     if (name == "dry-run") return dry_run(dry_run_command());
     if (name == "plan") return plan({job_.options(), output_});
-    if (name == "print") return print({job_.options(), port_.empty() ? std::nullopt : std::optional(port_)});
+    if (name == "print") return print({job_.options(), text_if(port_), path_if(spool_)});
+    if (name == "resume") return resume({text_if(print_), path_if(spool_), text_if(port_), yes_, list_});
     if (name == "curve") return curve(curve_command());
     if (name == "simulate") return simulate(simulate_command());
     if (name == "tune") return tune(tune_.finished());
@@ -290,6 +296,32 @@ class CommandLine {
         command("print", "stream to a printer over USB", "unicursal print heart.toml --port /dev/ttyUSB0");
     job_.declare(*app);
     app->add_option("--port", port_, "serial port, or auto; the default is the profile's")->type_name("PORT");
+    declare_spool(*app);
+  }
+
+  void declare_spool(CLI::App& app) {
+    app.add_option("--spool", spool_,
+                   "folder in which prints are kept so that they can be resumed; the default is "
+                   "unicursal/prints in $XDG_STATE_HOME or ~/.local/state")
+        ->type_name("DIR");
+  }
+
+  void declare_resume() {
+    CLI::App* app = command("resume", "go on with a print that was interrupted", "unicursal resume");
+    app->add_option("print", print_, "which one: its name or the beginning of it; the default is the newest")
+        ->type_name("PRINT");
+    declare_spool(*app);
+    app->add_option("--port", port_, "serial port, or auto; the default is the one that it was begun on")
+        ->type_name("PORT");
+    app->add_flag("--yes", yes_, "go on without asking when the printer has lost its place");
+    app->add_flag("--list", list_, "only list the prints that are kept");
+    app->footer(
+        app->get_footer() +
+        "\n\nIf the printer is still on and hot, it goes on with the next line: none is lost, none is "
+        "run\ntwice. If it was reset or cooled, you are told where the print stopped, and asked: the "
+        "nozzle\nheats where it stands, rises, homes x and y only, squeezes out plastic beside the "
+        "part, and\ngoes on at the last place that is certain. z cannot be homed on the part, so it "
+        "must not have\nbeen moved. The profile's own start lines are not run again.");
   }
 
   void declare_curve() {
@@ -418,6 +450,8 @@ class CommandLine {
   CLI::Option* baud_given_ = nullptr;
   double pixel_ = 0.05;
   std::size_t layer_ = 0, island_ = 0;
+  bool yes_ = false, list_ = false;
+  std::string spool_, print_;
   std::string output_, port_, link_, rasters_, control_, transcript_;
   std::vector<std::string> outputs_;
   bool once_ = false;
@@ -432,6 +466,7 @@ int report(const std::exception& error, Exit code) {
 
 int run_command_line(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a closed terminal must not end a print
+  std::signal(SIGXFSZ, SIG_IGN);  // nor a limit on file sizes: it is told like a full disk
   try {
     CommandLine line;
     try {

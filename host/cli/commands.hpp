@@ -41,7 +41,16 @@ struct DryRunCommand {
 
 struct PrintCommand {
   JobOptions job;
-  std::optional<std::string> port;  ///< absent: the profile's
+  std::optional<std::string> port;             ///< absent: the profile's
+  std::optional<std::filesystem::path> spool;  ///< folder of the prints; absent: the user's
+};
+
+struct ResumeCommand {
+  std::optional<std::string> print;            ///< name or beginning of it, or a folder; absent: the newest
+  std::optional<std::filesystem::path> spool;  ///< folder of the prints
+  std::optional<std::string> port;             ///< absent: the print's
+  bool yes = false;                            ///< agree to what would be asked
+  bool list = false;                           ///< only tell which prints there are
 };
 
 struct CurveCommand {
@@ -84,6 +93,7 @@ struct TuneCommand {
 Exit plan(const PlanCommand& command);
 Exit dry_run(const DryRunCommand& command);
 Exit print(const PrintCommand& command);
+Exit resume(const ResumeCommand& command);
 Exit curve(const CurveCommand& command);
 Exit simulate(SimulateCommand command);
 Exit tune(const TuneCommand& command);

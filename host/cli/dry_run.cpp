@@ -50,8 +50,8 @@ Comparison compare_with(const nlohmann::json& simulator, const Run& run, const S
 }
 
 StreamSettings settings_for(const DryRunCommand& command, const SimulatorProcess& simulator) {
-  if (!is_virtual(command)) return {real_clock(command.printer.speed), 0};
-  return {std::make_shared<LockstepClock>(simulator.control()), command.charge};
+  if (!is_virtual(command)) return {real_clock(command.printer.speed), 0, nullptr, {}};
+  return {std::make_shared<LockstepClock>(simulator.control()), command.charge, nullptr, {}};
 }
 
 /// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.

@@ -6,22 +6,37 @@
 #include "host/cli/show.hpp"
 #include "host/cli/words.hpp"
 #include "host/report/summary.hpp"
+#include "host/spool/spool.hpp"
 
 namespace unicursal::host {
+namespace {
+
+PrintOrder order_of(const PrintCommand& command, const PreparedJob& prepared) {
+  PrintOrder order;
+  order.job_name = prepared.job.file.stem().string();
+  order.port = command.port.value_or(prepared.job.profile.port);
+  order.layer_count = prepared.count;
+  if (command.job.layers) order.layers = std::pair(command.job.layers->first, command.job.layers->last);
+  return order;
+}
+
+}  // namespace
 
 Exit print(const PrintCommand& command) {
   const PreparedJob prepared = prepare_and_warn(command.job);
   Run run(prepared, "print", command.job.outputs);
-  const Profile& profile = prepared.job.profile;
+  const PrintOrder order = order_of(command, prepared);
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   check_beginning(prepared, lookahead);
-  const int port = open_port(command.port.value_or(profile.port), profile.baud);
-  const StreamResult result = stream_with_progress(port, lookahead, run, "printing");
+  const int port = open_port(order.port, prepared.job.profile.baud);
+  Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
+  StreamSettings settings;
+  settings.spool = &spool;
+  const StreamResult result = stream_with_progress(port, lookahead, run, "printing", settings);
+  tell_about_spool(spool, result);
   conclude(run, result, {{"planning", planning_json(lookahead)}});
   show(stdout, "{}", summary(run.totals(), lookahead.effort()));
-  if (result.ending == Ending::completed) return Exit::success;
-  show(stdout, "stopped by the user; the printer is {}\n", result.parked ? "parked and cooling" : "cooling");
-  return Exit::failed;
+  return tell_ending(result);
 }
 
 }  // namespace unicursal::host

@@ -108,7 +108,7 @@ std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const
     while (const auto frame = reader.next()) seen->take(*frame, reader);
   });
   expect_whole(stream_with_progress(open_port(simulator.port(), profile.baud), print, "dry run of the strip,",
-                                    {std::make_shared<LockstepClock>(simulator.control()), 0}));
+                                    {std::make_shared<LockstepClock>(simulator.control()), 0, nullptr, {}}));
   simulator.finish();
   watching.get();
   if (pictures) show(stdout, "picture:   {}\n", (*pictures / "deposit-0000.png").string());

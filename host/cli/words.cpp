@@ -166,6 +166,18 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
   }
 }
 
+void tell_about_spool(Spool& spool, const StreamResult& result) {
+  if (const auto problem = spool.journal().problem()) show(stderr, "warning: {}\n", *problem);
+  if (result.ending == Ending::completed) return;
+  show(stderr, "to go on with this print: unicursal resume {}\n", spool.folder().filename().string());
+}
+
+Exit tell_ending(const StreamResult& result) {
+  if (result.ending == Ending::completed) return Exit::success;
+  show(stdout, "stopped by the user; the printer is {}\n", result.parked ? "parked and cooling" : "cooling");
+  return Exit::failed;
+}
+
 nlohmann::json planning_json(const Lookahead& lookahead) {
   const PlanningEffort effort = lookahead.effort();
   return {{"seconds", effort.seconds}, {"cpu_seconds", effort.cpu_seconds}, {"threads", lookahead.threads()}};

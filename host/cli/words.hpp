@@ -5,6 +5,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/engine/stream.hpp"
+#include "host/spool/spool.hpp"
 
 namespace unicursal::host {
 
@@ -23,6 +24,12 @@ void check_beginning(const PreparedJob& prepared, Lookahead& lookahead);
 /// The report of a print that has come to an end, whichever; a failure to write it is none of the input's.
 /// Throws PrintError, also when the print has failed.
 void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra);
+
+/// How a print that can be resumed is resumed.
+void tell_about_spool(Spool& spool, const StreamResult& result);
+
+/// The last words of a print that has not failed, and its exit code.
+Exit tell_ending(const StreamResult& result);
 
 /// The report's "planning": seconds, cpu_seconds, threads.
 nlohmann::json planning_json(const Lookahead& lookahead);

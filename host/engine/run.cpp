@@ -69,11 +69,8 @@ Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& out
 
 gcode::Chunk Run::layer(PlannedLayer planned) {
   const gcode::PlacedLayer layer = placed(prepared_, planned);
-  gcode::Chunk chunk = encoder_.layer(layer);
-  ++totals_.layers;
-  totals_.flow = flow();
+  gcode::Chunk chunk = encoded(layer);
   totals_.figures += measure(planned);
-  add_layer(totals_.materials, layer, zone_materials_);
   if (check_ != nullptr) check_->expect(target_of(prepared_, planned));
   if (log_) {
     nlohmann::json entry = layer_entry(planned, layer);
@@ -83,6 +80,20 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
   if (pictures_) pictures_->draw(std::move(planned));
   count(chunk);
   log_finished_layers(false);
+  return chunk;
+}
+
+gcode::Chunk Run::replay(const gcode::PlacedLayer& layer) {
+  gcode::Chunk chunk = encoded(layer);
+  count(chunk);
+  return chunk;
+}
+
+gcode::Chunk Run::encoded(const gcode::PlacedLayer& layer) {
+  gcode::Chunk chunk = encoder_.layer(layer);
+  ++totals_.layers;
+  totals_.flow = flow();
+  add_layer(totals_.materials, layer, zone_materials_);
   return chunk;
 }
 

@@ -47,6 +47,9 @@ class Run {
   gcode::Chunk layer(PlannedLayer planned);
   /// What was withheld, after the last layer.
   gcode::Chunk rest();
+  /// The same for a layer that was planned in an earlier run, of which only the bead paths are left: neither
+  /// figures nor pictures.
+  gcode::Chunk replay(const gcode::PlacedLayer& layer);
   gcode::Chunk finish();
 
   /// mm³/s that is held; where the speed is constant, what that comes to at the job's bead width.
@@ -63,6 +66,7 @@ class Run {
   void write_report(const nlohmann::json& extra);
 
  private:
+  gcode::Chunk encoded(const gcode::PlacedLayer& layer);
   void count(const gcode::Chunk& chunk);
   void count_layers(const gcode::Chunk& chunk);
   void log_finished_layers(bool all);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "host/engine/run.hpp"
 #include "host/link/link.hpp"
 #include "host/lookahead/lookahead.hpp"
+#include "host/spool/chunk_reader.hpp"
+#include "host/spool/spool.hpp"
 
 namespace unicursal::host {
 
@@ -26,6 +29,12 @@ enum class Ending {
   failed
 };
 
+/// The printer cannot simply go on with the next line; nothing was sent.
+struct Lost {
+  std::string why;                     ///< a clause: "it has started anew"
+  std::optional<std::uint64_t> place;  ///< in the leg, if the printer has told up to where it has come
+};
+
 struct StreamResult {
   Ending ending = Ending::completed;
   std::string reason;   ///< why it failed, a sentence
@@ -33,11 +42,22 @@ struct StreamResult {
   LinkStatistics statistics;
   std::string firmware;  ///< as it names itself
   double waited = 0;     ///< s that the print has waited for a layer to be planned
+  std::optional<Lost> lost;
+};
+
+/// A print that goes on.
+struct Continuation {
+  std::optional<Leg> leg;  ///< to begin; absent: the printer is alive, and the last leg goes on
+  /// Brings `run` to where the spool ends, meanwhile, in a thread of its own.
+  std::function<void()> catch_up;
 };
 
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
-  double charge = 0;  ///< s of the clock that each second of planning is to take
+  double charge = 0;       ///< s of the clock that each second of planning is to take
+  Spool* spool = nullptr;  ///< that keeps the print, if one does
+  /// With a spool that holds the first layers already; `lookahead` begins behind them.
+  std::optional<Continuation> continuation;
 };
 
 struct StreamListeners {
@@ -56,7 +76,7 @@ struct FinishedPrint {
 /// Sends a whole print to the port, whose descriptor it takes over; blocks until every line is acknowledged.
 /// SIGINT or SIGTERM once parks and cools, twice stops at once. SIGHUP, which a closed terminal may send
 /// twice, counts as one of them at most, and not at all where it is ignored (nohup). Whatever goes wrong is
-/// told in the result, since a report is due then as well.
+/// told in the result, since a report is due then as well. When the spool's disk is full, the print waits.
 StreamResult stream(int port, Lookahead& lookahead, Run& run, const StreamListeners& listeners,
                     const StreamSettings& settings = {});
 /// The same; progress counts chunks of the body instead of layers.

@@ -17,6 +17,8 @@ constexpr auto ask_again = 1000ms;      ///< between questions to a firmware tha
 constexpr auto longest_drain = 1000ms;  ///< for printers that never stop talking
 constexpr int number_attempts = 5;      ///< to set the line number, over a noisy line
 constexpr int probe_attempts = 4;       ///< each as long as LinkOptions::silence
+constexpr int find_attempts = 2;        ///< when rejoining, each as long as LinkOptions::silence
+constexpr int most_asks = 20;           ///< the same question, when refusals come in between
 constexpr int patience = 50;            ///< resends in a row that bring the job no further
 constexpr auto finishes_nothing =
     "the printer is alive but has finished no command for very long; look at it, then start again";
@@ -81,6 +83,72 @@ asio::awaitable<void> Link::State::greet() {
   co_await ask_firmware();
   co_await reset_numbers();
   doubt = false;
+  phase = Phase::streaming;
+  if (numbering) numbering(ledger.next_to_number(), 0);
+}
+
+// ---- rejoining
+
+/// What is sent here has no number that could be taken, so that nothing changes however often it is done.
+asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
+  probing = true;
+  const auto lines_before = lines_heard;
+  write("\n");  // ends half a line, which its missing checksum gives away
+  co_await quiet(options.quiet);
+  Rejoined found;
+  const std::function<bool()> warm = [this] { return told_temperatures.has_value(); };
+  co_await ask("M105\n", warm);
+  if (lines_heard == lines_before) {
+    give_up("the printer does not answer; check that it is on, and the cable, then resume again");
+  }
+  // Waits its turn behind everything that was sent before. Twice, since homing answers like that, too.
+  const std::function<bool()> located = [this] { return told_position.has_value(); };
+  for (int i = 0; i < 2; ++i) {
+    told_position.reset();
+    co_await ask("M114\n", located);
+  }
+  found.position = told_position;
+  found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
+  found.next = co_await ask_for_number(beyond);
+  probing = false;
+  co_return found;
+}
+
+/// A Repetier that waits for a line already does not answer, but asks for it by its own clock.
+asio::awaitable<std::uint32_t> Link::State::ask_for_number(std::uint32_t beyond) {
+  const auto told_before = std::exchange(told_next, std::nullopt);
+  const std::function<bool()> told = [this] { return told_next.has_value(); };
+  co_await ask(framed(beyond, "M105"), told);
+  if (!told_next) told_next = told_before;
+  if (!told_next) give_up("the printer does not tell which line it wants next; begin the print anew");
+  co_return *told_next;
+}
+
+/// Repeats the question when a refusal may have emptied the printer's buffer, and after silence: noise may
+/// have hit it.
+asio::awaitable<void> Link::State::ask(std::string_view query, const std::function<bool()>& answered) {
+  auto refusals_before = refusals;
+  const std::function<bool()> over = [&] { return answered() || restarted; };
+  const std::function<bool()> over_or_refused = [&] { return over() || refusals != refusals_before; };
+  const auto patient_until = now() + options.slow_ok;
+  int silences = 0;
+  for (int asks = 0; asks < most_asks && silences < find_attempts && !over(); ++asks) {
+    last_life = now();
+    refusals_before = refusals;
+    write("\n");  // after an overrun, Marlin is silent until one comes
+    write(query);
+    while (!over_or_refused() && now() < std::min(last_life + options.silence, patient_until)) {
+      co_await until(over_or_refused, std::min(last_life + options.silence, patient_until));
+    }
+    if (!over_or_refused()) ++silences;
+    co_await quiet(options.quiet);
+  }
+  if (restarted) throw PrinterReset("the printer has started anew");
+}
+
+void Link::State::go_on(std::uint32_t next) {
+  ledger = Ledger(options.receive_buffer, next);
+  doubt = true;  // an ok that is still to come may be that of an earlier line
   phase = Phase::streaming;
 }
 
@@ -161,6 +229,7 @@ asio::awaitable<void> Link::State::answer_resend() {
 void Link::State::resume_from(std::uint32_t number, bool with_fence) {
   ledger.rewind(number);
   if (with_fence) ledger.fence();
+  if (with_fence && numbering) numbering(ledger.next_to_number(), ledger.numbered());
   statistics.acknowledged = ledger.acknowledged();
   asked.reset();
   stranger.reset();

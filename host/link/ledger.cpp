@@ -123,6 +123,7 @@ void Ledger::fence() {
     if (line(n).fence) return;
   }
   number("M105", true);
+  ++fences_;
 }
 
 }  // namespace unicursal::host

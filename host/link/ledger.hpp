@@ -21,8 +21,9 @@ std::string framed(std::uint32_t number, std::string_view command);
 
 class Ledger {
  public:
-  /// `window`: bytes that may be in flight.
-  explicit Ledger(std::size_t window) : window_(window) {}
+  /// `window`: bytes that may be in flight. `first`: the number of the first line.
+  explicit Ledger(std::size_t window, std::uint32_t first = 1)
+      : window_(window), first_(first), base_(first), front_(first), next_(first) {}
 
   /// Puts a command behind all that wait.
   void push(std::string command) { waiting_.push_back(std::move(command)); }
@@ -49,6 +50,9 @@ class Ledger {
   /// Lets a M105 follow the last numbered line, ahead of what waits, unless one is already under way: its
   /// answer is proof that everything before it has been executed.
   void fence();
+  /// Lines of the user that have a number, and the number that the next one of them will get.
+  std::uint64_t numbered() const { return end() - first_ - fences_; }
+  std::uint32_t next_to_number() const { return end(); }
 
   bool in_flight() const { return front_ < next_; }
   /// Whether one of the lines sent lately may keep the firmware busy for long: heating, homing, a pause.
@@ -83,9 +87,11 @@ class Ledger {
   std::size_t window_;
   std::deque<std::string> waiting_;  ///< not numbered yet
   std::deque<Line> lines_;           ///< numbers base_ … end() - 1
-  std::uint32_t base_ = 1;
-  std::uint32_t front_ = 1;  ///< the oldest in flight
-  std::uint32_t next_ = 1;   ///< the next to write; before end() after a rewind
+  std::uint32_t first_;
+  std::uint32_t base_;
+  std::uint32_t front_;  ///< the oldest in flight
+  std::uint32_t next_;   ///< the next to write; before end() after a rewind
+  std::uint32_t fences_ = 0;
   std::size_t bytes_in_flight_ = 0;
   std::uint64_t acknowledged_ = 0;
 };

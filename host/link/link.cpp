@@ -42,6 +42,17 @@ asio::awaitable<void> Link::connect() {
   asio::co_spawn(state->executor, state->supervise(state), asio::detached);
 }
 
+asio::awaitable<Rejoined> Link::rejoin(std::uint32_t beyond) {
+  const auto state = state_;
+  asio::co_spawn(state->executor, state->listen(state), asio::detached);
+  co_return co_await state->find_again(beyond);
+}
+
+void Link::go_on(std::uint32_t next) {
+  state_->go_on(next);
+  asio::co_spawn(state_->executor, state_->supervise(state_), asio::detached);
+}
+
 asio::awaitable<void> Link::send(std::vector<std::string> lines) {
   const auto state = state_;
   assert(state->phase == State::Phase::streaming || state->failure);
@@ -81,6 +92,10 @@ const LinkStatistics& Link::statistics() const {
 
 const std::string& Link::firmware() const {
   return state_->firmware;
+}
+
+void Link::on_numbering(std::function<void(std::uint32_t, std::uint64_t)> listener) {
+  state_->numbering = std::move(listener);
 }
 
 void Link::on_message(std::function<void(const std::string&)> listener) {

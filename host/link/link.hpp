@@ -9,6 +9,7 @@
 //   co_await link.drain();                   // returns when every line has its ok
 #pragma once
 
+#include <array>
 #include <asio/any_io_executor.hpp>
 #include <asio/awaitable.hpp>
 #include <chrono>
@@ -16,10 +17,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "firmware_gcode/reply/reply.hpp"
 #include "host/link/clock.hpp"
 
 namespace unicursal::host {
@@ -33,6 +36,13 @@ class LinkError : public std::runtime_error {
 
 /// A port that cannot be opened: nothing was sent to any printer.
 class PortError : public LinkError {
+ public:
+  using LinkError::LinkError;
+};
+
+/// The printer is there, but has started anew since it was last heard of: its line numbers, position and heat
+/// are gone.
+class PrinterReset : public LinkError {
  public:
   using LinkError::LinkError;
 };
@@ -72,6 +82,14 @@ struct LinkStatistics {
   std::uint64_t bytes = 0;         ///< written
 };
 
+/// Where a printer is in a conversation that another program has begun.
+struct Rejoined {
+  std::uint32_t next = 0;                         ///< number of the line that it wants; Repetier: perhaps
+                                                  ///< modulo 65536
+  std::optional<std::array<double, 3>> position;  ///< mm, x y z after all that it has taken
+  gcode::Temperatures temperatures;               ///< °C
+};
+
 class Link {
  public:
   /// Takes over the descriptor.
@@ -81,6 +99,13 @@ class Link {
 
   /// Waits for the firmware, asks M115, resets the line number. Throws LinkError. Once.
   asio::awaitable<void> connect();
+  /// Instead of connect(): finds out where a printer is that another program was talking to when it died,
+  /// changing nothing. What that program had sent is executed first, as far as it arrived whole; half a line
+  /// is ended and refused. `beyond`: a number that the printer cannot expect next. Throws PrinterReset,
+  /// LinkError. Once.
+  asio::awaitable<Rejoined> rejoin(std::uint32_t beyond);
+  /// After rejoin(): the number of the first line to be sent.
+  void go_on(std::uint32_t next);
   /// Queues lines in order (no number, no checksum, no newline, no comments; at most 80 bytes) and returns
   /// when the last one has been written. Throws LinkError; std::invalid_argument for a malformed line, in
   /// which case none of the lines is sent. Precondition: connected.
@@ -96,6 +121,9 @@ class Link {
   const LinkStatistics& statistics() const;
   /// What M115 answered (FIRMWARE_NAME…), empty before connect() and for firmwares that do not tell.
   const std::string& firmware() const;
+  /// Called when the numbers of the user's lines shift: the `line`th of them, counted from 0, will be
+  /// `number`, and those behind it follow on. Always before that line is written.
+  void on_numbering(std::function<void(std::uint32_t number, std::uint64_t line)> listener);
   /// Called with every line from the printer that is not a plain ok, made safe to show; keep it short.
   void on_message(std::function<void(const std::string&)> listener);
 

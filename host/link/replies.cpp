@@ -30,6 +30,7 @@ void Link::State::hear(std::string_view line) {
   const Reply reply = parse_reply(line);
   if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard;
   std::visit([this](const auto& what) { take(what); }, reply);
+  if (probing && std::holds_alternative<reply::Error>(reply)) return;  // asked for
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
     listener(printable(line));
   }
@@ -38,6 +39,7 @@ void Link::State::hear(std::string_view line) {
 void Link::State::take(const reply::Ok& ok) {
   ++oks;
   last_ok = last_life = now();
+  if (!ok.temperatures.empty()) told_temperatures = ok.temperatures;
   if (phase == Phase::greeting || holding) return;
   bool expected;
   if (ok.line)
@@ -67,6 +69,7 @@ void Link::State::take(const reply::Error& error) {
 
 void Link::State::asked_for(std::uint32_t number) {
   ++refusals;
+  told_next = number;
   if (phase == Phase::greeting) return;
   if (!probing) doubt = true;
   const auto known = ledger.locate(number);
@@ -79,10 +82,11 @@ void Link::State::asked_for(std::uint32_t number) {
 
 void Link::State::take(const reply::Start&) {
   ++refusals;
+  restarted = true;
   if (phase == Phase::greeting) return;
   fail(
       "the printer has reset itself in the middle of the job, its position and heat are gone; "
-      "check its power supply, clear the bed and start the print again");
+      "check its power supply, see `unicursal resume`");
 }
 
 void Link::State::take(const reply::Busy&) {
@@ -90,7 +94,10 @@ void Link::State::take(const reply::Busy&) {
 }
 
 void Link::State::take(const reply::TemperatureReport& report) {
-  if (!report.waiting) return;
+  if (!report.waiting) {
+    told_temperatures = report.temperatures;
+    return;
+  }
   last_life = now();
   if (interruptions <= 0 || failure) return;
   --interruptions;
@@ -106,6 +113,10 @@ void Link::State::take(const reply::Echo& echo) {
   if (!echo.unknown_command) return;
   ++refusals;
   doubt = true;
+}
+
+void Link::State::take(const reply::Position& position) {
+  told_position = position.mm;
 }
 
 void Link::State::take(const reply::Unknown& unknown) {

@@ -61,6 +61,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   void take(const gcode::reply::TemperatureReport& report);
   void take(const gcode::reply::Firmware& firmware);
   void take(const gcode::reply::Echo& echo);
+  void take(const gcode::reply::Position& position);
   void take(const gcode::reply::Unknown& unknown);
   template <class Other>
   void take(const Other&) {}
@@ -68,6 +69,10 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
 
   // Conversation (conversation.cpp)
   asio::awaitable<void> greet();
+  asio::awaitable<Rejoined> find_again(std::uint32_t beyond);
+  asio::awaitable<std::uint32_t> ask_for_number(std::uint32_t beyond);
+  asio::awaitable<void> ask(std::string_view query, const std::function<bool()>& answered);
+  void go_on(std::uint32_t next);
   asio::awaitable<void> supervise(std::shared_ptr<State> self);
   asio::awaitable<void> ask_firmware();
   asio::awaitable<void> reset_numbers();
@@ -98,6 +103,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   LinkStatistics statistics;
   std::string firmware;
   std::function<void(const std::string&)> listener;
+  std::function<void(std::uint32_t, std::uint64_t)> numbering;
   std::optional<std::string> failure;
   Signal signal;
 
@@ -107,6 +113,12 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   bool waiting_for_port = false;  ///< until it takes them
 
   Phase phase = Phase::greeting;
+  // While greeting:
+  bool restarted = false;                  ///< it has said that it starts
+  std::optional<std::uint32_t> told_next;  ///< number of the line that it wants
+  std::optional<std::array<double, 3>> told_position;
+  std::optional<gcode::Temperatures> told_temperatures;
+
   int interruptions = 0;                  ///< waits for heat that are still to be ended
   bool draining = false;                  ///< someone waits in drain()
   bool holding = false;                   ///< nothing may be sent and no ok counts: resend or probe under way

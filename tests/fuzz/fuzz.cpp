@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/field/direction_file.hpp"
@@ -28,6 +29,7 @@
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"
 #include "tests/fuzz/simulator.hpp"
+#include "tests/fuzz/spool.hpp"
 #include "tests/host/support/sample_job.hpp"
 
 namespace unicursal {
@@ -131,9 +133,17 @@ void plan(const fs::path& folder, core::Random& random) {
 }
 
 const std::map<std::string, std::function<void(const fs::path&, core::Random&)>> targets{
-    {"drawing", drawing},   {"mesh", mesh},           {"directions", directions},
-    {"job", job},           {"plan", plan},           {"printer", test::printer},
-    {"lines", test::lines}, {"faults", test::faults}, {"control", test::control}};
+    {"drawing", drawing},
+    {"mesh", mesh},
+    {"directions", directions},
+    {"job", job},
+    {"plan", plan},
+    {"printer", test::printer},
+    {"lines", test::lines},
+    {"faults", test::faults},
+    {"control", test::control},
+    {"journal", test::journal},
+    {"chunks", test::chunks}};
 
 /// True for a file that was read, false for one that was refused as it should be.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -175,7 +185,8 @@ int main(int count, char** words) {
   if (count < 4) {
     std::fprintf(
         stderr,
-        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control SECONDS [FIRST]\n");
+        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks "
+        "SECONDS [FIRST]\n");
     return 2;
   }
   return unicursal::run(words[2], words[1], std::atof(words[3]),

@@ -33,6 +33,7 @@ class Child {
     id_ = fork();
     if (id_ < 0) throw std::runtime_error("no child process");
     if (id_ == 0) {
+      setenv("XDG_STATE_HOME", folder_.path().c_str(), 1);  // prints of tests are kept where tests end
       dup2(open(input_file.c_str(), O_RDONLY), STDIN_FILENO);
       dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), STDOUT_FILENO);
       dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);

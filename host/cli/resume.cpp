@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/show.hpp"
+#include "host/cli/words.hpp"
+#include "host/engine/restart.hpp"
+#include "host/report/summary.hpp"
+#include "host/spool/spool.hpp"
+#include "host/spool/spool_error.hpp"
+
+namespace unicursal::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path root_of(const ResumeCommand& command) {
+  return command.spool ? *command.spool : default_spool_root();
+}
+
+Exit list(const fs::path& root) {
+  for (const fs::path& folder : kept_prints(root)) {
+    std::string what;
+    try {
+      what = describe(folder);
+    } catch (const SpoolError& error) {
+      what = error.problem();
+    }
+    show(stdout, "{}: {}\n", folder.filename().string(), what);
+  }
+  return Exit::success;
+}
+
+fs::path chosen_print(const ResumeCommand& command) {
+  const fs::path root = root_of(command);
+  const std::vector<fs::path> prints = kept_prints(root);
+  if (prints.empty()) {
+    throw SpoolError(root.string(), "", "holds no print", "name the folder of the prints with --spool");
+  }
+  if (!command.print) return prints.front();
+  for (const fs::path& folder : prints) {
+    if (folder.filename().string().starts_with(*command.print)) return folder;
+  }
+  throw SpoolError(root.string(), "", "holds no print whose name begins with \"" + *command.print + "\"",
+                   "see `unicursal resume --list`");
+}
+
+PreparedJob prepare_again(const Spool& spool) {
+  std::optional<LayerRange> layers;
+  if (const auto& asked = spool.order().layers) layers = LayerRange{asked->first, asked->second};
+  return prepare(spool.job(), layers);
+}
+
+LookaheadOptions behind(const PreparedJob& prepared, const SpoolExtent& extent) {
+  LookaheadOptions options = lookahead_options(prepared);
+  const std::size_t done = std::min(options.count, extent.layers);
+  options.first += done;
+  options.count -= done;
+  return options;
+}
+
+void tell(const Restart& restart, const Lost& lost, const Spool& spool) {
+  show(stdout, "The printer cannot simply go on: {}.\n", lost.why);
+  if (restart.from_start()) {
+    show(stdout, "Nothing had been laid yet: the print begins anew.\n");
+    return;
+  }
+  if (restart.layer) {
+    show(stdout, "The print goes on in layer {} of {}, at z = {:.2f} mm.\n", restart.layer->index + 1,
+         spool.order().layer_count, restart.layer->top);
+  }
+  if (restart.repeated > 0) {
+    show(stdout,
+         "Up to there everything is certain; of the next {} lines some may have been run and are run "
+         "again.\n",
+         restart.repeated);
+  }
+  show(stdout,
+       "The nozzle heats where it stands, rises, homes x and y (not z, where the part is), squeezes out "
+       "plastic "
+       "beside the\npart, and goes on. Its height is taken to be {:.2f} mm: do not go on if z was moved by "
+       "hand or has sunk.\n",
+       restart.lowest);
+  if (restart.highest > restart.lowest) {
+    show(stdout,
+         "It was on its way up: it may be as high as {:.2f} mm, and the rest then lies that much too high.\n",
+         restart.highest);
+  }
+  for (const std::string& warning : restart.warnings) show(stdout, "note: {}\n", warning);
+}
+
+bool agreed(const ResumeCommand& command) {
+  if (command.yes) return true;
+  if (isatty(STDIN_FILENO) == 0) {
+    throw SpoolError("", "", "nobody is there to be asked", "say --yes if the print shall go on like that");
+  }
+  show(stdout, "Go on? [y/N] ");
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+/// A resumed print on its way.
+class Resumption {
+ public:
+  Resumption(const ResumeCommand& command, Spool& spool)
+      : command_(command),
+        spool_(spool),
+        prepared_(prepare_again(spool)),
+        run_(prepared_, "resume", {}),
+        lookahead_(*prepared_.part, behind(prepared_, spool.extent())) {}
+
+  Exit operator()() {
+    const JournalState& before = spool_.before();
+    const bool nothing_sent = before.anchors.empty();
+    if (!before.parking.empty()) return restart({"it was parked and cooled", std::nullopt});
+    const StreamResult result = stream(nothing_sent ? std::optional(before.leg) : std::nullopt);
+    return result.lost ? restart(*result.lost) : end(result);
+  }
+
+ private:
+  StreamResult stream(std::optional<Leg> leg) {
+    StreamSettings settings;
+    settings.spool = &spool_;
+    settings.continuation = Continuation{std::move(leg), [this] { catch_up(run_, spool_); }};
+    const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
+    return stream_with_progress(port, lookahead_, run_, "printing", settings);
+  }
+
+  Exit restart(const Lost& lost) {
+    const Restart restart = restart_after(prepared_, spool_, lost);
+    tell(restart, lost, spool_);
+    if (!agreed(command_)) return Exit::failed;
+    return end(stream(restart.leg));
+  }
+
+  Exit end(const StreamResult& result) {
+    tell_about_spool(spool_, result);
+    conclude(run_, result, nlohmann::json::object());
+    return tell_ending(result);
+  }
+
+  const ResumeCommand& command_;
+  Spool& spool_;
+  const PreparedJob prepared_;
+  Run run_;
+  Lookahead lookahead_;
+};
+
+}  // namespace
+
+Exit resume(const ResumeCommand& command) {
+  if (command.list) return list(root_of(command));
+  const fs::path folder = chosen_print(command);
+  Spool spool = Spool::open(folder);
+  const JournalState& before = spool.before();
+  if (before.ended && before.ended->outcome == Outcome::completed) {
+    show(stdout, "{}: this print was completed\n", folder.filename().string());
+    return Exit::success;
+  }
+  if (before.superseded) {
+    throw SpoolError(folder.string(), "", "cannot go on: another print was begun on its printer since",
+                     "print the job anew");
+  }
+  return Resumption(command, spool)();
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,97 @@
+#include "host/engine/restart.hpp"
+
+#include <algorithm>
+
+#include "firmware_gcode/toolpath/lead_in.hpp"
+#include "host/spool/spool_error.hpp"
+
+namespace unicursal::host {
+namespace {
+
+/// Acknowledged lines that may not have been run: Marlin's 16 planned moves and its queue of 4 commands.
+constexpr std::uint64_t planned_lines = 20;
+
+std::vector<std::string> commands(std::vector<std::string> lines) {
+  std::erase_if(lines, [](const std::string& line) { return !is_command(line); });
+  return lines;
+}
+
+bool placed_somewhere(const gcode::ModalState& state) {
+  return std::all_of(state.position.begin(), state.position.end(),
+                     [](const auto& coordinate) { return coordinate.has_value(); });
+}
+
+/// Heights that the nozzle has passed between two places, and while it was parked.
+void note_heights(Restart& restart, const std::filesystem::path& chunks, const JournalState& journal,
+                  std::uint64_t from, std::uint64_t to) {
+  gcode::ModalState state = state_at(chunks, journal.leg, from);
+  restart.lowest = restart.highest = state.position[2].value_or(0);
+  const auto run = [&](const std::string& line) {
+    state.run(line);
+    const double height = state.position[2].value_or(restart.lowest);
+    restart.lowest = std::min(restart.lowest, height);
+    restart.highest = std::max(restart.highest, height);
+  };
+  LegReader reader(chunks, journal.leg, from);
+  while (from < to) {
+    const std::vector<std::string> lines = reader.next(to - from);
+    if (lines.empty()) break;
+    std::for_each(lines.begin(), lines.end(), run);
+    from += lines.size();
+  }
+  std::for_each(journal.parking.begin(), journal.parking.end(), run);
+}
+
+}  // namespace
+
+Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost) {
+  const JournalState& journal = spool.before();
+  const bool ended_in_order = journal.ended && journal.ended->outcome == Outcome::stopped;
+  const std::uint64_t sent = std::max(journal.handed, journal.acknowledged);
+  std::uint64_t certain = journal.acknowledged - std::min(journal.acknowledged, planned_lines);
+  if (ended_in_order) certain = sent;
+  if (lost.place) certain = *lost.place;
+  Restart restart;
+  const std::uint64_t line = journal.leg.line(certain);
+  const gcode::ModalState state = state_at(spool.chunks(), Leg{}, line);
+  if (!placed_somewhere(state)) return restart;
+  restart.leg.begins_at = line;
+  restart.layer = layer_of(spool.chunks(), line);
+  restart.repeated = std::max(sent, certain) - certain;
+  note_heights(restart, spool.chunks(), journal, certain, std::max(sent, certain));
+  if (ended_in_order) restart.lowest = restart.highest;
+  const gcode::PrintSettings settings = print_settings(prepared);
+  gcode::Chunk chunk =
+      gcode::lead_in(prepared.job.profile.printer, {state, restart.lowest, settings.flow, settings.extent});
+  restart.leg.height = restart.lowest;
+  restart.leg.lead_in = commands(std::move(chunk.lines));
+  restart.warnings = std::move(chunk.warnings);
+  return restart;
+}
+
+void catch_up(Run& run, const Spool& spool) {
+  const auto same = [&](const gcode::Chunk& made, const SpooledChunk& kept) {
+    if (commands(made.lines) == kept.lines) return;
+    throw SpoolError(spool.folder().string(), "",
+                     "holds lines that this version of the program would not write",
+                     "resume with the version that the print was begun with");
+  };
+  ChunkReader reader(spool.chunks());
+  while (const auto chunk = reader.next()) {
+    switch (chunk->kind) {
+      case SpooledChunk::Kind::start:
+        same(run.start(), *chunk);
+        break;
+      case SpooledChunk::Kind::layer:
+        same(run.replay(chunk->layer), *chunk);
+        break;
+      case SpooledChunk::Kind::rest:
+        same(run.rest(), *chunk);
+        break;
+      case SpooledChunk::Kind::finish:
+        same(run.finish(), *chunk);
+    }
+  }
+}
+
+}  // namespace unicursal::host

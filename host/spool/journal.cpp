@@ -1,0 +1,240 @@
+#include "host/spool/journal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "host/spool/bytes.hpp"
+#include "host/spool/spool_error.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The mains of printer and computer may be one: what is known then is as old as this at most.
+constexpr auto sync_interval = 1s;
+constexpr std::uint64_t reserve = 1 << 16;  ///< bytes set aside for what must be written on a full disk
+constexpr std::int64_t repetier_modulus = 65536;
+constexpr std::uint64_t most_lines = 1'000'000'000'000;  ///< of one print, fifty years' worth
+
+/// First byte of a record. Numbers of the format: never given a new meaning.
+enum class Event : std::uint8_t { session = 1, leg, anchor, progress, park, end, superseded };
+
+ByteWriter event(Event what) {
+  ByteWriter bytes;
+  bytes.put(static_cast<std::uint8_t>(what));
+  return bytes;
+}
+
+void put(ByteWriter& bytes, const std::vector<std::string>& lines) {
+  bytes.put(static_cast<std::uint32_t>(lines.size()));
+  for (const std::string& line : lines) bytes.put(std::string_view(line));
+}
+
+std::vector<std::string> lines_in(ByteReader& bytes) {
+  std::vector<std::string> lines(bytes.count(4));
+  for (std::string& line : lines) line = bytes.text();
+  return lines;
+}
+
+std::uint64_t place_in(ByteReader& bytes) {
+  const auto place = bytes.take<std::uint64_t>();
+  if (place > most_lines) throw DamagedBytes("tells of more lines than any print has");
+  return place;
+}
+
+Leg leg_in(ByteReader& bytes) {
+  Leg leg;
+  leg.begins_at = place_in(bytes);
+  leg.height = bytes.number();
+  if (!std::isfinite(leg.height)) throw DamagedBytes("holds a height that is no number");
+  leg.lead_in = lines_in(bytes);
+  return leg;
+}
+
+void begin(JournalState& state, Leg leg) {
+  const std::uint64_t legs = state.legs + 1;
+  state = JournalState();
+  state.legs = legs;
+  state.leg = std::move(leg);
+}
+
+Ended ended_in(ByteReader& bytes) {
+  const auto outcome = bytes.take<std::uint8_t>();
+  if (outcome > static_cast<std::uint8_t>(Outcome::failed)) throw DamagedBytes("tells of no known end");
+  return {static_cast<Outcome>(outcome), bytes.text()};
+}
+
+void apply(JournalState& state, ByteReader bytes) {
+  switch (static_cast<Event>(bytes.take<std::uint8_t>())) {
+    case Event::session:
+      state.ended.reset();
+      break;
+    case Event::leg:
+      begin(state, leg_in(bytes));
+      break;
+    case Event::anchor: {
+      if (bytes.take<std::uint8_t>() != 0) state.anchors.clear();
+      const auto number = bytes.take<std::uint32_t>();
+      state.anchors.push_back({number, place_in(bytes)});
+      break;
+    }
+    case Event::progress:
+      state.handed = place_in(bytes);
+      state.acknowledged = place_in(bytes);
+      break;
+    case Event::park:
+      state.parking = lines_in(bytes);
+      break;
+    case Event::end:
+      state.ended = ended_in(bytes);
+      break;
+    case Event::superseded:
+      state.superseded = true;
+      break;
+    default:
+      throw DamagedBytes("tells of something that this version does not know");
+  }
+  if (!bytes.empty()) throw DamagedBytes("holds more than it should");
+}
+
+/// Of a number that may be told modulo 65536, the one that is nearest to what is expected.
+std::int64_t nearest(std::uint32_t number, std::int64_t expected) {
+  std::int64_t best = number;
+  if (number >= repetier_modulus) return best;
+  const std::int64_t turns = (expected - number + repetier_modulus / 2) / repetier_modulus;
+  const std::int64_t other = number + turns * repetier_modulus;
+  return other >= 0 && std::abs(other - expected) < std::abs(best - expected) ? other : best;
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> JournalState::place_of(std::uint32_t number) const {
+  if (anchors.empty()) return std::nullopt;
+  const Anchor& last = anchors.back();
+  const std::int64_t expected =
+      last.number + static_cast<std::int64_t>(handed) - static_cast<std::int64_t>(last.place);
+  const std::int64_t meant = nearest(number, expected);
+  const auto after = std::find_if(anchors.begin(), anchors.end(),
+                                  [&](const Anchor& anchor) { return anchor.number > meant; });
+  if (after == anchors.begin()) return std::nullopt;
+  const Anchor& anchor = *std::prev(after);
+  return anchor.place + static_cast<std::uint64_t>(meant - anchor.number);
+}
+
+JournalState read_journal(const std::filesystem::path& file, std::uint64_t* sound) {
+  RecordReader reader(file);
+  JournalState state;
+  try {
+    while (const auto content = reader.next()) apply(state, ByteReader(*content));
+  } catch (const DamagedBytes& error) {
+    throw SpoolError(file.string(), "byte " + std::to_string(reader.sound()), error.what(),
+                     "resume with the version of this program that the print was begun with");
+  }
+  if (sound) *sound = reader.sound();
+  return state;
+}
+
+Journal::Journal(const std::filesystem::path& file, std::uint64_t sound)
+    : writer_(file, sound, reserve), thread_([this](std::stop_token stop) { work(std::move(stop)); }) {}
+
+Journal::~Journal() = default;
+
+void Journal::append(const std::string& content) {
+  try {
+    writer_.append(content);
+    unsynced_ = true;
+  } catch (const SpoolFull& error) {
+    problem_ = error.what();
+  }
+}
+
+void Journal::write_latest() {
+  if (const auto last = std::exchange(latest_, std::nullopt)) {
+    append(event(Event::progress).put(last->handed).put(last->acknowledged).bytes());
+  }
+}
+
+void Journal::write_now(const std::string& content) {
+  {
+    const std::lock_guard lock(mutex_);
+    write_latest();
+    append(content);
+  }
+  wake_.notify_one();
+}
+
+void Journal::begin_session() {
+  write_now(event(Event::session).bytes());
+}
+
+void Journal::begin_leg(const Leg& leg) {
+  ByteWriter bytes = event(Event::leg);
+  bytes.put(leg.begins_at).put(leg.height);
+  put(bytes, leg.lead_in);
+  write_now(bytes.bytes());
+}
+
+void Journal::anchor(const Anchor& anchor, bool anew) {
+  write_now(
+      event(Event::anchor).put(static_cast<std::uint8_t>(anew)).put(anchor.number).put(anchor.place).bytes());
+}
+
+void Journal::park(const std::vector<std::string>& lines) {
+  ByteWriter bytes = event(Event::park);
+  put(bytes, lines);
+  write_now(bytes.bytes());
+}
+
+void Journal::end(const Ended& ended) {
+  write_now(event(Event::end)
+                .put(static_cast<std::uint8_t>(ended.outcome))
+                .put(std::string_view(ended.reason))
+                .bytes());
+}
+
+void Journal::supersede() {
+  write_now(event(Event::superseded).bytes());
+}
+
+void Journal::progress(std::uint64_t handed, std::uint64_t acknowledged) {
+  {
+    const std::lock_guard lock(mutex_);
+    latest_ = {handed, acknowledged};
+  }
+  wake_.notify_one();
+}
+
+std::optional<std::string> Journal::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
+/// Syncing takes long on a memory card, so the lock is not held meanwhile.
+void Journal::work(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  auto due = std::chrono::steady_clock::now();
+  while (!stop.stop_requested()) {
+    wake_.wait(lock, stop, [&] { return latest_ || unsynced_; });
+    write_latest();
+    if (!unsynced_) continue;
+    if (std::chrono::steady_clock::now() < due) {
+      wake_.wait_until(lock, stop, due, [&] { return latest_.has_value(); });
+      if (latest_) continue;
+    }
+    unsynced_ = false;
+    lock.unlock();
+    try {
+      writer_.sync();
+    } catch (const SpoolFull&) {
+      // The record is in the system's hands; whether it reaches the disk is no longer in ours.
+    }
+    lock.lock();
+    due = std::chrono::steady_clock::now() + sync_interval;
+  }
+  write_latest();
+}
+
+}  // namespace unicursal::host

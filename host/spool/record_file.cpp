@@ -1,0 +1,139 @@
+#include "host/spool/record_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "host/spool/bytes.hpp"
+#include "host/spool/spool_error.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr std::size_t header = 8;  ///< bytes before a record's content
+
+constexpr std::array<std::uint32_t, 256> crc_table = [] {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
+    std::uint32_t value = byte;
+    for (int bit = 0; bit < 8; ++bit) value = value & 1 ? 0xedb88320U ^ (value >> 1) : value >> 1;
+    table[byte] = value;
+  }
+  return table;
+}();
+
+std::string length_bytes(std::size_t length) {
+  return ByteWriter().put(static_cast<std::uint32_t>(length)).bytes();
+}
+
+/// The length is part of it, so that a row of zeros is no record.
+std::uint32_t checksum(std::string_view content) {
+  return crc32(content, crc32(length_bytes(content.size())));
+}
+
+std::string why(int error) {
+  return std::strerror(error);
+}
+
+}  // namespace
+
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
+  std::uint32_t value = ~before;
+  for (const char c : bytes) value = crc_table[(value ^ static_cast<unsigned char>(c)) & 0xff] ^ (value >> 8);
+  return ~value;
+}
+
+std::string framed_record(std::string_view content) {
+  return length_bytes(content.size()) + ByteWriter().put(checksum(content)).bytes() + std::string(content);
+}
+
+// ---- reading
+
+RecordReader::RecordReader(std::filesystem::path file)
+    : file_(std::move(file)), stream_(file_, std::ios::binary) {
+  std::error_code error;
+  size_ = std::filesystem::file_size(file_, error);
+  if (error || !stream_) {
+    throw SpoolError(file_.string(), "", "cannot be read", "check that it is there and its permissions");
+  }
+}
+
+std::optional<std::string> RecordReader::next() {
+  if (size_ - sound_ <= header) return std::nullopt;
+  std::string head(header, '\0');
+  if (!stream_.read(head.data(), header)) return std::nullopt;
+  ByteReader numbers(head);
+  const std::size_t length = numbers.take<std::uint32_t>();
+  const auto expected = numbers.take<std::uint32_t>();
+  if (length == 0 || length > size_ - sound_ - header) return std::nullopt;
+  std::string content(length, '\0');
+  if (!stream_.read(content.data(), static_cast<std::streamsize>(length))) return std::nullopt;
+  if (checksum(content) != expected) return std::nullopt;
+  sound_ += header + length;
+  return content;
+}
+
+void RecordReader::seek(std::uint64_t sound) {
+  stream_.clear();
+  stream_.seekg(static_cast<std::streamoff>(sound));
+  sound_ = sound;
+}
+
+// ---- writing
+
+RecordWriter::RecordWriter(std::filesystem::path file, std::uint64_t sound, std::uint64_t reserve)
+    : file_(std::move(file)),
+      descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)),
+      length_(sound) {
+  const auto end = static_cast<off_t>(sound);
+  if (descriptor_ < 0 || ::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) {
+    const int error = errno;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    throw SpoolError(file_.string(), "", "cannot be written (" + why(error) + ")",
+                     "check the folder, its permissions and that the disk is not full");
+  }
+  if (reserve > 0) ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, end, static_cast<off_t>(reserve));
+}
+
+RecordWriter::~RecordWriter() {
+  ::close(descriptor_);
+}
+
+void RecordWriter::refuse(int error) {
+  throw SpoolFull(file_.string(), "", "cannot be written (" + why(error) + ")",
+                  "make room on the disk that the print is kept on");
+}
+
+void RecordWriter::append(std::string_view content) {
+  const std::string bytes = framed_record(content);
+  for (std::size_t done = 0; done < bytes.size();) {
+    const auto count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      const int error = count < 0 ? errno : ENOSPC;
+      const auto end = static_cast<off_t>(length_);
+      // Where even that fails, the half record is cut when the file is read again.
+      if (::ftruncate(descriptor_, end) == 0) ::lseek(descriptor_, end, SEEK_SET);
+      refuse(error);
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  length_ += bytes.size();
+}
+
+void RecordWriter::sync() {
+  if (::fdatasync(descriptor_) != 0) refuse(errno);
+}
+
+void sync_folder(const std::filesystem::path& folder) noexcept {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace unicursal::host
