@@ -50,6 +50,12 @@ void check(const SimulatorOptions& options) {
   require(three_positive(options.steps_per_mm), "the axes need three positive numbers of steps per mm");
   require(three_positive(options.max_acceleration), "the axes need three positive accelerations in mm/s²");
   require(three_positive(options.max_speed), "the axes need three positive speeds in mm/s");
+  require(three_positive(options.jerk), "the axes need three positive jerks in mm/s");
+  require(positive(options.acceleration) && positive(options.feeder_speed) &&
+              positive(options.feeder_acceleration) && positive(options.feeder_jerk),
+          "accelerations, and the feeders' speed and jerk, are positive numbers");
+  require(options.junction_deviation >= 0 && options.junction_deviation <= 1,
+          "the junction deviation is 0 to 1 mm");
   require(positive(options.feeder_steps_per_mm), "the feeders need a positive number of steps per mm");
   require(positive(options.filament_diameter), "the filament needs a positive diameter in mm");
   require(positive(options.pixel), "a picture's pixel needs a positive size in mm");
@@ -57,7 +63,7 @@ void check(const SimulatorOptions& options) {
   require(options.dead_volume >= 0 && options.dead_volume <= 1000 && options.mixing_volume >= 0 &&
               options.mixing_volume <= 1000,
           "the chamber's volumes are 0 to 1000 mm³");
-  require(options.tanks >= 1 && options.tanks <= 8, "the chamber mixes in one to eight tanks");
+  require(!options.tanks || (*options.tanks >= 1 && *options.tanks <= 8), "a chamber has one to eight tanks");
   require(std::isfinite(options.speed) && options.speed >= 0, "the clock's speed is 0 or a positive number");
   require(options.feeders >= 1 && options.feeders <= max_feeders, "a printer has one to six feeders");
   require(positive(options.baud), "the line needs a positive number of bits per second");
@@ -76,7 +82,14 @@ Machine machine_for(const SimulatorOptions& options) {
   std::copy_n(options.steps_per_mm.begin(), 3, machine.limits.steps_per_mm.begin());
   std::copy_n(options.max_acceleration.begin(), 3, machine.limits.max_acceleration.begin());
   std::copy_n(options.max_speed.begin(), 3, machine.limits.max_speed.begin());
-  machine.limits.steps_per_mm[axis_e] = options.feeder_steps_per_mm;
+  MotionLimits& limits = machine.limits;
+  std::copy_n(options.jerk.begin(), 3, limits.jerk.begin());
+  limits.junction_deviation = options.junction_deviation;
+  limits.print_acceleration = limits.travel_acceleration = options.acceleration;
+  limits.max_speed[axis_e] = options.feeder_speed;
+  limits.max_acceleration[axis_e] = options.feeder_acceleration;
+  limits.jerk[axis_e] = options.feeder_jerk;
+  limits.steps_per_mm[axis_e] = options.feeder_steps_per_mm;
   machine.feeders = options.feeders;
   return machine;
 }
@@ -130,9 +143,11 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
     spread.emplace(BedSize{options.bed[0], options.bed[1]}, options.raster_pixel);
     deposit = Deposit({pictures ? &*pictures : nullptr, &*spread, &*rasters});
   }
-  Nozzle nozzle(options.filament_diameter,
-                Chamber({options.dead_volume, options.mixing_volume, options.tanks}, options.feeders),
-                deposit);
+  Nozzle nozzle(
+      options.filament_diameter,
+      Chamber({options.dead_volume, options.mixing_volume, options.tanks.value_or(ChamberSize{}.tanks)},
+              options.feeders),
+      deposit);
   FeedLog feed;
   MotionLog motion(nozzle.filament_area());
   MoveSinks sinks({&feed, &nozzle, &motion});

@@ -134,7 +134,8 @@ void warn_of_covered(const std::vector<Zone>& zones, const std::vector<Island>& 
 std::unique_ptr<const Part> read_drawing_part(const PartSource& source) {
   const std::filesystem::path& file = source.files.front();
   Warnings warnings;
-  const LayerStack stack = layers_of_drawing(source.height, source.layer_height, warnings);
+  const LayerStack stack =
+      layers_of_drawing(source.height, source.layer_height, source.first_layer_height, warnings);
   const std::vector<Shape> shapes = read_svg(file, warnings);
   if (shapes.empty()) {
     throw ModelError(file.string(), "", "the drawing holds no filled shape",

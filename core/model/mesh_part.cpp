@@ -109,7 +109,8 @@ void refuse_unmatched(const PartSource& source) {
 
 std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
   Warnings warnings;
-  layers_of_mesh(0, source.layer_height);  // refuse a bad layer height before reading for long
+  layers_of_mesh(0, source.layer_height,
+                 source.first_layer_height);  // refuse a bad layer height before reading for long
   refuse_unmatched(source);
   std::vector<Body> bodies;
   Eigen::AlignedBox3d box;
@@ -119,7 +120,7 @@ std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
     box.extend(box_of(mesh));
     bodies.push_back({Slicer(std::move(mesh)), zone});
   }
-  const LayerStack stack = layers_of_mesh(box.sizes().z(), source.layer_height);
+  const LayerStack stack = layers_of_mesh(box.sizes().z(), source.layer_height, source.first_layer_height);
   return std::make_unique<MeshPart>(std::move(bodies), box, stack, source.zones, warnings.sentences());
 }
 

@@ -57,6 +57,7 @@ struct PartSource {
   double height = 0;        ///< mm, for drawings: how far they are extruded; ignored for meshes
   double layer_height = 0;  ///< mm
   std::vector<Zone> zones;
+  double first_layer_height = 0;  ///< mm, 0: like the others
 };
 
 /// A part that slices itself; layers are computed when asked for and not kept, so memory does not grow

@@ -11,6 +11,7 @@ namespace unicursal::gcode {
 class Marlin : public Dialect {
  public:
   const Limits& limits() const override;
+  std::string flavour() const override { return "Marlin"; }
   std::vector<std::string> define_tool(std::size_t tool, const Mixture& mixture) const override;
   std::string select_tool(std::size_t tool) const override;
 };

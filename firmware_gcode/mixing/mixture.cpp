@@ -57,9 +57,19 @@ Mixture Mixture::with_floor(double floor) const {
 
 Mixture Mixture::quantised(int decimals) const {
   const double scale = std::pow(10, decimals);
-  std::array<double, max_feeders> result = shares_;
-  for (double& share : result) share = std::round(share * scale) / scale;
-  return Mixture(result);
+  // Remainders nearer to each other than this are taken to be equal, so that rounding decides nothing.
+  constexpr double noise = 1e-9;
+  std::array<double, max_feeders> units = shares_;
+  for (double& share : units) share = std::floor(share * scale + noise);
+  for (double left = scale - sum(units); left > 0.5; --left) {
+    std::size_t most = 0;
+    const auto lacks = [&](std::size_t i) { return shares_[i] * scale - units[i]; };
+    for (std::size_t i = 1; i < max_feeders; ++i) {
+      if (lacks(i) > lacks(most) + noise) most = i;
+    }
+    ++units[most];
+  }
+  return Mixture(units);
 }
 
 }  // namespace unicursal::gcode

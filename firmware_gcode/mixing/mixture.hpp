@@ -20,7 +20,8 @@ class Mixture {
   /// Every share at least `floor`, the rest scaled down in proportion: no feeder ever stands still for long,
   /// since plastic creeps back up an idle inlet. Precondition: 0 ≤ floor ≤ 1/3.
   Mixture with_floor(double floor) const;
-  /// What the firmware makes of P values with `decimals` decimals: rounded and normalised.
+  /// In whole units of the last of `decimals` decimals, by largest remainders: the units add up to 1 exactly,
+  /// so that what is written is what is normalised, and doing it again changes nothing.
   Mixture quantised(int decimals) const;
 
   friend bool operator==(const Mixture&, const Mixture&) = default;

@@ -24,6 +24,11 @@ constexpr Bounds flow{0.001, 10000};
 constexpr Bounds retraction_length{0, 100};
 constexpr Bounds nozzle_temperature{0, 500};
 constexpr Bounds bed_temperature{0, 200};
+constexpr Bounds jerk{0.01, 1000};
+constexpr Bounds junction_deviation{0, 1};
+constexpr Bounds z_hop{0, 20};
+constexpr Bounds extruder_steps{1, 100000};
+constexpr Bounds flow_factor{0.5, 2};
 constexpr Bounds transition{0, 10000};  ///< dead and mixing volume
 
 }  // namespace bounds

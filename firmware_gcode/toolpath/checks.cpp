@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "firmware_gcode/mixing/response.hpp"
 #include "firmware_gcode/toolpath/bounds.hpp"
 
 namespace unicursal::gcode {
@@ -73,6 +74,17 @@ bool breaks_numbering(const std::string& line) {
          line.starts_with("M110");
 }
 
+void check_motion(const Motion& motion) {
+  for (double jerk : motion.jerk) require_within(jerk, bounds::jerk, "jerk", "mm/s");
+  require_within(motion.extruder_jerk, bounds::jerk, "extruder jerk", "mm/s");
+  require_within(motion.junction_deviation, bounds::junction_deviation, "junction_deviation", "mm");
+  require_within(motion.extruder_speed, bounds::speed, "extruder speed", "mm/s");
+  for (double a : {motion.acceleration, motion.travel_acceleration, motion.retract_acceleration,
+                   motion.extruder_acceleration}) {
+    require_within(a, bounds::acceleration, "acceleration", "mm/s²");
+  }
+}
+
 }  // namespace
 
 void check_printer(const Printer& printer) {
@@ -89,28 +101,40 @@ void check_printer(const Printer& printer) {
   require_within(printer.max_flow, bounds::flow, "max_flow", "mm³/s");
   require_within(printer.retraction_length, bounds::retraction_length, "retraction_length", "mm");
   require_within(printer.retraction_speed, bounds::speed, "retraction_speed", "mm/s");
+  require_within(printer.z_hop, bounds::z_hop, "z_hop", "mm");
+  for (double factor : printer.flow_factors) require_within(factor, bounds::flow_factor, "flow_factors", "");
+  check_motion(printer.motion);
   require_within(printer.nozzle_temperature, bounds::nozzle_temperature, "nozzle temperature", "°C");
   require_within(printer.bed_temperature, bounds::bed_temperature, "bed temperature", "°C");
   require_within(printer.dead_volume, bounds::transition, "dead_volume", "mm³");
   require_within(printer.mixing_volume, bounds::transition, "mixing_volume", "mm³");
+  require(printer.tanks >= 1 && printer.tanks <= max_tanks, "tanks",
+          fmt::format("{} is not between 1 and {}", printer.tanks, max_tanks), "write for example tanks = 2");
   require(within(printer.floor_share, 0, 1.0 / max_feeders), "floor_share", "is not between 0 and one third",
           "give a small share such as 0.02");
   require(printer.feeders == max_feeders, "feeders",
           fmt::format("{} feeders cannot be mixed", printer.feeders), "use a printer with three feeders");
 }
 
-void check_settings(const PrintSettings& settings, const Printer& printer, const Dialect& dialect) {
-  const std::size_t tools = dialect.limits().virtual_tools;
+void check_settings(const PrintSettings& settings, const Printer& printer) {
   require(!settings.materials.empty(), "mixture", "there is none", "define at least one mixture");
-  require(settings.materials.size() <= tools, "mixture",
-          fmt::format("{} mixtures do not fit into the firmware's {} virtual tools",
-                      settings.materials.size(), tools),
-          fmt::format("use at most {} mixtures", tools));
   for (std::size_t material : settings.zone_materials) {
     require(material < settings.materials.size(), "zone", "a zone's mixture does not exist",
             "name a mixture that the job defines");
   }
+  require(within(settings.change_before_border, 0.05, 0.95), "change_before_border",
+          "is not between 0.05 and 0.95",
+          "give the share of a change that may fall before its border, say 0.5");
   require_positive(settings.flow, "flow");
+  require(!settings.speed || bounds::speed.hold(*settings.speed), "speed", "is none that a printer can run",
+          "give it in mm/s, say 20");
+  require(settings.first_layer_speed > 0 && settings.first_layer_speed <= 1, "first_layer_speed",
+          "is not above 0, up to 1", "give the part of the other layers' speed, say 0.5");
+  require(within(settings.fan.percent, 0, 100), "fan", "is not between 0 and 100 %", "correct it");
+  for (const LayerTemperature& change : settings.temperatures) {
+    if (change.nozzle) require_within(*change.nozzle, bounds::nozzle_temperature, "temperatures", "°C");
+    if (change.bed) require_within(*change.bed, bounds::bed_temperature, "temperatures", "°C");
+  }
   require(settings.flow <= printer.max_flow, "flow",
           fmt::format("{:g} mm³/s is more than the printer's max_flow of {:g} mm³/s", settings.flow,
                       printer.max_flow),

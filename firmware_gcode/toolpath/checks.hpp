@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "firmware_gcode/dialect/dialect.hpp"
 #include "firmware_gcode/toolpath/encoder.hpp"
 
 namespace unicursal::gcode {
 
 /// Sizes, speeds, temperatures and feeders of the machine.
 void check_printer(const Printer& printer);
-/// Flow, number of materials and their zones.
-void check_settings(const PrintSettings& settings, const Printer& printer, const Dialect& dialect);
+/// Flow, materials and their zones.
+void check_settings(const PrintSettings& settings, const Printer& printer);
 /// Every position inside the bed, every number finite, every zone known.
 void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const Printer& printer);
 /// Of the first layer that prints anything: it lies on the bed.

@@ -5,24 +5,38 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <deque>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/mixing/calibration.hpp"
+#include "firmware_gcode/mixing/change_cost.hpp"
+#include "firmware_gcode/mixing/forecast.hpp"
+#include "firmware_gcode/mixing/schedule.hpp"
+#include "firmware_gcode/mixing/tool_table.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
+#include "firmware_gcode/toolpath/detour.hpp"
 #include "firmware_gcode/toolpath/job_frame.hpp"
 #include "firmware_gcode/toolpath/move_writer.hpp"
+#include "firmware_gcode/toolpath/pace.hpp"
 #include "firmware_gcode/toolpath/prime_line.hpp"
-#include "firmware_gcode/toolpath/speeds.hpp"
+#include "firmware_gcode/toolpath/review.hpp"
+#include "firmware_gcode/toolpath/route.hpp"
+#include "firmware_gcode/toolpath/simplify.hpp"
+#include "firmware_gcode/toolpath/skirt.hpp"
 
 namespace unicursal::gcode {
 namespace {
 
-constexpr double travel_widths = 1.5;       ///< bead widths; a longer move without extruding is a travel
 constexpr double width_comment_step = 0.2;  ///< relative change of width that viewers are told about
 constexpr double park_lift = 10;            ///< mm above the last layer, where the bed's height allows
+
+constexpr double unseen = 0.02;         ///< weight of plastic whose mixture hardly matters
+constexpr double gradient_piece = 0.5;  ///< mm of path that counts as of one mixture
+constexpr double least_piece = 1e-3;    ///< mm³; a bead is not cut nearer to its end
 
 using Lines = std::vector<std::string>;
 
@@ -30,21 +44,54 @@ void append(Lines& lines, Lines more) {
   lines.insert(lines.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// A vertex of one of the paths that are still to be printed.
-struct Entry {
-  std::size_t path = 0, vertex = 0;
+// What is to be written, in order.
+struct BeginLayer {
+  std::size_t index;
+  double top, height;
 };
+struct EndLayer {};
+struct Remark {
+  std::string line;
+};
+struct Warning {
+  std::string text;
+};
+struct Approach {
+  std::vector<core::Vec2> via;
+  core::Vec2 to;
+  double z, bead_width;
+};
+struct Lay {
+  core::Vec2 from, to;
+  double volume;
+  bool prime = false;
+};
+using Step = std::variant<BeginLayer, EndLayer, Remark, Warning, Approach, Lay>;
 
-Entry nearest_entry(const std::vector<const core::BeadPath*>& paths, const core::Vec2& from) {
-  Entry best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < paths.size(); ++p) {
-    for (std::size_t v = 0; v < paths[p]->size(); ++v) {
-      const double distance = (paths[p]->start(v) - from).squaredNorm();
-      if (distance < least) least = distance, best = {p, v};
-    }
+core::Box grown(core::Box box, double by) {
+  box.min -= core::Vec2(by, by);
+  box.max += core::Vec2(by, by);
+  return box;
+}
+
+/// The leg as a path of its own: from its start, in its direction.
+core::BeadPath turned(const core::BeadPath& path, const Leg& leg) {
+  core::BeadPath result;
+  core::Vec2 from = path.start(leg.start);
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const core::Bead& bead = path.beads[bead_of(path, leg, k)];
+    result.beads.push_back({from, bead.area, bead.zone});
+    from = bead_end(path, leg, k);
   }
-  return best;
+  return result;
+}
+
+ChamberModel chamber_of(const Printer& printer) {
+  return {printer.dead_volume, printer.mixing_volume, printer.tanks};
+}
+
+bool prints_anything(const PlacedLayer& layer) {
+  return std::any_of(layer.paths.begin(), layer.paths.end(), is_printable);
 }
 
 }  // namespace
@@ -52,87 +99,334 @@ Entry nearest_entry(const std::vector<const core::BeadPath*>& paths, const core:
 struct Encoder::State {
   State(const Printer& of, const PrintSettings& with);
 
-  Chunk new_chunk() const;
-  void prime(Chunk& chunk, const PlacedLayer& layer, const std::vector<const core::BeadPath*>& paths);
+  ScheduleOptions schedule_options() const;
+  RouteOptions route_options() const;
   std::size_t material_at(const core::BeadPath& path, std::size_t bead) const;
-  void approach(Chunk& chunk, const core::Vec2& to, double z, double bead_width);
+
+  void plan_decided();
+  void plan(const RoutedLayer& routed);
+  void plan_prime(const RoutedLayer& routed);
+  void plan_skirt(const RoutedLayer& routed);
+  void plan_path(const PlacedLayer& layer, const core::BeadPath& path, const Rivals& rivals);
+  void warn(const std::string& reason, const std::string& consequence);
+  void want(const Piece& piece);
+
+  Chunk write_certain();
+  void warn_of_crossings(Chunk& chunk);
+  void finish_part(Chunk& part, Chunk& chunk);
+  bool is_certain() const;
+  void write(Chunk& chunk, const BeginLayer& step);
+  void write(Chunk& chunk, const EndLayer& step);
+  void write(Chunk& chunk, const Remark& step);
+  void write(Chunk& chunk, const Warning& step);
+  void write(Chunk& chunk, const Approach& step);
+  void write(Chunk& chunk, const Lay& step);
+  void switch_mixture(Chunk& chunk);
   void draw_back(Chunk& chunk);
   void push_forward(Chunk& chunk);
-  void print(Chunk& chunk, const core::BeadPath& path, std::size_t first, double layer_height);
   void tell_width(Chunk& chunk, double width);
 
   const Printer printer;
   const PrintSettings settings;
   const Dialect& dialect;
+  const Palette palette;
   Lines start_lines, end_lines;
-  std::vector<Mixture> mixtures;               ///< as intended, by material
-  std::optional<std::size_t> retraction_tool;  ///< of equal shares
+  ToolTable tools;
   MoveWriter writer;
+  Pace pace;
+  Review review;
+  Route route;
+  Schedule schedule;
+  Forecast forecast;
+  std::deque<Step> steps;  ///< planned and not yet written
+  std::deque<Switch> switches;
+  std::optional<Mixture> mixture;        ///< that the feeders are told
+  std::optional<core::Vec2> planned_to;  ///< where the last path that is planned ends
+  double laid = 0;                       ///< mm³ along beads, written
+  bool ended = false;
+  std::size_t layer = 0;    ///< being written
+  bool layer_ends = false;  ///< what is being written is its end
+  double layer_height = 0;
+  std::size_t prime_material = 0;
   bool drawn_back = true;
+  bool begun = false;  ///< something has been printed or accepted for it
   bool primed = false;
+  bool warned_of_crossings = false;
   double told_width = 0;  ///< mm, of the last ;WIDTH: comment
 };
 
 Encoder::State::State(const Printer& of, const PrintSettings& with)
-    : printer(of), settings(with), dialect(dialect_named(of.firmware)), writer(printer, dialect) {
-  check_printer(printer);
-  check_settings(settings, printer, dialect);
-  start_lines = user_commands(printer.start_gcode, "start_gcode");
-  end_lines = user_commands(printer.end_gcode, "end_gcode");
-  for (const Material& material : settings.materials) {
-    mixtures.push_back(dialect.as_written(material.mixture.with_floor(printer.floor_share)));
-  }
-  if (mixtures.size() < dialect.limits().virtual_tools) retraction_tool = mixtures.size();
+    : printer((check_printer(of), of)),
+      settings((check_settings(with, of), with)),
+      dialect(dialect_named(of.firmware)),
+      palette(with.materials,
+              [this](const Mixture& m) {
+                return calibrated(m.with_floor(printer.floor_share), printer.flow_factors, dialect).delivered;
+              }),
+      tools(dialect, palette, printer.flow_factors),
+      writer(printer, dialect),
+      pace(printer, settings),
+      review(printer, dialect),
+      route(route_options()),
+      schedule(palette, schedule_options()),
+      forecast(palette, chamber_of(printer)) {
+  start_lines = script_lines(printer.start_gcode, "gcode.start", printer, settings);
+  end_lines = script_lines(printer.end_gcode, "gcode.end", printer, settings);
+  if (const auto tool = tools.retraction_tool()) writer.calibrate(*tool, tools.scale(*tool));
 }
 
-Chunk Encoder::State::new_chunk() const {
-  Chunk chunk;
-  chunk.material_volumes.resize(settings.materials.size());
-  return chunk;
+ScheduleOptions Encoder::State::schedule_options() const {
+  return {chamber_of(printer), settings.change_before_border, settings.look_ahead};
+}
+
+RouteOptions Encoder::State::route_options() const {
+  const ChangeCosts costs(palette, chamber_of(printer), [&] {
+    std::vector<bool> matters;
+    for (const Material& material : settings.materials) matters.push_back(!material.transition);
+    return matters;
+  }());
+  RouteOptions options;
+  options.horizon = settings.horizon;
+  options.seam = settings.seam;
+  options.change_cost = [costs, zones = settings.zone_materials](std::size_t from, std::size_t to) {
+    return costs.of(zones.at(from), zones.at(to));
+  };
+  return options;
 }
 
 std::size_t Encoder::State::material_at(const core::BeadPath& path, std::size_t bead) const {
   return settings.zone_materials[path.beads[bead].zone];
 }
 
+void Encoder::State::want(const Piece& piece) {
+  schedule.add(piece);
+  forecast.add(piece);
+}
+
+void Encoder::State::plan_decided() {
+  while (const auto routed = route.take()) plan(*routed);
+  for (const Switch& next : schedule.take()) {
+    forecast.add(next);
+    switches.push_back(next);
+  }
+}
+
+void Encoder::State::plan(const RoutedLayer& routed) {
+  const PlacedLayer& of = routed.layer;
+  steps.push_back(BeginLayer{of.index, of.top, of.height});
+  std::vector<std::size_t> materials;
+  for (const Leg& leg : routed.legs) {
+    const core::BeadPath& path = of.paths[leg.path];
+    for (std::size_t i = 0; i < path.size(); ++i) materials.push_back(material_at(path, i));
+  }
+  std::sort(materials.begin(), materials.end());
+  materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+  const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(materials));
+  if (!routed.legs.empty()) {
+    if (!std::exchange(primed, true)) {
+      if (pace.open()) pace.settle({simplified(of)});
+      plan_prime(routed);
+      plan_skirt(routed);
+    }
+    steps.push_back(Remark{";TYPE:Solid infill"});
+  }
+  for (const Leg& leg : routed.legs) plan_path(of, turned(of.paths[leg.path], leg), rivals);
+  steps.push_back(EndLayer{});
+}
+
+/// What is primed with is what is needed next.
+void Encoder::State::plan_prime(const RoutedLayer& routed) {
+  const Leg& first = routed.legs.front();
+  const core::BeadPath& path = routed.layer.paths[first.path];
+  prime_material = material_at(path, bead_of(path, first, 0));
+  const auto line =
+      prime_line(printer, grown(settings.extent, skirt_reach(settings.skirt, printer)), routed.layer.height);
+  if (!line) {
+    return warn("no prime line: the part leaves no edge of the bed free",
+                "the first beads may come out thin or in a former colour");
+  }
+  steps.push_back(Remark{";TYPE:Custom"});
+  steps.push_back(Approach{{}, line->from, routed.layer.top, line->width});
+  steps.push_back(Lay{line->from, line->to, line->volume, true});
+  want({line->volume, prime_material, 0, unseen, false, routed.layer.index, nullptr});
+}
+
+void Encoder::State::warn(const std::string& reason, const std::string& consequence) {
+  steps.push_back(Remark{"; " + reason});
+  steps.push_back(Warning{reason + "; " + consequence});
+}
+
+void Encoder::State::plan_skirt(const RoutedLayer& routed) {
+  const PlacedLayer& of = routed.layer;
+  const std::vector<core::BeadPath> rings = skirt(of, settings.skirt, printer);
+  if (rings.empty() && settings.skirt.loops > 0) {
+    warn("no skirt: the part leaves too little room round it on the bed", "nothing is laid instead");
+  }
+  if (!rings.empty()) steps.push_back(Remark{";TYPE:Skirt"});
+  for (const core::BeadPath& ring : rings) {
+    steps.push_back(Approach{{}, ring.start(0), of.top, ring.width(0)});
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const double volume = ring.beads[i].area * of.height;
+      steps.push_back(Lay{ring.start(i), ring.end(i), volume, true});
+      want({volume, prime_material, 0, unseen, false, of.index, nullptr});
+    }
+  }
+}
+
+void Encoder::State::plan_path(const PlacedLayer& of, const core::BeadPath& whole, const Rivals& rivals) {
+  const double width = whole.total_area() / whole.total_length();
+  std::vector<core::Vec2> via;
+  if (planned_to && (whole.start(0) - *planned_to).norm() > travel_widths * width) {
+    via = detour(*planned_to, whole.start(0), of.outlines, {{0, 0}, {printer.bed[0], printer.bed[1]}});
+  }
+  steps.push_back(Approach{std::move(via), whole.start(0), of.top, width});
+  planned_to = whole.start(0);
+  const core::BeadPath path = simplified(whole);
+  for (std::size_t bead = 0; bead < path.size(); ++bead) {
+    const core::Vec2 from = path.start(bead), to = path.end(bead);
+    const double volume = path.beads[bead].area * of.height;
+    const std::size_t index = material_at(path, bead);
+    const Material& material = settings.materials[index];
+    const double pieces =
+        material.gradient ? std::max(1.0, std::ceil((to - from).norm() / gradient_piece)) : 1;
+    for (double i = 0; i < pieces; ++i) {
+      const core::Vec2 middle = from + (to - from) * ((i + 0.5) / pieces);
+      const double part = material.gradient ? material.gradient->part_at(middle, of.top - of.height / 2) : 0;
+      want({volume / pieces, index, part, material.transition ? unseen : 1, material.transition, of.index,
+            rivals});
+    }
+    steps.push_back(Lay{from, to, volume});
+  }
+}
+
+/// A step is written when the plastic of the next bead is certain: a travel waits with the bead that it is
+/// for.
+bool Encoder::State::is_certain() const {
+  if (ended || std::holds_alternative<EndLayer>(steps.front())) return true;
+  for (const Step& step : steps) {
+    if (const Lay* lay = std::get_if<Lay>(&step))
+      return laid + lay->volume <= schedule.certain() + least_piece;
+  }
+  return false;
+}
+
+Chunk Encoder::State::write_certain() {
+  Chunk chunk, part;
+  while (!steps.empty() && is_certain()) {
+    const Step step = std::move(steps.front());
+    steps.pop_front();
+    if (const BeginLayer* begin = std::get_if<BeginLayer>(&step)) {
+      finish_part(part, chunk);
+      layer = begin->index;
+    }
+    std::visit([&](const auto& kind) { write(part, kind); }, step);
+  }
+  finish_part(part, chunk);
+  chunk.prime_material = prime_material;
+  return chunk;
+}
+
+/// Once: the report tells the rest.
+void Encoder::State::warn_of_crossings(Chunk& chunk) {
+  for (const LayerMixing& mixing : chunk.mixing) {
+    if (mixing.short_crossings == 0 || std::exchange(warned_of_crossings, true)) continue;
+    chunk.warnings.push_back(
+        fmt::format("layer {}: {} of {} crossings of transition zones hold less than the mixing volume of "
+                    "{:g} mm³, the shortest "
+                    "{:.2f} mm³; colours will change outside the zone there unless it is made wider",
+                    mixing.layer, mixing.short_crossings, mixing.crossings, printer.mixing_volume,
+                    mixing.shortest_crossing));
+  }
+}
+
+/// Reads back, times and adds what has been written of one layer.
+void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
+  if (part.lines.empty() && !layer_ends) return;
+  review(part, fmt::format("layer {}", layer));
+  chunk.layers.push_back({layer, part.volume, part.seconds, std::exchange(layer_ends, false)});
+  append(chunk.lines, std::move(part.lines));
+  append(chunk.warnings, std::move(part.warnings));
+  for (const auto& [what, volume] : part.mixture_volumes) add(chunk.mixture_volumes, what, volume);
+  chunk.volume += part.volume;
+  chunk.prime_volume += part.prime_volume;
+  chunk.seconds += part.seconds;
+  part = {};
+}
+
+void Encoder::State::write(Chunk& chunk, const BeginLayer& step) {
+  layer_height = step.height;
+  append(chunk.lines,
+         {";LAYER_CHANGE", ";Z:" + short_number(step.top, 3), ";HEIGHT:" + short_number(step.height, 3)});
+  append(chunk.lines, layer_events(step.index, settings));
+}
+
+void Encoder::State::write(Chunk&, const EndLayer&) {
+  layer_ends = true;
+}
+
+void Encoder::State::write(Chunk& chunk, const Remark& step) {
+  chunk.lines.push_back(step.line);
+}
+
+void Encoder::State::write(Chunk& chunk, const Warning& step) {
+  chunk.warnings.push_back(step.text);
+}
+
 void Encoder::State::draw_back(Chunk& chunk) {
   if (std::exchange(drawn_back, true)) return;
-  if (retraction_tool) writer.select_tool(chunk, *retraction_tool);
+  if (const auto tool = tools.retraction_tool()) writer.select_tool(chunk, *tool);
   writer.filament(chunk, -printer.retraction_length, printer.retraction_speed);
 }
 
 void Encoder::State::push_forward(Chunk& chunk) {
   if (!std::exchange(drawn_back, false)) return;
-  if (retraction_tool) writer.select_tool(chunk, *retraction_tool);
+  if (const auto tool = tools.retraction_tool()) writer.select_tool(chunk, *tool);
   writer.filament(chunk, printer.retraction_length, printer.retraction_speed);
 }
 
-void Encoder::State::approach(Chunk& chunk, const core::Vec2& to, double z, double bead_width) {
+void Encoder::State::write(Chunk& chunk, const Approach& step) {
   const auto here = writer.position();
-  if (!here || (to - *here).norm() > travel_widths * bead_width) draw_back(chunk);
+  if (!here || (step.to - *here).norm() > travel_widths * step.bead_width) draw_back(chunk);
   // Rise first: at the old height the nozzle would plough through what it has just laid.
-  writer.rise(chunk, z);
-  writer.travel(chunk, to);
+  writer.rise(chunk, drawn_back ? std::min(step.z + printer.z_hop, printer.bed[2]) : step.z);
+  for (const core::Vec2& place : step.via) writer.travel(chunk, place);
+  writer.travel(chunk, step.to);
+  writer.rise(chunk, step.z);
   push_forward(chunk);
 }
 
-void Encoder::State::prime(Chunk& chunk, const PlacedLayer& layer,
-                           const std::vector<const core::BeadPath*>& paths) {
-  const auto line = prime_line(printer, settings.extent, layer.height);
-  if (!line) {
-    const std::string reason = "no prime line: the part leaves no edge of the bed free";
-    chunk.lines.push_back("; " + reason);
-    chunk.warnings.push_back(reason + "; the first beads may come out thin or in a former colour");
-    return;
+/// Every switch that is due, of which the last one counts; and the tool, in case it has drawn filament back.
+void Encoder::State::switch_mixture(Chunk& chunk) {
+  while (!switches.empty() && switches.front().at <= laid + least_piece) {
+    mixture = palette.mixture(switches.front().shade);
+    switches.pop_front();
   }
-  chunk.lines.push_back(";TYPE:Custom");
-  tell_width(chunk, line->width);
-  approach(chunk, line->from, layer.top, line->width);
-  const Entry next = nearest_entry(paths, line->to);  // what is primed with is what is needed next
-  writer.select_tool(chunk, material_at(*paths[next.path], next.vertex));
-  const core::Vec2 step = line->to - line->from;
-  writer.bead(chunk, line->to, line->volume, bead_speed(step, line->volume, settings.flow, printer));
-  chunk.prime_volume += line->volume;
+  assert(mixture);  // the first switch is at 0
+  const std::size_t tool = tools.use(*mixture, chunk.lines);
+  writer.calibrate(tool, tools.scale(tool));
+  writer.select_tool(chunk, tool);
+}
+
+/// Cut where a switch falls within.
+void Encoder::State::write(Chunk& chunk, const Lay& bead) {
+  const core::Vec2 way = bead.to - bead.from;
+  const double width = way.norm() > 0 ? bead.volume / layer_height / way.norm() : 0;
+  const double speed =
+      way.norm() > 0 ? pace.speed(way, bead.volume, layer, layer_height) : printer.max_speed[0];
+  if (way.norm() > 0) tell_width(chunk, width);
+  for (double done = 0;;) {
+    switch_mixture(chunk);
+    const double left = bead.volume - done;
+    const bool cut = !switches.empty() && switches.front().at < laid + left - least_piece;
+    const double volume = cut ? switches.front().at - laid : left;
+    done += volume;
+    const core::Vec2 end = cut ? core::Vec2(bead.from + way * (done / bead.volume)) : bead.to;
+    writer.bead(chunk, end, volume, speed);
+    add(chunk.mixture_volumes, *mixture, volume);
+    if (bead.prime) chunk.prime_volume += volume;
+    laid += volume;
+    if (!cut) return;
+  }
 }
 
 void Encoder::State::tell_width(Chunk& chunk, double width) {
@@ -141,84 +435,78 @@ void Encoder::State::tell_width(Chunk& chunk, double width) {
   chunk.lines.push_back(";WIDTH:" + short_number(width, 3));
 }
 
-void Encoder::State::print(Chunk& chunk, const core::BeadPath& path, std::size_t first, double layer_height) {
-  for (std::size_t k = 0; k < path.size(); ++k) {
-    const std::size_t i = (first + k) % path.size();
-    const core::Vec2 step = path.end(i) - path.start(i);
-    const double volume = path.beads[i].area * layer_height;
-    if (step.squaredNorm() > 0) tell_width(chunk, path.width(i));
-    writer.select_tool(chunk, material_at(path, i));
-    const double speed =
-        step.squaredNorm() > 0 ? bead_speed(step, volume, settings.flow, printer) : printer.max_speed[0];
-    writer.bead(chunk, path.end(i), volume, speed);
-  }
-}
-
 Encoder::Encoder(const Printer& printer, const PrintSettings& settings)
     : state_(std::make_unique<State>(printer, settings)) {}
 Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
 
-Mixture Encoder::intended(std::size_t material) const {
-  return state_->mixtures.at(material);
+Mixture Encoder::intended(std::size_t material, double part) const {
+  return state_->palette.mixture(material, part);
+}
+
+double Encoder::flow() const {
+  return state_->pace.flow();
+}
+
+double Encoder::laying_seconds() const {
+  return state_->review.laying_seconds();
 }
 
 Chunk Encoder::start() {
   State& s = *state_;
-  Chunk chunk = s.new_chunk();
-  append(chunk.lines, job_comments(s.printer, s.settings));
-  append(chunk.lines, warm_up(s.printer));
-  append(chunk.lines, s.start_lines);
+  Chunk chunk;
+  append(chunk.lines, job_comments(s.printer, s.settings, s.dialect));
+  append(chunk.lines, warm_up(s.printer, s.settings));
+  append(chunk.lines, framed(s.start_lines));
   append(chunk.lines, after_user_start());
-  for (std::size_t i = 0; i < s.mixtures.size(); ++i) {
-    append(chunk.lines, s.dialect.define_tool(i, s.mixtures[i]));
-  }
-  if (s.retraction_tool) {
-    append(chunk.lines, s.dialect.define_tool(*s.retraction_tool, Mixture({1, 1, 1})));
-  }
+  append(chunk.lines, calibration(s.printer));
+  append(chunk.lines, s.tools.define());
   s.writer.select_tool(chunk, 0);
+  s.review(chunk, "the start");
   return chunk;
 }
 
 Chunk Encoder::layer(const PlacedLayer& layer) {
   State& s = *state_;
   check_layer(layer, s.settings, s.printer);
-  Chunk chunk = s.new_chunk();
-  append(chunk.lines,
-         {";LAYER_CHANGE", ";Z:" + short_number(layer.top, 3), ";HEIGHT:" + short_number(layer.height, 3)});
-  std::vector<const core::BeadPath*> left;
-  for (const core::BeadPath& path : layer.paths) {
-    if (path.size() >= 2 && path.total_length() > 0) left.push_back(&path);
-  }
-  if (!left.empty() && !s.primed) {
+  if (!s.begun && prints_anything(layer)) {
     check_on_bed(layer);
-    s.primed = true;
-    s.prime(chunk, layer, left);
+    s.begun = true;
   }
-  if (!left.empty()) chunk.lines.push_back(";TYPE:Solid infill");
-  while (!left.empty()) {
-    const Entry entry = nearest_entry(left, s.writer.position().value_or(core::Vec2(0, 0)));
-    const core::BeadPath& path = *left[entry.path];
-    s.approach(chunk, path.start(entry.vertex), layer.top, path.total_area() / path.total_length());
-    s.print(chunk, path, entry.vertex, layer.height);
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(entry.path));
-  }
+  s.route.add(layer);
+  s.plan_decided();
+  Chunk chunk = s.write_certain();
+  chunk.mixing = s.forecast.up_to(s.schedule.certain());
+  s.warn_of_crossings(chunk);
+  return chunk;
+}
+
+Chunk Encoder::rest() {
+  State& s = *state_;
+  s.route.end();
+  s.schedule.end();
+  s.plan_decided();
+  s.ended = true;
+  Chunk chunk = s.write_certain();
+  chunk.mixing = s.forecast.rest();
+  s.warn_of_crossings(chunk);
   return chunk;
 }
 
 Chunk Encoder::finish() {
   State& s = *state_;
-  Chunk chunk = s.new_chunk();
+  Chunk chunk;
   if (const auto height = s.writer.height()) {
     // The print may have been cut anywhere in what has been encoded, so that nothing is taken for granted.
     s.writer.forget();
     append(chunk.lines, modes());
-    s.writer.select_tool(chunk, s.retraction_tool.value_or(0));
+    s.writer.select_tool(chunk, s.tools.retraction_tool().value_or(0));
     s.draw_back(chunk);
     s.writer.rise(chunk, std::min(std::max(*height, s.settings.part_height) + park_lift, s.printer.bed[2]));
     s.writer.travel(chunk, {0, s.printer.bed[1]});
   }
   append(chunk.lines, shut_down(s.end_lines));
+  s.review(chunk, "the end");
   return chunk;
 }
 

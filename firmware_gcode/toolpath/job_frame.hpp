@@ -13,11 +13,36 @@ namespace unicursal::gcode {
 std::string comment(const std::string& text);
 
 /// For people and viewers: who made the file, for which printer, with which mixtures.
-std::vector<std::string> job_comments(const Printer& printer, const PrintSettings& settings);
+std::vector<std::string> job_comments(const Printer& printer, const PrintSettings& settings,
+                                      const Dialect& dialect);
+
+/// Between these comments stand the user's own lines.
+inline constexpr const char* user_lines_begin = ";BEGIN of your own lines";
+inline constexpr const char* user_lines_end = ";END of your own lines";
+
+struct HeatTargets {
+  double nozzle, bed;  ///< °C
+};
+/// What the print begins with.
+HeatTargets first_temperatures(const Printer& printer, const PrintSettings& settings);
 
 /// Inactivity shutdown, factors reset, heat, home. Bed and nozzle warm up while the axes home, which saves
 /// a minute; the waits come after, so that whatever has oozed meanwhile stays away from the bed.
-std::vector<std::string> warm_up(const Printer& printer);
+std::vector<std::string> warm_up(const Printer& printer, const PrintSettings& settings);
+
+/// A script of the user's as commands, with the job's numbers in it. `key` names it in messages. Throws
+/// core::DataError (placeholders.hpp, checks.hpp).
+std::vector<std::string> script_lines(const std::string& text, const std::string& key, const Printer& printer,
+                                      const PrintSettings& settings);
+
+/// The user's lines between their comments, if there are any.
+std::vector<std::string> framed(const std::vector<std::string>& user_lines);
+
+/// Steps of the extruder's motor, where the profile has them.
+std::vector<std::string> calibration(const Printer& printer);
+
+/// The changes of fan and heaters that a layer begins with. Nothing waits for them.
+std::vector<std::string> layer_events(std::size_t layer, const PrintSettings& settings);
 
 /// Millimetres, absolute positions, relative extrusion. M83 follows G90, which would override it.
 std::vector<std::string> modes();

@@ -62,6 +62,15 @@ void MoveWriter::forget() {
   owed_ = 0;
 }
 
+void MoveWriter::calibrate(std::size_t tool, double scale) {
+  if (scales_.size() <= tool) scales_.resize(tool + 1, 1.0);
+  scales_[tool] = scale;
+}
+
+double MoveWriter::scale() const {
+  return tool_ && *tool_ < scales_.size() ? scales_[*tool_] : 1.0;
+}
+
 void MoveWriter::select_tool(Chunk& chunk, std::size_t tool) {
   if (tool_ == tool) return;
   tool_ = tool;
@@ -71,32 +80,27 @@ void MoveWriter::select_tool(Chunk& chunk, std::size_t tool) {
 void MoveWriter::rise(Chunk& chunk, double z) {
   const std::int64_t to = scaled(z, position_decimals);
   if (height_ == to) return;
-  const double distance = height_ ? std::abs(z - *height()) : z;
   std::string line = "G1 Z";
   append_scaled(line, to, position_decimals);
   append_feed(line, printer_.max_speed[2]);
   chunk.lines.push_back(std::move(line));
-  chunk.seconds += trapezoid_seconds(distance, printer_.max_speed[2], printer_.max_acceleration[2]);
   height_ = to;
 }
 
 void MoveWriter::travel(Chunk& chunk, const core::Vec2& to) {
-  const core::Vec2 step = to - position().value_or(core::Vec2(0, 0));
   std::string line = "G0";
   append_position(line, on_grid(to));
   if (line.size() == 2) return;
   const double speed = std::min(printer_.max_speed[0], printer_.max_speed[1]);
   append_feed(line, speed);
   chunk.lines.push_back(std::move(line));
-  const double acceleration = std::min(printer_.max_acceleration[0], printer_.max_acceleration[1]);
-  chunk.seconds += trapezoid_seconds(step.norm(), speed, acceleration);
 }
 
 void MoveWriter::bead(Chunk& chunk, const core::Vec2& to, double volume, double speed) {
   assert(position_);
   const core::Vec2 from = *position();
   const double longest = dialect_.limits().extrusion / 2;  // half: clear of the firmware's own rounding
-  const double pieces = std::max(1.0, std::ceil((volume / filament_area_ + owed_) / longest));
+  const double pieces = std::max(1.0, std::ceil((volume / filament_area_ * scale() + owed_) / longest));
   for (double piece = 1; piece <= pieces; ++piece) {
     const core::Vec2 end = piece < pieces ? core::Vec2(from + (to - from) * (piece / pieces)) : to;
     straight_bead(chunk, end, volume / pieces, speed);
@@ -104,10 +108,9 @@ void MoveWriter::bead(Chunk& chunk, const core::Vec2& to, double volume, double 
 }
 
 void MoveWriter::straight_bead(Chunk& chunk, const core::Vec2& to, double volume, double speed) {
-  const double distance = (to - *position()).norm();
+  const core::Vec2 from = *position();
   chunk.volume += volume;
-  if (tool_ && *tool_ < chunk.material_volumes.size()) chunk.material_volumes[*tool_] += volume;
-  owed_ += volume / filament_area_;
+  owed_ += volume / filament_area_ * scale();
   std::string line = "G1";
   append_position(line, on_grid(to));
   if (line.size() == 2) return;  // shorter than the grid: its filament goes to the next bead
@@ -115,19 +118,17 @@ void MoveWriter::straight_bead(Chunk& chunk, const core::Vec2& to, double volume
     line += " E", append_scaled(line, e, extrusion_decimals);
     owed_ -= static_cast<double>(e) * extrusion_unit;
   }
-  append_feed(line, speed);
+  append_feed(line, std::min(speed, axis_limited_speed(*position() - from, printer_.max_speed)));
   chunk.lines.push_back(std::move(line));
-  chunk.seconds += distance / std::max(speed, bounds::speed.least);
 }
 
 void MoveWriter::filament(Chunk& chunk, double length, double speed) {
-  const std::int64_t e = scaled(length, extrusion_decimals);
+  const std::int64_t e = scaled(length * scale(), extrusion_decimals);
   if (e == 0) return;
   std::string line = "G1 E";
   append_scaled(line, e, extrusion_decimals);
   append_feed(line, speed);
   chunk.lines.push_back(std::move(line));
-  chunk.seconds += std::abs(length) / std::max(speed, bounds::speed.least);
 }
 
 }  // namespace unicursal::gcode

@@ -3,13 +3,15 @@
 //
 // Resolution: positions are written in 0.001 mm, E in 0.00001 mm. What rounding takes from one bead's E is
 // added to the next, so that their sum is exact. A feed rate is written only when it differs by more than
-// 1 % from the one in force. Coordinates that do not change are left out.
+// 1 % from the one in force; it keeps to the axes' limits along the way that is written. Coordinates that do
+// not change are left out.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/dialect/dialect.hpp"
@@ -32,6 +34,9 @@ class MoveWriter {
   /// printer that may have stopped anywhere in what has been written.
   void forget();
 
+  /// From here on a tool's filament is written `scale` times as long as it is to be: its feeders slip.
+  void calibrate(std::size_t tool, double scale);
+
   void select_tool(Chunk& chunk, std::size_t tool);
   void rise(Chunk& chunk, double z);
   void travel(Chunk& chunk, const core::Vec2& to);
@@ -48,6 +53,7 @@ class MoveWriter {
   static GridPoint on_grid(const core::Vec2& point);
   void append_position(std::string& line, const GridPoint& to);
   void append_feed(std::string& line, double speed);
+  double scale() const;
   void straight_bead(Chunk& chunk, const core::Vec2& to, double volume, double speed);
 
   const Printer& printer_;
@@ -56,8 +62,9 @@ class MoveWriter {
   std::optional<GridPoint> position_;
   std::optional<std::int64_t> height_;  ///< in 0.001 mm
   std::optional<std::size_t> tool_;
-  double feed_ = 0;  ///< mm/min in force, 0: unknown
-  double owed_ = 0;  ///< mm of filament that rounding has kept back
+  std::vector<double> scales_;  ///< by tool
+  double feed_ = 0;             ///< mm/min in force, 0: unknown
+  double owed_ = 0;             ///< mm of filament that rounding has kept back
 };
 
 }  // namespace unicursal::gcode

@@ -2,9 +2,24 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 namespace unicursal::gcode {
+
+/// What the firmware's planner keeps to beside the greatest speeds and accelerations: it decides how long a
+/// print takes and how much flow its hairpins bear. Marlin's own defaults.
+struct Motion {
+  std::array<double, 3> jerk{10, 10, 0.3};  ///< mm/s that x, y, z may jump by in a corner
+  double extruder_jerk = 5;
+  double junction_deviation = 0;  ///< mm that a corner may be cut by; 0: jerk is the rule
+  double acceleration = 3000;     ///< along a move that extrudes
+  double travel_acceleration = 3000;
+  double retract_acceleration = 3000;
+  double extruder_speed = 50;  ///< of the filament
+  double extruder_acceleration = 10000;
+};
 
 struct Printer {
   std::string name;
@@ -20,12 +35,19 @@ struct Printer {
   double floor_share = 0.02;
   double retraction_length = 4;  ///< mm of filament, all feeders together
   double retraction_speed = 25;
+  double z_hop = 0;  ///< by how much the nozzle is lifted on a travel
+  /// Steps of an extruder's motor for 1 mm of filament, told to the firmware; absent: it knows best.
+  std::optional<double> extruder_steps;
+  /// By how much more each feeder has to turn than the others to feed the same.
+  std::array<double, 3> flow_factors{1, 1, 1};
   double nozzle_temperature = 210;
   double bed_temperature = 60;
   double dead_volume = 2.1;    ///< mm³ before a new mixture first shows
   double mixing_volume = 4.0;  ///< mm³ from the first trace to 95 %
-  std::string start_gcode;     ///< extra lines after homing and heating, may be empty
-  std::string end_gcode;       ///< extra lines before the motors go off, may be empty
+  std::size_t tanks = 2;  ///< stirred tanks in a row that the chamber answers like: how steep a change is
+  Motion motion;
+  std::string start_gcode;  ///< extra lines after homing and heating, may be empty
+  std::string end_gcode;    ///< extra lines before the motors go off, may be empty
 };
 
 }  // namespace unicursal::gcode

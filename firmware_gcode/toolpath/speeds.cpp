@@ -18,16 +18,4 @@ double axis_limited_speed(const core::Vec2& displacement, const std::array<doubl
   return speed;
 }
 
-double bead_speed(const core::Vec2& displacement, double volume, double flow, const Printer& printer) {
-  const double limit = axis_limited_speed(displacement, printer.max_speed);
-  // flow ÷ (width × height) with width × height = volume ÷ length
-  return volume > 0 ? std::min(limit, flow * displacement.norm() / volume) : limit;
-}
-
-double trapezoid_seconds(double distance, double speed, double acceleration) {
-  const double ramps = speed * speed / acceleration;  // mm, speeding up and slowing down together
-  if (distance < ramps) return 2 * std::sqrt(distance / acceleration);
-  return distance / speed + speed / acceleration;
-}
-
 }  // namespace unicursal::gcode

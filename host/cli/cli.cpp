@@ -43,6 +43,7 @@ constexpr double most_threads = 256;
 
 struct JobArguments {
   std::string job, profile, layers, report, pictures;
+  bool no_look_ahead = false;
   std::size_t threads = 0;
 
   void declare(CLI::App& app) {
@@ -53,6 +54,8 @@ struct JobArguments {
         ->type_name("A:B");
     app.add_option("--report", report, "write what was measured as JSON")->type_name("FILE");
     app.add_option("--picture", pictures, "write a picture of each layer into this folder")->type_name("DIR");
+    app.add_flag("--no-look-ahead", no_look_ahead,
+                 "switch mixtures where the border is, not ahead of it: for comparison");
     app.add_option("--threads", threads,
                    "that plan layers; one for each core by default, any number gives the same bytes")
         ->check(finite_number(1, most_threads))
@@ -60,29 +63,32 @@ struct JobArguments {
   }
 
   JobOptions options() const {
-    JobOptions result{job, path_if(profile), {}, {path_if(report), path_if(pictures)}, threads};
+    JobOptions result{job,     path_if(profile), {}, {path_if(report), path_if(pictures)},
+                      threads, !no_look_ahead};
     if (!layers.empty()) result.layers = parse_layers(layers);
     return result;
   }
 };
 
 void declare_tanks(CLI::App& app, std::size_t& tanks) {
-  app.add_option("--tanks", tanks, "stirred tanks in a row that the nozzle mixes in, 1 to 8; 2 if left out")
+  app.add_option("--tanks", tanks,
+                 "stirred tanks in a row that the nozzle mixes in, 1 to 8; the profile's, or 2")
       ->check(CLI::Range(1, 8))
       ->type_name("NUMBER");
 }
 
 /// Which printer is simulated, and what goes wrong with it.
 struct PrinterArguments {
-  std::string personality = "marlin", usb = "cdc", fault_file;
+  std::string personality, usb = "cdc", fault_file;
   std::vector<std::string> faults;
   std::uint64_t seed = 0;
-  std::size_t tanks = 2;
+  std::size_t tanks = 0;
   CLI::Option* seed_given[2] = {nullptr, nullptr};
 
   void declare(CLI::App& app) {
     app.add_option("--personality", personality,
-                   "its firmware: marlin, marlin-8bit, marlin-advanced-ok, repetier")
+                   "its firmware: marlin, marlin-8bit, marlin-advanced-ok, repetier; "
+                   "that of the profile if left out")
         ->type_name("NAME");
     app.add_option("--usb", usb, "the chip in its cable: none, cdc (1 ms) or ftdi (16 ms)")
         ->type_name("CHIP");
@@ -98,12 +104,14 @@ struct PrinterArguments {
             ->type_name("NUMBER");
   }
 
+  bool chosen() const { return !personality.empty(); }
+
   void apply(sim::SimulatorOptions& options) const {
-    options.personality = personality;
+    if (chosen()) options.personality = personality;
     options.usb = usb;
     options.faults = faults;
     options.fault_file = path_if(fault_file);
-    options.tanks = tanks;
+    if (tanks > 0) options.tanks = tanks;
     for (const CLI::Option* given : seed_given) {
       if (given && given->count() > 0) options.seed = seed;
     }
@@ -438,7 +446,7 @@ class CommandLine {
   }
 
   DryRunCommand dry_run_command() const {
-    DryRunCommand command{job_.options(), {}, charge_, path_if(log_)};
+    DryRunCommand command{job_.options(), {}, printer_.chosen(), charge_, path_if(log_)};
     printer_.apply(command.printer);
     command.printer.speed = speed_;
     return command;
@@ -446,6 +454,7 @@ class CommandLine {
 
   SimulateCommand simulate_command() const {
     SimulateCommand command;
+    command.personality_chosen = printer_.chosen();
     printer_.apply(command.options);
     command.options.control = path_if(control_);
     command.options.transcript = path_if(transcript_);

@@ -24,6 +24,7 @@ struct JobOptions {
   std::optional<LayerRange> layers;
   RunOutputs outputs;
   std::size_t threads = 0;  ///< that plan; 0: one for each core
+  bool look_ahead = true;   ///< of the mixing schedule
 };
 
 struct PlanCommand {
@@ -33,8 +34,9 @@ struct PlanCommand {
 
 struct DryRunCommand {
   JobOptions job;
-  sim::SimulatorOptions printer;  ///< its personality, chip, faults; and its speed, 0: virtual time
-  double charge = 0;              ///< printer seconds for each second of planning, in virtual time
+  sim::SimulatorOptions printer;    ///< its personality, chip, faults; and its speed, 0: virtual time
+  bool personality_chosen = false;  ///< otherwise it is what the profile's firmware is
+  double charge = 0;                ///< printer seconds for each second of planning, in virtual time
   std::optional<std::filesystem::path> log;  ///< of the serial line
 };
 
@@ -81,6 +83,7 @@ struct SimulateCommand {
   sim::SimulatorOptions options;
   std::optional<std::filesystem::path> profile;  ///< of the printer to be
   std::optional<double> baud;                    ///< bits/s; absent: the profile's
+  bool personality_chosen = false;               ///< otherwise the profile's firmware counts, if there is one
 };
 
 struct TuneCommand {

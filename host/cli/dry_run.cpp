@@ -17,16 +17,21 @@ bool is_virtual(const DryRunCommand& command) {
   return command.printer.speed == 0;
 }
 
+/// The firmware that the profile is written for, unless another one is asked for.
+std::string personality_of(const DryRunCommand& command, const PreparedJob& prepared) {
+  return command.personality_chosen ? command.printer.personality : prepared.job.profile.printer.firmware;
+}
+
 std::vector<std::string> simulator_arguments(const DryRunCommand& command, const PreparedJob& prepared) {
   const sim::SimulatorOptions& printer = command.printer;
   std::vector<std::string> arguments = {"--profile",     prepared.job.profile.file.string(),
                                         "--speed",       fmt::format("{}", printer.speed),
                                         "--baud",        fmt::format("{}", prepared.job.profile.baud),
-                                        "--personality", printer.personality,
-                                        "--usb",         printer.usb,
-                                        "--tanks",       fmt::format("{}", printer.tanks)};
+                                        "--personality", personality_of(command, prepared),
+                                        "--usb",         printer.usb};
   for (const std::string& fault : printer.faults) arguments.insert(arguments.end(), {"--fault", fault});
   if (printer.fault_file) arguments.insert(arguments.end(), {"--faults", printer.fault_file->string()});
+  if (printer.tanks) arguments.insert(arguments.end(), {"--tanks", fmt::format("{}", *printer.tanks)});
   if (printer.seed) arguments.insert(arguments.end(), {"--seed", fmt::format("{}", *printer.seed)});
   if (command.job.outputs.pictures) {
     arguments.insert(arguments.end(), {"--picture", command.job.outputs.pictures->string()});
@@ -37,9 +42,11 @@ std::vector<std::string> simulator_arguments(const DryRunCommand& command, const
 Comparison compare_with(const nlohmann::json& simulator, const Run& run, const StreamResult& result) {
   Fed fed;
   fed.filament_diameter = run.prepared().job.profile.printer.filament_diameter;
-  fed.feeder_steps_per_mm = sim::SimulatorOptions{}.feeder_steps_per_mm;
+  const gcode::Printer& printer = run.prepared().job.profile.printer;
+  fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
+  fed.flow_factors = printer.flow_factors;
   fed.lines_sent = result.statistics.lines + result.statistics.queries;
-  return compare(run.totals().materials, simulator, fed);
+  return compare(run.fed(), simulator, fed);
 }
 
 StreamSettings settings_for(const DryRunCommand& command, const Profile& profile,
@@ -112,7 +119,7 @@ Exit dry_run(const DryRunCommand& command) {
     check_outputs({*command.printer.fault_file}, {*command.job.outputs.report});
   Run run(prepared, "dry-run", outputs_of(command));
   // Outlives the simulator, whose end is that of the stream it waits for.
-  DepositCheck check(intended_mixtures(run), command.job.outputs.pictures);
+  DepositCheck check(intended_materials(prepared, run.encoder()), command.job.outputs.pictures);
   SimulatorProcess simulator(simulator_arguments(command, prepared), is_virtual(command)
                                                                          ? SimulatorProcess::Time::lockstep
                                                                          : SimulatorProcess::Time::own);
@@ -127,7 +134,7 @@ Exit dry_run(const DryRunCommand& command) {
   if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
   nlohmann::json seen = seen_by(simulator, run, result, check, planning);
   check.finish();
-  const MotionFindings motion = motion_findings(seen, prepared.job.flow);
+  const MotionFindings motion = motion_findings(seen, run.flow());
   leave_out_histograms(seen);
   const Comparison comparison = compare_with(seen, run, result);
   conclude(run, result,

@@ -48,6 +48,7 @@ Exit plan(const PlanCommand& command) {
       progress.update(done, 1);
     }
   }
+  file.write(run.rest());
   file.write(run.finish());
   file.publish();
   run.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});

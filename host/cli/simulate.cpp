@@ -21,8 +21,16 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.filament_diameter = printer.filament_diameter;
   options.max_acceleration.assign(printer.max_acceleration.begin(), printer.max_acceleration.end());
   options.max_speed.assign(printer.max_speed.begin(), printer.max_speed.end());
+  const gcode::Motion& motion = printer.motion;
+  options.jerk.assign(motion.jerk.begin(), motion.jerk.end());
+  options.junction_deviation = motion.junction_deviation;
+  options.acceleration = motion.acceleration;
+  options.feeder_speed = motion.extruder_speed;
+  options.feeder_acceleration = motion.extruder_acceleration;
+  options.feeder_jerk = motion.extruder_jerk;
   options.dead_volume = printer.dead_volume;
   options.mixing_volume = printer.mixing_volume;
+  if (!options.tanks) options.tanks = printer.tanks;
   options.feeders = static_cast<std::size_t>(printer.feeders);
 }
 
@@ -49,7 +57,11 @@ void check_simulator(const sim::SimulatorOptions& options) {
 }
 
 Exit simulate(SimulateCommand command) {
-  if (command.profile) follow(load_profile(*command.profile), command.options);
+  if (command.profile) {
+    const Profile profile = load_profile(*command.profile);
+    follow(profile, command.options);
+    if (!command.personality_chosen) command.options.personality = profile.printer.firmware;
+  }
   if (command.baud) command.options.baud = *command.baud;
   check_simulator(command.options);
   const sim::SimulatorOptions& options = command.options;

@@ -95,6 +95,13 @@ std::optional<std::filesystem::path> pictures_of(const TuneCommand& command) {
   return usual_pictures;
 }
 
+/// The simulator ends only when nothing holds its clock any more.
+StreamSettings in_lockstep(const SimulatorProcess& simulator) {
+  StreamSettings settings;
+  settings.clock = std::make_shared<LockstepClock>(simulator.control());
+  return settings;
+}
+
 std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const Profile& profile,
                                                const Strip& strip, const FinishedPrint& print) {
   if (command.machine) load_profile(*command.machine);
@@ -107,10 +114,8 @@ std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const
     sim::RasterReader reader(rasters);
     while (const auto frame = reader.next()) seen->take(*frame, reader);
   });
-  StreamSettings settings;
-  settings.clock = std::make_shared<LockstepClock>(simulator.control());
   expect_whole(stream_with_progress(open_port(simulator.port(), profile.baud), print, "dry run of the strip,",
-                                    settings));
+                                    in_lockstep(simulator)));
   simulator.finish();
   watching.get();
   if (pictures) show(stdout, "picture:   {}\n", (*pictures / "deposit-0000.png").string());

@@ -121,7 +121,9 @@ LayerRange parse_layers(const std::string& text) {
 }
 
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more) {
-  PreparedJob prepared = prepare(load_job(options.job, options.profile), options.layers);
+  Job job = load_job(options.job, options.profile);
+  job.look_ahead = options.look_ahead;
+  PreparedJob prepared = prepare(std::move(job), options.layers);
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);

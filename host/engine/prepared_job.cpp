@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace unicursal::host {
 namespace {
@@ -20,6 +22,16 @@ core::Vec2 offset_on_bed(const Placement& place, const core::Box& extent, const 
       break;
   }
   return core::Vec2(printer.bed[0], printer.bed[1]) / 2 - extent.center();
+}
+
+double first_layer_height(const core::PartSource& source) {
+  return source.first_layer_height > 0 ? source.first_layer_height : source.layer_height;
+}
+
+/// mm above the part's underside at which a layer begins.
+double underside(const core::PartSource& source, std::size_t layer) {
+  if (layer == 0) return 0;
+  return first_layer_height(source) + static_cast<double>(layer - 1) * source.layer_height;
 }
 
 [[noreturn]] void refuse(const Job& job, const std::string& place, const std::string& problem,
@@ -50,6 +62,50 @@ void check_fit(const PreparedJob& prepared, double height) {
   }
 }
 
+/// How far the zones of a material reach along a direction, in the part's frame; by some slices, since to cut
+/// all of a high part would take long.
+std::array<double, 2> reach_of(const PreparedJob& prepared, std::size_t material,
+                               const std::array<double, 3>& along) {
+  constexpr std::size_t most_slices = 32;
+  std::array<double, 2> reach{std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity()};
+  const auto include = [&](const core::Vec2& p, double z) {
+    const double way = along[0] * p.x() + along[1] * p.y() + along[2] * z;
+    reach = {std::min(reach[0], way), std::max(reach[1], way)};
+  };
+  const std::size_t count = prepared.part->layer_count(), slices = std::min(count, most_slices);
+  for (std::size_t i = 0; i < slices; ++i) {
+    const core::Layer layer = prepared.part->layer(slices > 1 ? i * (count - 1) / (slices - 1) : 0);
+    for (const core::Island& island : layer.islands) {
+      for (const core::ZoneRegion& region : island.zones) {
+        if (prepared.part->zones()[region.zone].material != material) continue;
+        for (const core::Polygon& polygon : region.polygons) {
+          for (const core::Vec2& p : polygon.outer)
+            include(p, layer.top), include(p, layer.top - layer.height);
+        }
+      }
+    }
+  }
+  return reach;
+}
+
+/// Gradients are given in the part's frame and printed in the bed's.
+void place_gradients(PreparedJob& prepared) {
+  for (std::size_t i = 0; i < prepared.job.materials.size(); ++i) {
+    std::optional<gcode::Gradient>& gradient = prepared.job.materials[i].gradient;
+    if (!gradient) continue;
+    if (gradient->begin >= gradient->end) {
+      const auto [begin, end] = reach_of(prepared, i, gradient->along);
+      gradient->begin = std::isfinite(begin) ? begin : 0;
+      gradient->end = end > begin ? end : gradient->begin + 1;
+    }
+    const double shift = gradient->along[0] * prepared.offset.x() + gradient->along[1] * prepared.offset.y() -
+                         gradient->along[2] * prepared.lowered;
+    gradient->begin += shift;
+    gradient->end += shift;
+  }
+}
+
 void choose_layers(PreparedJob& prepared, const std::optional<LayerRange>& layers) {
   const std::size_t all = prepared.part->layer_count();
   if (all == 0) refuse(prepared.job, "part", "has no layer", "check height and layer_height");
@@ -61,7 +117,15 @@ void choose_layers(PreparedJob& prepared, const std::optional<LayerRange>& layer
   }
   prepared.first = range.first;
   prepared.count = std::min(range.last, all - 1) - range.first + 1;
-  prepared.lowered = static_cast<double>(prepared.first) * prepared.job.source.layer_height;
+  prepared.lowered = underside(prepared.job.source, prepared.first);
+}
+
+core::Polygon moved(core::Polygon polygon, const core::Vec2& offset) {
+  for (core::Vec2& vertex : polygon.outer) vertex += offset;
+  for (core::Ring& hole : polygon.holes) {
+    for (core::Vec2& vertex : hole) vertex += offset;
+  }
+  return polygon;
 }
 
 core::BeadPath on_bed(core::BeadPath path, const core::Vec2& offset) {
@@ -82,21 +146,36 @@ PreparedJob prepare(Job job, const std::optional<LayerRange>& layers) {
   prepared.planner = std::make_shared<const core::IslandPlanner>(prepared.part->zones());
   choose_layers(prepared, layers);
   prepared.offset = offset_on_bed(prepared.job.place, prepared.part->extent(), prepared.job.profile.printer);
-  const double height = layers ? static_cast<double>(prepared.count) * prepared.job.source.layer_height
-                               : prepared.part->height();
+  const double height =
+      layers ? underside(prepared.job.source, prepared.first + prepared.count) - prepared.lowered
+             : prepared.part->height();
   check_fit(prepared, height);
+  place_gradients(prepared);
   return prepared;
 }
 
 gcode::PrintSettings print_settings(const PreparedJob& prepared) {
   gcode::PrintSettings settings;
-  settings.flow = prepared.job.flow;
+  const Job& job = prepared.job;
+  settings.flow = job.flow;
+  settings.automatic_flow = job.automatic_flow;
+  settings.speed = job.speed;
+  settings.first_layer_speed = job.first_layer_speed;
+  settings.skirt = job.skirt;
+  settings.fan = job.fan;
+  settings.temperatures = job.temperatures;
+  settings.layer_count = prepared.count;
+  settings.layer_height = job.source.layer_height;
+  settings.first_layer_height = prepared.first == 0 ? first_layer_height(job.source) : settings.layer_height;
   settings.materials = prepared.job.materials;
   for (const core::Zone& zone : prepared.part->zones()) settings.zone_materials.push_back(zone.material);
   settings.extent = prepared.part->extent();
   settings.extent.min += prepared.offset;
   settings.extent.max += prepared.offset;
   settings.part_height = prepared.part->height() - prepared.lowered;
+  settings.look_ahead = prepared.job.look_ahead;
+  settings.change_before_border = prepared.job.change_before_border;
+  settings.seam = prepared.job.seam;
   return settings;
 }
 
@@ -119,6 +198,9 @@ gcode::PlacedLayer placed(const PreparedJob& prepared, const PlannedLayer& plann
   layer.index = planned.layer.index - prepared.first;
   layer.top = planned.layer.top - prepared.lowered;
   layer.height = planned.layer.height;
+  for (const core::Island& island : planned.layer.islands) {
+    layer.outlines.push_back(moved(island.outline, prepared.offset));
+  }
   for (const core::IslandPlan& plan : planned.plans) {
     for (const core::PlannedCurve& curve : plan.curves) {
       layer.paths.push_back(on_bed(curve.path, prepared.offset));

@@ -85,6 +85,9 @@ void catch_up(Run& run, const Spool& spool) {
       case SpooledChunk::Kind::layer:
         same(run.replay(chunk->layer), *chunk);
         break;
+      case SpooledChunk::Kind::rest:
+        same(run.rest(), *chunk);
+        break;
       case SpooledChunk::Kind::finish:
         same(run.finish(), *chunk);
     }

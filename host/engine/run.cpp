@@ -7,14 +7,23 @@
 namespace unicursal::host {
 namespace {
 
-nlohmann::json layer_entry(const PlannedLayer& planned, const gcode::PlacedLayer& layer,
-                           const gcode::Chunk& chunk) {
+nlohmann::json to_json(const gcode::LayerMixing& mixing) {
+  nlohmann::json entry = {{"changes", mixing.changes},         {"switches", mixing.switches},
+                          {"passed_over", mixing.passed_over}, {"passed_over_mm3", mixing.passed_over_volume},
+                          {"misplaced_mm3", mixing.misplaced}, {"wrong_mm3", mixing.wrong}};
+  if (mixing.crossings > 0) {
+    entry["transition_crossings"] = mixing.crossings;
+    entry["short_transition_crossings"] = mixing.short_crossings;
+    entry["shortest_transition_crossing_mm3"] = mixing.shortest_crossing;
+  }
+  return entry;
+}
+
+nlohmann::json layer_entry(const PlannedLayer& planned, const gcode::PlacedLayer& layer) {
   nlohmann::json entry = to_json(measure(planned));
   entry["layer"] = planned.layer.index;
   entry["top_mm"] = layer.top;
   entry["height_mm"] = layer.height;
-  entry["volume_mm3"] = chunk.volume;
-  entry["estimated_seconds"] = chunk.seconds;
   return entry;
 }
 
@@ -32,6 +41,15 @@ void forget_times(nlohmann::json& figures) {
 }
 
 }  // namespace
+
+struct LayerEntry {
+  nlohmann::json json;
+  double volume = 0, seconds = 0;
+  bool written = false;  ///< all its lines are in chunks
+  std::optional<gcode::LayerMixing> mixing;
+};
+
+Run::~Run() = default;
 
 Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& outputs)
     : prepared_(prepared),
@@ -51,38 +69,89 @@ Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& out
 
 gcode::Chunk Run::layer(PlannedLayer planned) {
   const gcode::PlacedLayer layer = placed(prepared_, planned);
-  gcode::Chunk chunk = replay(layer);
+  gcode::Chunk chunk = encoded(layer);
   totals_.figures += measure(planned);
   if (check_ != nullptr) check_->expect(target_of(prepared_, planned));
   if (log_) {
-    nlohmann::json entry = layer_entry(planned, layer, chunk);
+    nlohmann::json entry = layer_entry(planned, layer);
     if (repeatable_) forget_times(entry);
-    log_->add(entry);
+    entries_[layer.index].json = std::move(entry);
   }
   if (pictures_) pictures_->draw(std::move(planned));
+  count(chunk);
+  log_finished_layers(false);
   return chunk;
 }
 
 gcode::Chunk Run::replay(const gcode::PlacedLayer& layer) {
-  gcode::Chunk chunk = encoder_.layer(layer);
+  gcode::Chunk chunk = encoded(layer);
   count(chunk);
+  return chunk;
+}
+
+gcode::Chunk Run::encoded(const gcode::PlacedLayer& layer) {
+  gcode::Chunk chunk = encoder_.layer(layer);
   ++totals_.layers;
+  totals_.flow = flow();
   add_layer(totals_.materials, layer, zone_materials_);
-  add_prime(totals_.materials, chunk);
+  return chunk;
+}
+
+gcode::Chunk Run::rest() {
+  gcode::Chunk chunk = encoder_.rest();
+  count(chunk);
+  log_finished_layers(true);
   return chunk;
 }
 
 gcode::Chunk Run::finish() {
   gcode::Chunk chunk = encoder_.finish();
   count(chunk);
+  log_finished_layers(true);
   return chunk;
+}
+
+double Run::flow() const {
+  const Job& job = prepared_.job;
+  return job.speed ? *job.speed * job.bead_width * job.source.layer_height : encoder_.flow();
+}
+
+/// In order; after a stop those that were not printed to their end as well.
+void Run::log_finished_layers(bool all) {
+  while (log_ && !entries_.empty()) {
+    LayerEntry& entry = entries_.begin()->second;
+    if (!all && !(entry.written && entry.mixing)) return;
+    entry.json["volume_mm3"] = entry.volume;
+    entry.json["estimated_seconds"] = entry.seconds;
+    if (entry.mixing) entry.json["mixing"] = to_json(*entry.mixing);
+    log_->add(entry.json);
+    entries_.erase(entries_.begin());
+  }
 }
 
 void Run::count(const gcode::Chunk& chunk) {
   totals_.print_seconds += chunk.seconds;
   totals_.volume += chunk.volume;
+  totals_.materials.at(chunk.prime_material).prime += chunk.prime_volume;
   for (const std::string& line : chunk.lines) totals_.lines += is_command(line) ? 1 : 0;
+  for (const auto& [mixture, volume] : chunk.mixture_volumes) gcode::add(totals_.fed, mixture, volume);
+  for (const gcode::LayerMixing& mixing : chunk.mixing) totals_.mixing += mixing;
   encoding_warnings_.insert(encoding_warnings_.end(), chunk.warnings.begin(), chunk.warnings.end());
+  if (log_) count_layers(chunk);
+}
+
+void Run::count_layers(const gcode::Chunk& chunk) {
+  for (const gcode::LayerShare& share : chunk.layers) {
+    LayerEntry& entry = entries_[share.layer];
+    entry.volume += share.volume;
+    entry.seconds += share.seconds;
+    entry.written = entry.written || share.last;
+  }
+  for (const gcode::LayerMixing& mixing : chunk.mixing) entries_[mixing.layer].mixing = mixing;
+}
+
+std::vector<MaterialVolume> Run::fed() const {
+  return fed_volumes(totals_.fed, totals_.materials);
 }
 
 std::vector<std::string> Run::warnings() const {
@@ -104,13 +173,16 @@ void Run::write_report(const nlohmann::json& extra) {
       {"printer", prepared_.job.profile.printer.name},
       {"warnings", warnings()},
       {"bead_width_mm", prepared_.job.bead_width},
+      {"flow_mm3_s", flow()},
       {"layer_height_mm", prepared_.job.source.layer_height},
       {"layer_count", totals_.layers},
       {"totals", to_json(totals_.figures)},
       {"mixtures", to_json(totals_.materials)},
-      {"feeder_volumes_mm3", feeder_volumes(totals_.materials)},
+      {"mixing", to_json(totals_.mixing)},
+      {"feeder_volumes_mm3", feeder_volumes(fed())},
       {"extruded_mm3", totals_.volume},
       {"estimated_print_seconds", totals_.print_seconds},
+      {"estimated_laying_seconds", encoder_.laying_seconds()},
       {"lines", totals_.lines},
   };
   if (repeatable_) {
@@ -154,10 +226,16 @@ TargetLayer target_of(const PreparedJob& prepared, const PlannedLayer& planned) 
   return target;
 }
 
-std::vector<gcode::Mixture> intended_mixtures(const Run& run) {
-  std::vector<gcode::Mixture> mixtures;
-  for (const MaterialVolume& material : run.totals().materials) mixtures.push_back(material.intended);
-  return mixtures;
+std::vector<IntendedMaterial> intended_materials(const PreparedJob& prepared, const gcode::Encoder& encoder) {
+  std::vector<IntendedMaterial> intended;
+  for (std::size_t i = 0; i < prepared.job.materials.size(); ++i) {
+    IntendedMaterial material(encoder.intended(i));
+    material.gradient = prepared.job.materials[i].gradient;
+    if (material.gradient) material.gradient->to = encoder.intended(i, 1);
+    material.transition = prepared.job.materials[i].transition;
+    intended.push_back(std::move(material));
+  }
+  return intended;
 }
 
 CurveStyle curve_style(const PreparedJob& prepared) {

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <exception>
 #include <new>
+#include <utility>
 
 #include "host/engine/rejoining.hpp"
 #include "host/engine/slow_computer.hpp"
@@ -91,7 +92,7 @@ class PlannedSource final : public Source {
   const gcode::Chunk& start() override { return run_.start(); }
   asio::awaitable<std::optional<Piece>> next() override {
     std::optional<PlannedLayer> layer = co_await lookahead_.next();
-    if (!layer) co_return std::nullopt;
+    if (!layer) co_return rest();
     Piece piece;
     piece.cpu_seconds = layer->cpu_seconds;
     if (spooling_) piece.record = spooled(*layer, run_.prepared());
@@ -99,15 +100,26 @@ class PlannedSource final : public Source {
     co_return piece;
   }
   gcode::Chunk finish() override { return run_.finish(); }
-  void cancel() override { lookahead_.cancel(); }
+  void cancel() override {
+    ended_ = true;
+    lookahead_.cancel();
+  }
   SlowComputer computer(double charge) const override {
     return {charge, lookahead_.threads(), lookahead_.ahead()};
   }
 
  private:
+  std::optional<Piece> rest() {
+    if (std::exchange(ended_, true)) return std::nullopt;
+    Piece piece{run_.rest(), 0, {}};
+    piece.record.kind = SpooledChunk::Kind::rest;
+    return piece;
+  }
+
   Lookahead& lookahead_;
   Run& run_;
   const bool spooling_;
+  bool ended_ = false;  ///< nothing is withheld any more, or wanted
 };
 
 class FinishedSource final : public Source {
@@ -433,6 +445,7 @@ class Stream {
   /// Strips the chunk of its comments, and spools it. When the disk is full, the print waits until there is
   /// room; false when it was stopped meanwhile, so that nothing of the chunk may be sent.
   asio::awaitable<bool> keep(SpooledChunk record, gcode::Chunk& chunk) {
+    if (spool_) record.begun = layers_begun_in(chunk.lines);
     keep_commands(chunk);
     if (!spool_) co_return true;
     record.lines = chunk.lines;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "host/job/print_keys.hpp"
 #include "host/job/settings_file.hpp"
 #include "host/job/zones.hpp"
 
@@ -48,14 +49,14 @@ bool is_drawing(const std::filesystem::path& file) {
   return extension == ".svg";
 }
 
-double read_layer_height(const Section& part, double nozzle) {
-  const char* const remedy = "write for example layer_height = 0.2";
-  const double height = part.number("layer_height", {0, greatest_length, true, "mm"}, remedy);
+double read_layer_height(const Section& part, const char* key, double nozzle) {
+  const std::string remedy = fmt::format("write for example {} = 0.2", key);
+  const double height = part.number(key, {0, greatest_length, true, "mm"}, remedy);
   if (height < least_layer_height) {
-    part.fail("layer_height", fmt::format("is {} mm, thinner than any printer can lay", height), remedy);
+    part.fail(key, fmt::format("is {} mm, thinner than any printer can lay", height), remedy);
   }
   if (height > nozzle) {
-    part.fail("layer_height",
+    part.fail(key,
               fmt::format("is {} mm, more than the nozzle's opening of {} mm: beads would not stick", height,
                           nozzle),
               "lower it, or choose a profile with another nozzle");
@@ -67,7 +68,10 @@ core::PartSource read_source(const Section& part, double nozzle) {
   core::PartSource source;
   source.files = read_files(part);
   const Range length{0, greatest_length, true, "mm"};
-  source.layer_height = read_layer_height(part, nozzle);
+  source.layer_height = read_layer_height(part, "layer_height", nozzle);
+  if (part.has("first_layer_height")) {
+    source.first_layer_height = read_layer_height(part, "first_layer_height", nozzle);
+  }
   const bool drawing = std::any_of(source.files.begin(), source.files.end(), is_drawing);
   if (drawing || part.has("height")) {
     source.height =
@@ -143,8 +147,7 @@ void read_flow(const Section& part, Job& job) {
   if (!node) return;
   if (node->is_string()) {
     part.choice("flow", *node, {"auto"});
-    job.warnings.push_back(fmt::format("{}: part.flow = \"auto\" is not yet followed; {} mm³/s is used",
-                                       job.file.string(), job.flow));
+    job.automatic_flow = true;
     return;
   }
   job.flow = part.number("flow", above(0, "mm³/s"), "write for example flow = 2.0");
@@ -161,17 +164,14 @@ void read_perimeters(const Section& part, Job& job) {
   if (count != job.perimeters) part.fail("perimeters", "is no whole number", "write for example 1");
 }
 
-/// Keys that later versions follow; their values are checked all the same.
-void read_future_keys(const Section& part, Job& job) {
-  const auto warn = [&](std::string_view key) {
-    job.warnings.push_back(fmt::format("{}: {} is not yet followed", job.file.string(), part.path(key)));
-  };
-  if (const toml::node* seam = part.find("seam")) {
-    if (part.choice("seam", *seam, {"hidden", "scattered", "aligned", "none-extra-travel"}) !=
-        "none-extra-travel") {
-      warn("seam");
-    }
-  }
+void read_seam(const Section& part, Job& job) {
+  const toml::node* node = part.find("seam");
+  if (!node) return;
+  const std::string seam =
+      part.choice("seam", *node, {"hidden", "scattered", "aligned", "none-extra-travel"});
+  if (seam == "scattered") job.seam = gcode::Seam::scattered;
+  if (seam == "aligned") job.seam = gcode::Seam::aligned;
+  if (seam == "none-extra-travel") job.seam = gcode::Seam::nearest;
 }
 
 std::filesystem::path profile_path(const Section& root, const std::optional<std::filesystem::path>& chosen) {
@@ -199,18 +199,23 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
   Job job;
   job.file = path;
   job.profile = load_profile(profile_path(root, profile));
-  const Section part = root.section("part",
-                                    {"file", "height", "layer_height", "bead_width", "seed_distance", "flow",
-                                     "perimeters", "deposit", "place", "seam"},
-                                    "write [part] and below it file, layer_height and bead_width");
+  const Section part =
+      root.section("part",
+                   {"file", "height", "layer_height", "first_layer_height", "bead_width", "seed_distance",
+                    "flow", "speed", "first_layer_speed", "perimeters", "deposit", "place", "seam",
+                    "change_before_border", "skirt", "fan", "temperatures"},
+                   "write [part] and below it file, layer_height and bead_width");
   job.source = read_source(part, job.profile.printer.nozzle);
   job.place = read_place(part);
   job.line_width = read_deposit(part, job.profile.printer);
   read_bead_width(part, job);
   read_flow(part, job);
+  read_print_keys(part, job);
   read_perimeters(part, job);
-  read_future_keys(part, job);
-  ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders, job.warnings);
+  read_seam(part, job);
+  job.change_before_border = part.number_or("change_before_border", 0.5, between(0.05, 0.95, ""),
+                                            "write the share of a change that may fall before its border");
+  ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders);
   job.source.zones = std::move(zones.zones);
   job.materials = std::move(zones.materials);
   return job;

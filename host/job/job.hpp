@@ -35,9 +35,18 @@ struct Job {
   std::optional<double> seed_distance;
   int perimeters = 0;  ///< contours around the fill
   double flow = 2;
+  bool automatic_flow = false;
+  std::optional<double> speed;   ///< mm/s, constant instead of the flow
+  double first_layer_speed = 1;  ///< of the others'
+  gcode::Skirt skirt;
+  gcode::Fan fan;
+  std::vector<gcode::LayerTemperature> temperatures;
   std::optional<double> line_width;  ///< of a thin line that shows the curve; absent: beads fill their area
   Placement place;
-  /// The mixtures that zones use, equal ones once, in order of first use; one virtual tool each.
+  gcode::Seam seam = gcode::Seam::hidden;
+  double change_before_border = 0.5;  ///< share of every change of mixture
+  bool look_ahead = true;  ///< of the mixing schedule; false only on the command line's word, for comparison
+  /// The mixtures that zones use, equal ones once, in order of first use.
   std::vector<gcode::Material> materials;
   Profile profile;
   std::vector<std::string> warnings;  ///< keys that are accepted but not followed yet, one sentence each

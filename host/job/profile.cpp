@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/mixing/response.hpp"
 #include "firmware_gcode/toolpath/bounds.hpp"
+#include "firmware_gcode/toolpath/placeholders.hpp"
+#include "host/job/nearest.hpp"
 #include "host/job/settings_file.hpp"
 
 namespace unicursal::host {
@@ -27,10 +31,10 @@ void read_machine(const Section& section, Profile& profile) {
   printer.name = section.text_or("name", profile.file.stem().string(), "write a name in quotes");
   if (const toml::node* firmware = section.find("firmware")) {
     printer.firmware = section.choice("firmware", *firmware, {"marlin", "repetier", "reprapfirmware"});
-    if (printer.firmware != "marlin") {
+    if (printer.firmware == "reprapfirmware") {
       section.fail("firmware",
                    fmt::format("is \"{}\", which this version does not speak yet", printer.firmware),
-                   "only \"marlin\" works so far");
+                   "\"marlin\" and \"repetier\" work so far");
     }
   }
   profile.port = section.text_or("port", profile.port, "write \"auto\" or a path such as \"/dev/ttyUSB0\"");
@@ -52,6 +56,39 @@ void read_machine(const Section& section, Profile& profile) {
   printer.max_acceleration = section.numbers_or("max_acceleration", printer.max_acceleration,
                                                 within(gcode::bounds::acceleration, "mm/s²"),
                                                 "write max_acceleration = [x, y, z] in mm/s²");
+  gcode::Motion& motion = printer.motion;
+  motion.jerk = section.numbers_or("jerk", motion.jerk, within(gcode::bounds::jerk, "mm/s"),
+                                   "write jerk = [x, y, z] in mm/s, as M205 or M503 tells");
+  motion.junction_deviation = section.number_or("junction_deviation", motion.junction_deviation,
+                                                within(gcode::bounds::junction_deviation, "mm"),
+                                                "write for example junction_deviation = 0.013");
+  motion.acceleration =
+      section.number_or("acceleration", motion.acceleration, within(gcode::bounds::acceleration, "mm/s²"),
+                        "write for example acceleration = 3000");
+  motion.travel_acceleration = motion.acceleration;
+}
+
+void read_extruder_motion(const Section& section, gcode::Motion& motion) {
+  motion.extruder_speed =
+      section.number_or("max_speed", motion.extruder_speed, within(gcode::bounds::speed, "mm/s"),
+                        "write mm of filament in a second, for example max_speed = 50");
+  motion.extruder_acceleration = section.number_or("max_acceleration", motion.extruder_acceleration,
+                                                   within(gcode::bounds::acceleration, "mm/s²"),
+                                                   "write for example max_acceleration = 10000");
+  motion.extruder_jerk = section.number_or("jerk", motion.extruder_jerk, within(gcode::bounds::jerk, "mm/s"),
+                                           "write for example jerk = 5");
+}
+
+/// Braces that stand for nothing are told with the name that was probably meant.
+std::string read_script(const Section& section, const char* key) {
+  const std::string text = section.text_or(key, "", "write the extra lines in \"\"\"triple quotes\"\"\"");
+  const std::vector<std::string> known = gcode::placeholder_names();
+  for (const std::string& name : gcode::placeholders_in(text)) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    section.fail(key, fmt::format("holds {{{}}}, which stands for nothing", name),
+                 fmt::format("did you mean {{{}}}?", nearest(name, known)));
+  }
+  return text;
 }
 
 void read_extruder(const Section& section, gcode::Printer& printer) {
@@ -72,6 +109,16 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
   printer.retraction_speed =
       section.number_or("retraction_speed", printer.retraction_speed, within(gcode::bounds::speed, "mm/s"),
                         "write for example retraction_speed = 25.0");
+  printer.z_hop = section.number_or("z_hop", printer.z_hop, within(gcode::bounds::z_hop, "mm"),
+                                    "write for example z_hop = 0.4");
+  printer.flow_factors =
+      section.numbers_or("flow_factors", printer.flow_factors, within(gcode::bounds::flow_factor, ""),
+                         "write one number for each feeder, for example [1, 1.03, 1]");
+  if (section.has("steps_per_mm")) {
+    printer.extruder_steps = section.number("steps_per_mm", within(gcode::bounds::extruder_steps, "steps/mm"),
+                                            "write for example steps_per_mm = 400");
+  }
+  read_extruder_motion(section, printer.motion);
 }
 
 void read_temperature(const Section& section, gcode::Printer& printer) {
@@ -89,6 +136,11 @@ void read_transition(const Section& section, gcode::Printer& printer) {
   printer.mixing_volume =
       section.number_or("mixing_volume", printer.mixing_volume, within(gcode::bounds::transition, "mm³"),
                         "write for example mixing_volume = 4.0");
+  const char* const remedy = "write a whole number, for example tanks = 2";
+  const double tanks = section.number_or("tanks", static_cast<double>(printer.tanks),
+                                         between(1, static_cast<double>(gcode::max_tanks), ""), remedy);
+  if (tanks != std::floor(tanks)) section.fail("tanks", "is no whole number", remedy);
+  printer.tanks = static_cast<std::size_t>(tanks);
 }
 
 }  // namespace
@@ -98,20 +150,23 @@ Profile load_profile(const std::filesystem::path& path) {
   Profile profile;
   profile.file = std::filesystem::absolute(path);
   const Section root = file.root({"printer", "extruder", "temperature", "transition", "gcode"});
-  read_machine(root.section("printer",
-                            {"name", "firmware", "port", "baud", "receive_buffer", "bed", "nozzle",
-                             "bead_width_range", "max_speed", "max_acceleration"},
-                            "a profile describes the machine below [printer]; is this file a profile?"),
-               profile);
-  read_extruder(root.section_or_empty("extruder", {"feeders", "filament_diameter", "max_flow", "floor_share",
-                                                   "retraction_length", "retraction_speed"}),
-                profile.printer);
+  read_machine(
+      root.section("printer",
+                   {"name", "firmware", "port", "baud", "receive_buffer", "bed", "nozzle", "bead_width_range",
+                    "max_speed", "max_acceleration", "jerk", "junction_deviation", "acceleration"},
+                   "a profile describes the machine below [printer]; is this file a profile?"),
+      profile);
+  read_extruder(
+      root.section_or_empty("extruder", {"feeders", "filament_diameter", "max_flow", "floor_share",
+                                         "retraction_length", "retraction_speed", "z_hop", "steps_per_mm",
+                                         "flow_factors", "max_speed", "max_acceleration", "jerk"}),
+      profile.printer);
   read_temperature(root.section_or_empty("temperature", {"nozzle", "bed"}), profile.printer);
-  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume"}), profile.printer);
+  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume", "tanks"}),
+                  profile.printer);
   const Section gcode = root.section_or_empty("gcode", {"start", "end"});
-  profile.printer.start_gcode =
-      gcode.text_or("start", "", "write the extra lines in \"\"\"triple quotes\"\"\"");
-  profile.printer.end_gcode = gcode.text_or("end", "", "write the extra lines in \"\"\"triple quotes\"\"\"");
+  profile.printer.start_gcode = read_script(gcode, "start");
+  profile.printer.end_gcode = read_script(gcode, "end");
   return profile;
 }
 

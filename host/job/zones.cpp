@@ -11,9 +11,13 @@
 namespace unicursal::host {
 namespace {
 
-constexpr std::size_t most_tools = 16;  ///< virtual tools that Marlin keeps
-
 using Palette = std::vector<gcode::Material>;
+
+constexpr std::size_t most_materials = 200;  ///< that the report's labels can tell apart
+
+const char* const mixture_remedy =
+    "write the name of a mixture below [mixture] in quotes, or { from = \"…\", to = \"…\", along = [1, 0, 0] "
+    "}";
 
 const char* const pattern_remedy =
     "write a name such as \"isotropic\", { angle = 45 } or { field = \"directions.csv\" }";
@@ -43,7 +47,7 @@ Palette read_palette(const Section& root, int feeders) {
       root.section("mixture", {}, "write [mixture] and below it for example white = [0.34, 0.33, 0.33]");
   Palette palette;
   for (auto&& [key, node] : section.table()) {
-    palette.push_back({std::string(key.str()), read_mixture(section, key.str(), feeders)});
+    palette.push_back({std::string(key.str()), read_mixture(section, key.str(), feeders), {}, false});
   }
   return palette;
 }
@@ -94,26 +98,15 @@ core::Pattern read_pattern(const Section& zone) {
   return pattern;
 }
 
-/// The name of the mixture; of a gradient, which is not yet followed, the one it starts from.
-std::string mixture_name(const Section& zone, std::vector<std::string>& warnings) {
-  const char* const remedy = "write the name of a mixture below [mixture] in quotes";
-  const toml::node* node = zone.find("mixture");
-  if (!node || !node->is_table()) return zone.text("mixture", remedy);
-  const Section gradient = zone.section("mixture", {"from", "to", "along"}, remedy);
-  warnings.push_back(
-      fmt::format("{}: {}: gradients are not yet followed; filled with the mixture it starts from",
-                  zone.file().string(), zone.path("mixture")));
-  return gradient.text("from", remedy);
-}
-
-const gcode::Material& find_material(const Section& zone, const Palette& palette, const std::string& name) {
+const gcode::Material& find_material(const Section& zone, std::string_view key, const Palette& palette) {
+  const std::string name = zone.text(key, mixture_remedy);
   std::vector<std::string> names;
   for (const gcode::Material& material : palette) {
     if (material.name == name) return material;
     names.push_back(material.name);
   }
   const std::string close = nearest(name, names);
-  zone.fail("mixture", fmt::format("is \"{}\", which is not defined", name),
+  zone.fail(key, fmt::format("is \"{}\", which is not defined", name),
             close.empty() ? "define it below [mixture]"
                           : fmt::format("define it below [mixture], or did you mean \"{}\"?", close));
 }
@@ -125,35 +118,75 @@ bool equal(const gcode::Mixture& a, const gcode::Mixture& b) {
                     [](double x, double y) { return std::abs(x - y) < rounding; });
 }
 
+bool equal(const std::optional<gcode::Gradient>& a, const std::optional<gcode::Gradient>& b) {
+  if (!a || !b) return !a && !b;
+  return equal(a->to, b->to) && a->along == b->along && a->begin == b->begin && a->end == b->end;
+}
+
 /// Zones of equal mixture form one material zone, whatever the names of the mixtures.
 std::size_t index_in(std::vector<gcode::Material>& used, const gcode::Material& material) {
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (equal(used[i].mixture, material.mixture)) return i;
+    if (equal(used[i].mixture, material.mixture) && equal(used[i].gradient, material.gradient) &&
+        used[i].transition == material.transition) {
+      return i;
+    }
   }
   used.push_back(material);
   return used.size() - 1;
 }
 
-core::Zone read_zone(const Section& section, const Palette& palette, std::vector<gcode::Material>& used,
-                     std::vector<std::string>& warnings) {
+std::array<double, 3> read_direction(const Section& gradient) {
+  const char* const remedy = "write the direction in the part's frame, for example along = [1, 0, 0]";
+  const std::vector<double> along = gradient.numbers("along", between(-1e6, 1e6, ""), remedy);
+  if (along.size() != 3) gradient.fail("along", "has not three numbers", remedy);
+  const double length = std::hypot(along[0], along[1], along[2]);
+  if (!(length > 0)) gradient.fail("along", "has no length", remedy);
+  return {along[0] / length, along[1] / length, along[2] / length};
+}
+
+/// From one end of its zones to the other, unless it is said where.
+gcode::Material read_gradient(const Section& zone, const Palette& palette) {
+  const Section section = zone.section("mixture", {"from", "to", "along", "over"}, mixture_remedy);
+  gcode::Material material = find_material(section, "from", palette);
+  const gcode::Material& to = find_material(section, "to", palette);
+  material.name += " to " + to.name;
+  material.gradient = gcode::Gradient{to.mixture, read_direction(section), 0, 0};
+  if (section.has("over")) {
+    const char* const remedy = "write where it begins and ends along the direction, mm in the part's frame";
+    const auto over = section.numbers_or<2>("over", {0, 0}, between(-1e4, 1e4, "mm"), remedy);
+    if (over[0] >= over[1]) section.fail("over", "does not end behind its beginning", remedy);
+    material.gradient->begin = over[0];
+    material.gradient->end = over[1];
+  }
+  return material;
+}
+
+gcode::Material read_material(const Section& zone, const Palette& palette) {
+  const toml::node* node = zone.find("mixture");
+  gcode::Material material =
+      node && node->is_table() ? read_gradient(zone, palette) : find_material(zone, "mixture", palette);
+  material.transition = zone.flag_or("transition", false, "write true or false");
+  if (material.transition && material.gradient) {
+    zone.fail("transition", "is true for a gradient", "use either the one or the other");
+  }
+  return material;
+}
+
+core::Zone read_zone(const Section& section, const Palette& palette, std::vector<gcode::Material>& used) {
   core::Zone zone;
   zone.select = section.text("select", "write a fill colour, an object's name or a file's name in quotes");
   zone.pattern = read_pattern(section);
-  zone.material = index_in(used, find_material(section, palette, mixture_name(section, warnings)));
-  if (section.flag_or("transition", false, "write true or false")) {
-    warnings.push_back(
-        fmt::format("{}: {} is not yet followed", section.file().string(), section.path("transition")));
-  }
-  if (used.size() > most_tools) {
+  zone.material = index_in(used, read_material(section, palette));
+  if (used.size() > most_materials) {
     section.fail("mixture", fmt::format("is the mixture number {}", used.size()),
-                 fmt::format("use at most {} different mixtures in one job", most_tools));
+                 fmt::format("use at most {} different mixtures in one job", most_materials));
   }
   return zone;
 }
 
 }  // namespace
 
-ZonesAndMaterials read_zones(const Section& root, int feeders, std::vector<std::string>& warnings) {
+ZonesAndMaterials read_zones(const Section& root, int feeders) {
   const char* const remedy = "write [[zone]] and below it select, pattern and mixture";
   const toml::node* node = root.find("zone");
   if (!node) root.fail("zone", "is missing", remedy);
@@ -166,7 +199,7 @@ ZonesAndMaterials read_zones(const Section& root, int feeders, std::vector<std::
   for (const toml::node& item : *list) {
     const Section section(root.file(), *item.as_table(), fmt::format("zone[{}]", result.zones.size()),
                           {"select", "pattern", "boundary", "mixture", "transition"});
-    result.zones.push_back(read_zone(section, palette, result.materials, warnings));
+    result.zones.push_back(read_zone(section, palette, result.materials));
   }
   return result;
 }

@@ -16,7 +16,8 @@ struct ZonesAndMaterials {
 };
 
 /// Reads [[zone]] and [mixture] of a job's root. `feeders`: how many shares a mixture has.
-/// Appends a sentence to `warnings` for what is accepted but not followed yet. Throws JobError.
-ZonesAndMaterials read_zones(const Section& root, int feeders, std::vector<std::string>& warnings);
+/// A gradient that does not say where it begins and ends has both at 0 (prepared_job.hpp finds them). Throws
+/// JobError.
+ZonesAndMaterials read_zones(const Section& root, int feeders);
 
 }  // namespace unicursal::host

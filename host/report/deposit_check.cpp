@@ -22,9 +22,9 @@ void remove_old_pictures(const std::filesystem::path& folder) {
 
 }  // namespace
 
-DepositCheck::DepositCheck(std::vector<gcode::Mixture> mixtures,
+DepositCheck::DepositCheck(std::vector<IntendedMaterial> materials,
                            std::optional<std::filesystem::path> pictures)
-    : mixtures_(std::move(mixtures)), pictures_(std::move(pictures)) {
+    : materials_(std::move(materials)), pictures_(std::move(pictures)) {
   if (pictures_) remove_old_pictures(*pictures_);
 }
 
@@ -63,7 +63,7 @@ void DepositCheck::take(const sim::RasterFrame& frame, sim::RasterReader& reader
     for (std::uint64_t r = 0; r < frame.rows; ++r) rows(row);
     return;
   }
-  JudgedLayer layer = judge(*target, frame, rows, mixtures_, pictures_.has_value());
+  JudgedLayer layer = judge(*target, frame, rows, materials_, pictures_.has_value());
   if (pictures_) write_pictures(target->index, layer);
   layers_[target->index] += layer.findings;
   total_ += layer.findings;

@@ -2,7 +2,7 @@
 // was laid from the other, as a stream. Memory holds the layers that have been planned and not yet laid, and
 // one raster.
 //
-//   DepositCheck check(mixtures, pictures);
+//   DepositCheck check(materials, pictures);
 //   check.watch(descriptor);        // reads in a thread of its own
 //   check.expect(target);           // before the layer's first line is sent
 //   check.finish();                 // when the simulator has ended
@@ -23,9 +23,9 @@ namespace unicursal::host {
 
 class DepositCheck {
  public:
-  /// `mixtures` by material: as the printer is to mix them. `pictures`: a folder that exists, for
+  /// `materials`: as the printer is to mix them. `pictures`: a folder that exists, for
   /// gaps-NNNN.png and mixtures-NNNN.png; older ones are removed from it.
-  DepositCheck(std::vector<gcode::Mixture> mixtures, std::optional<std::filesystem::path> pictures);
+  DepositCheck(std::vector<IntendedMaterial> materials, std::optional<std::filesystem::path> pictures);
   /// Waits for the end of the stream.
   ~DepositCheck();
   DepositCheck(const DepositCheck&) = delete;
@@ -50,7 +50,7 @@ class DepositCheck {
   std::optional<TargetLayer> target_at(double z);
   void write_pictures(std::size_t index, const JudgedLayer& layer);
 
-  std::vector<gcode::Mixture> mixtures_;
+  std::vector<IntendedMaterial> materials_;
   std::optional<std::filesystem::path> pictures_;
   std::mutex mutex_;  ///< guards expected_
   std::vector<TargetLayer> expected_;

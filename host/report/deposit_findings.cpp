@@ -43,6 +43,7 @@ DepositFindings& DepositFindings::operator+=(const DepositFindings& more) {
   fill += more.fill;
   fill_moment += more.fill_moment;
   fill_squares += more.fill_squares;
+  transition += more.transition;
   wrong += more.wrong;
   wrong_distance += more.wrong_distance;
   mixture_error += more.mixture_error;
@@ -62,12 +63,14 @@ nlohmann::json to_json(const DepositFindings& f) {
             {"p50", f.fill.percentile(0.5)},
             {"p95", f.fill.percentile(0.95)}}},
           {"mixture",
-           {{"wrong_mm2", f.wrong},
+           {{"transition_mm2", f.transition},
+            {"wrong_mm2", f.wrong},
             {"wrong_fraction", f.wrong_fraction()},
             {"error_mm2", f.mixture_error},
             {"distance_from_border_mm",
              {{"p50", f.wrong_distance.percentile(0.5)},
               {"p90", f.wrong_distance.percentile(0.9)},
+              {"p95", f.wrong_distance.percentile(0.95)},
               {"p99", f.wrong_distance.percentile(0.99)},
               {"greatest", f.wrong_distance.percentile(1)}}}}}};
 }

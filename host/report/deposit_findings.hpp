@@ -34,7 +34,8 @@ struct DepositFindings {
   AreaHistogram fill{0.01};
   double fill_moment = 0, fill_squares = 0;  ///< ∫ fill, ∫ fill²
 
-  double wrong = 0;  ///< area where what arrived is nearer to another zone's mixture than to its own
+  double transition = 0;  ///< area of zones that are there to take up changes: its mixtures are not judged
+  double wrong = 0;       ///< area where what arrived is nearer to another zone's mixture than to its own
   AreaHistogram wrong_distance{0.05};  ///< of the wrong places from the border of their material zone
   double mixture_error = 0;  ///< ∫ half the sum of the differences of all shares: area of misplaced plastic
 

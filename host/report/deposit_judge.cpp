@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware_gcode/mixing/response.hpp"
 #include "host/report/deposit_pictures.hpp"
 
 namespace unicursal::host {
@@ -13,6 +14,7 @@ using Shares = std::array<double, gcode::max_feeders>;
 
 constexpr double margin = 1;     // mm around the part that counts as beside it
 constexpr double hardly = 0.05;  // fill below which no mixture has arrived
+constexpr double amiss = 0.1;    // of the plastic, misplaced: a gradient's shade is wrong
 
 /// The raster's own pixels, as far as they lie around the part.
 PixelGrid grid_around(const TargetLayer& target, const sim::RasterFrame& frame) {
@@ -55,12 +57,6 @@ Shares shares_of(const sim::RasterPixel& pixel) {
   return shares;
 }
 
-double misplaced(const Shares& is, const Shares& wanted) {
-  double sum = 0;
-  for (std::size_t f = 0; f < is.size(); ++f) sum += std::abs(is[f] - wanted[f]);
-  return sum / 2;
-}
-
 double squared_difference(const Shares& a, const Shares& b) {
   double sum = 0;
   for (std::size_t f = 0; f < a.size(); ++f) sum += (a[f] - b[f]) * (a[f] - b[f]);
@@ -79,8 +75,9 @@ std::vector<RegionLabel> materials_of(const TargetLayer& target) {
 
 class Judge {
  public:
-  Judge(const TargetLayer& target, const std::vector<gcode::Mixture>& mixtures, const PixelGrid& grid)
-      : mixtures_(mixtures),
+  Judge(const TargetLayer& target, const std::vector<IntendedMaterial>& materials, const PixelGrid& grid)
+      : intended_(materials),
+        middle_(target.top - target.height / 2),
         materials_(materials_of(target)),
         grid_(grid),
         labels_(scan(target.zones, grid)) {}
@@ -113,12 +110,21 @@ class Judge {
  private:
   void judge_mixture(std::size_t i, const Shares& arrived, DepositFindings& f) {
     const double place = grid_.pixel * grid_.pixel;
-    const Shares& own = mixtures_.at(labels_[i]).shares();
-    f.mixture_error += misplaced(arrived, own) * place;
+    const IntendedMaterial& material = intended_.at(labels_[i]);
+    if (material.transition) {
+      f.transition += place;
+      return;
+    }
+    const Shares own = material.at(grid_.middle(i), middle_);
+    const double error = gcode::misplaced(arrived, own);
+    f.mixture_error += error * place;
     const double distance = squared_difference(arrived, own);
-    wrong_[i] = std::any_of(materials_.begin(), materials_.end(), [&](RegionLabel other) {
-      return squared_difference(arrived, mixtures_.at(other).shares()) < distance;
-    });
+    wrong_[i] = material.gradient ? error > amiss
+                                  : std::any_of(materials_.begin(), materials_.end(), [&](RegionLabel other) {
+                                      const IntendedMaterial& rival = intended_.at(other);
+                                      return !rival.gradient &&
+                                             squared_difference(arrived, rival.mixture.shares()) < distance;
+                                    });
     if (wrong_[i]) f.wrong += place;
   }
 
@@ -130,7 +136,8 @@ class Judge {
     }
   }
 
-  const std::vector<gcode::Mixture>& mixtures_;
+  const std::vector<IntendedMaterial>& intended_;
+  double middle_;  ///< height of the layer's middle
   std::vector<RegionLabel> materials_;
   const PixelGrid& grid_;
   std::vector<RegionLabel> labels_;
@@ -139,15 +146,23 @@ class Judge {
 
 }  // namespace
 
+Shares IntendedMaterial::at(const core::Vec2& place, double z) const {
+  Shares shares = mixture.shares();
+  if (!gradient) return shares;
+  const double part = gradient->part_at(place, z);
+  for (std::size_t f = 0; f < shares.size(); ++f) shares[f] += part * (gradient->to.share(f) - shares[f]);
+  return shares;
+}
+
 JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, const RowSource& rows,
-                  const std::vector<gcode::Mixture>& mixtures, bool draw) {
+                  const std::vector<IntendedMaterial>& materials, bool draw) {
   const PixelGrid grid = grid_around(target, frame);
   const std::vector<sim::RasterPixel> pixels = read(frame, rows, grid);
-  Judge judge(target, mixtures, grid);
+  Judge judge(target, materials, grid);
   JudgedLayer result;
   result.findings = judge.findings(pixels);
   if (draw) {
-    const DepositView view{grid, judge.labels(), pixels, judge.wrong(), mixtures};
+    const DepositView view{grid, judge.labels(), pixels, judge.wrong()};
     result.gaps = draw_gaps(view);
     result.mixtures = draw_mixtures(view);
   }

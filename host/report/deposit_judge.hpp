@@ -9,12 +9,24 @@
 #include <vector>
 
 #include "core/picture/image.hpp"
-#include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/mixing/palette.hpp"
 #include "host/report/deposit_findings.hpp"
 #include "host/report/scan.hpp"
 #include "sim/raster.hpp"
 
 namespace unicursal::host {
+
+/// What a material is to come out as.
+struct IntendedMaterial {
+  gcode::Mixture mixture;  ///< of a gradient, where it begins
+  std::optional<gcode::Gradient> gradient = {};
+  bool transition = false;  ///< it is there to take up changes: nothing is wrong in it
+
+  IntendedMaterial(const gcode::Mixture& plain) : mixture(plain) {}
+
+  /// The shares that are wanted there.
+  std::array<double, gcode::max_feeders> at(const core::Vec2& place, double z) const;
+};
 
 /// What a layer was to be, in the bed's frame.
 struct TargetLayer {
@@ -33,8 +45,10 @@ struct JudgedLayer {
   std::optional<picture::Image> mixtures;  ///< the right ones in their colours, the wrong ones marked
 };
 
-/// `mixtures` by material: as the printer was to mix them. Reads every row.
+/// `materials`: as the printer was to mix them. A place of a gradient is wrong where a tenth of its plastic
+/// or more is misplaced, any other where what arrived is nearer to another material of the layer. Reads every
+/// row.
 JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, const RowSource& rows,
-                  const std::vector<gcode::Mixture>& mixtures, bool draw);
+                  const std::vector<IntendedMaterial>& materials, bool draw);
 
 }  // namespace unicursal::host

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/picture/image.hpp"
-#include "firmware_gcode/mixing/mixture.hpp"
 #include "host/report/scan.hpp"
 #include "sim/raster.hpp"
 
@@ -18,7 +17,6 @@ struct DepositView {
   const std::vector<RegionLabel>& labels;  ///< by material
   const std::vector<sim::RasterPixel>& pixels;
   const std::vector<bool>& wrong;
-  const std::vector<gcode::Mixture>& mixtures;
 };
 
 picture::Image draw_gaps(const DepositView& view);

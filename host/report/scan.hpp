@@ -16,6 +16,12 @@ struct PixelGrid {
   std::size_t columns = 0, rows = 0;
 
   std::size_t size() const { return columns * rows; }
+  /// Of a pixel, counted row by row from the lowest.
+  core::Vec2 middle(std::size_t index) const {
+    const core::Vec2 place(static_cast<double>(index % columns) + 0.5,
+                           static_cast<double>(index / columns) + 0.5);
+    return origin + place * pixel;
+  }
 };
 
 using RegionLabel = std::uint8_t;

@@ -8,6 +8,9 @@
 namespace unicursal::host {
 namespace {
 
+/// What fed_volumes() calls mixtures that no material has.
+constexpr const char* shades_of_gradients = "between";
+
 std::string counted(std::uint64_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
@@ -41,7 +44,8 @@ std::string summary(const RunTotals& totals, const PlanningEffort& planning) {
   }
   fmt::format_to(out, "\nplanning:  {} ({} of processor time)\n", duration_words(planning.seconds),
                  duration_words(planning.cpu_seconds));
-  fmt::format_to(out, "printing:  about {} at the asked flow\n", duration_words(totals.print_seconds));
+  fmt::format_to(out, "printing:  about {} at {:.2f} mm³/s\n", duration_words(totals.print_seconds),
+                 totals.flow);
   if (f.self_intersections + f.outside_segments > 0) {
     fmt::format_to(out, "defects:   {} self-intersections, {} segments outside\n", f.self_intersections,
                    f.outside_segments);
@@ -59,9 +63,25 @@ std::string summary(const Comparison& comparison) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "simulator: {} lines lost, {} run twice, {}\n", comparison.lines_lost,
                  comparison.lines_twice, comparison.in_order ? "all in order" : "OUT OF ORDER");
+  const auto tell = [&out](const Comparison::Mixture& m) {
+    fmt::format_to(out, "           {}: fed {:.2f} mm³ of {:.2f} ({:+.3f} %)\n", m.name, m.fed, m.intended,
+                   100 * m.relative_error);
+  };
+  Comparison::Mixture shades;
+  std::size_t count = 0;
   for (const Comparison::Mixture& mixture : comparison.mixtures) {
-    fmt::format_to(out, "           {}: fed {:.2f} mm³ of {:.2f} ({:+.3f} %)\n", mixture.name, mixture.fed,
-                   mixture.intended, 100 * mixture.relative_error);
+    if (mixture.name != shades_of_gradients) {
+      tell(mixture);
+      continue;
+    }
+    ++count;
+    shades.fed += mixture.fed;
+    shades.intended += mixture.intended;
+  }
+  if (count > 0) {
+    shades.name = counted(count, "mixture") + " in between";
+    shades.relative_error = shades.fed / shades.intended - 1;
+    tell(shades);
   }
   return text;
 }

@@ -14,9 +14,12 @@ struct RunTotals {
   Figures figures;
   std::size_t layers = 0;
   double print_seconds = 0;  ///< estimated
+  double flow = 0;           ///< mm³/s that is held
   double volume = 0;         ///< extruded by all chunks
   std::uint64_t lines = 0;   ///< that the firmware gets: without comments
   std::vector<MaterialVolume> materials;
+  std::vector<gcode::MixtureVolume> fed;  ///< by the mixture that the feeders were told
+  gcode::LayerMixing mixing;              ///< what the schedule expects of all layers together
 };
 
 }  // namespace unicursal::host

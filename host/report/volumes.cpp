@@ -58,13 +58,13 @@ std::vector<Row> rows_of(const std::vector<MaterialVolume>& volumes) {
   return rows;
 }
 
-void add_steps(std::vector<Row>& rows, const nlohmann::json& entry, double volume_per_step) {
+void add_steps(std::vector<Row>& rows, const nlohmann::json& entry, const Shares& volume_per_step) {
   const Shares shares = numbers(entry, "shares"), steps = numbers(entry, "feeder_steps");
   const auto row = std::min_element(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
     return difference(a.shares, shares) < difference(b.shares, shares);
   });
   if (row == rows.end()) return;
-  for (std::size_t f = 0; f < steps.size(); ++f) row->fed[f] += steps[f] * volume_per_step;
+  for (std::size_t f = 0; f < steps.size(); ++f) row->fed[f] += steps[f] * volume_per_step[f];
 }
 
 double relative_error(double is, double should) {
@@ -104,15 +104,17 @@ void add_layer(std::vector<MaterialVolume>& volumes, const gcode::PlacedLayer& l
   }
 }
 
-void add_prime(std::vector<MaterialVolume>& volumes, const gcode::Chunk& chunk) {
-  if (chunk.prime_volume <= 0) return;
-  std::size_t primed = 0;
-  double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    const double excess = chunk.material_volumes.at(i) - volumes[i].part;
-    if (excess > most) most = excess, primed = i;
+std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>& fed,
+                                        const std::vector<MaterialVolume>& materials) {
+  std::vector<MaterialVolume> volumes;
+  for (const auto& [mixture, volume] : fed) {
+    const auto material = std::find_if(materials.begin(), materials.end(), [&](const MaterialVolume& m) {
+      return difference(m.intended.shares(), mixture.shares()) < same_mixture;
+    });
+    const std::string name = material == materials.end() ? "between" : material->name;
+    volumes.push_back({name, mixture, mixture, volume, 0});
   }
-  volumes.at(primed).prime += chunk.prime_volume;
+  return volumes;
 }
 
 Shares feeder_volumes(const std::vector<MaterialVolume>& volumes) {
@@ -138,7 +140,10 @@ nlohmann::json to_json(const std::vector<MaterialVolume>& volumes) {
 Comparison compare(const std::vector<MaterialVolume>& volumes, const nlohmann::json& simulator,
                    const Fed& fed) {
   const double radius = fed.filament_diameter / 2;
-  const double volume_per_step = std::numbers::pi * radius * radius / fed.feeder_steps_per_mm;
+  Shares volume_per_step{};
+  for (std::size_t f = 0; f < volume_per_step.size(); ++f) {
+    volume_per_step[f] = std::numbers::pi * radius * radius / (fed.feeder_steps_per_mm * fed.flow_factors[f]);
+  }
   std::vector<Row> rows = rows_of(volumes);
   for (const nlohmann::json& entry : simulator.value("mixtures", nlohmann::json::array())) {
     add_steps(rows, entry, volume_per_step);

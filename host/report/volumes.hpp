@@ -26,11 +26,12 @@ struct MaterialVolume {
 void add_layer(std::vector<MaterialVolume>& volumes, const gcode::PlacedLayer& layer,
                const std::vector<std::size_t>& zone_materials);
 
-/// Adds the prime line, if the chunk of the layer added last holds one, to the material it was laid with:
-/// the one of which more left the nozzle than the part has by now.
-void add_prime(std::vector<MaterialVolume>& volumes, const gcode::Chunk& chunk);
+/// What the feeders were told, by mixture: the schedule's volumes, which are the zones' but for the changes.
+/// Those that no material has are called `between`.
+std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>& fed,
+                                        const std::vector<MaterialVolume>& materials);
 
-/// mm³ for each feeder, of all materials together.
+/// mm³ for each feeder, of all mixtures together.
 std::array<double, gcode::max_feeders> feeder_volumes(const std::vector<MaterialVolume>& volumes);
 
 nlohmann::json to_json(const std::vector<MaterialVolume>& volumes);
@@ -39,7 +40,8 @@ nlohmann::json to_json(const std::vector<MaterialVolume>& volumes);
 struct Fed {
   double filament_diameter = 1.75;  ///< mm
   double feeder_steps_per_mm = 400;
-  std::uint64_t lines_sent = 0;  ///< numbered lines, each once
+  std::uint64_t lines_sent = 0;                                  ///< numbered lines, each once
+  std::array<double, gcode::max_feeders> flow_factors{1, 1, 1};  ///< by how much more a feeder turns
 };
 
 /// Steps per feeder against the intended volume of each mixture, and the fate of every line.

@@ -89,9 +89,10 @@ std::optional<LayerPlace> layer_of(const std::filesystem::path& chunks, std::uin
   ChunkReader reader(chunks);
   std::size_t layers = 0;
   while (const auto chunk = reader.next()) {
-    if (chunk->kind != SpooledChunk::Kind::layer) continue;
-    if (reader.first_line() > line) break;
-    place = LayerPlace{layers++, chunk->layer.top};
+    for (const LayerBegun& begun : chunk->begun) {
+      if (reader.first_line() + begun.line > line) return place;
+      place = LayerPlace{layers++, begun.top};
+    }
   }
   return place;
 }

@@ -89,9 +89,9 @@ Curves plan(const host::PreparedJob& job, const Options& wanted) {
 /// Judges each finished layer, whole and without its rim.
 class Judges : public sim::RasterSink {
  public:
-  Judges(const host::PreparedJob& job, const Curves& curves, std::vector<gcode::Mixture> mixtures,
+  Judges(const host::PreparedJob& job, const Curves& curves, std::vector<host::IntendedMaterial> materials,
          Laying& laying)
-      : job_(job), curves_(curves), mixtures_(std::move(mixtures)), laying_(laying) {}
+      : job_(job), curves_(curves), materials_(std::move(materials)), laying_(laying) {}
 
   void layer(const sim::LayerRaster& raster) override {
     laying_.rastered += volume_of(raster);
@@ -124,12 +124,12 @@ class Judges : public sim::RasterSink {
   host::DepositFindings judged(const host::TargetLayer& target, const sim::LayerRaster& raster) const {
     std::uint64_t row = 0;
     const auto rows = [&](std::span<sim::RasterPixel> pixels) { raster.read_row(row++, pixels); };
-    return host::judge(target, raster.frame(), rows, mixtures_, false).findings;
+    return host::judge(target, raster.frame(), rows, materials_, false).findings;
   }
 
   const host::PreparedJob& job_;
   const Curves& curves_;
-  std::vector<gcode::Mixture> mixtures_;
+  std::vector<host::IntendedMaterial> materials_;
   Laying& laying_;
 };
 
@@ -178,12 +178,10 @@ double sum(const sim::PerFeeder<double>& volumes) {
 Laying lay(const host::PreparedJob& job, const Curves& curves, const Options& options) {
   gcode::PrintSettings settings = host::print_settings(job);
   gcode::Encoder encoder(job.job.profile.printer, settings);
-  std::vector<gcode::Mixture> mixtures;
-  for (std::size_t i = 0; i < settings.materials.size(); ++i) mixtures.push_back(encoder.intended(i));
 
   Laying laying;
   const gcode::Printer& printer = job.job.profile.printer;
-  Judges judges(job, curves, mixtures, laying);
+  Judges judges(job, curves, host::intended_materials(job, encoder), laying);
   sim::Spread spread({printer.bed[0], printer.bed[1]}, raster_pixel);
   sim::Deposit deposit({nullptr, &spread, &judges});
   sim::Nozzle nozzle(printer.filament_diameter, sim::Chamber({printer.dead_volume, printer.mixing_volume}, 3),
@@ -196,6 +194,7 @@ Laying lay(const host::PreparedJob& job, const Curves& curves, const Options& op
   send(*firmware, encoder.start());
   for (const host::PlannedLayer& layer : curves.layers)
     send(*firmware, encoder.layer(host::placed(job, layer)));
+  send(*firmware, encoder.rest());
   send(*firmware, encoder.finish());
   firmware->run_down();
   deposit.finish();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -112,6 +113,43 @@ void play(const Chunk& chunk, Played& state) {
   }
 }
 
+/// All that the layers become, as one chunk.
+Chunk printed(Encoder& encoder, const std::vector<PlacedLayer>& layers) {
+  Chunk all;
+  const auto add_chunk = [&all](const Chunk& chunk) {
+    all.lines.insert(all.lines.end(), chunk.lines.begin(), chunk.lines.end());
+    all.warnings.insert(all.warnings.end(), chunk.warnings.begin(), chunk.warnings.end());
+    all.layers.insert(all.layers.end(), chunk.layers.begin(), chunk.layers.end());
+    for (const auto& [mixture, volume] : chunk.mixture_volumes) add(all.mixture_volumes, mixture, volume);
+    all.volume += chunk.volume;
+    all.prime_volume += chunk.prime_volume;
+  };
+  for (const PlacedLayer& layer : layers) add_chunk(encoder.layer(layer));
+  add_chunk(encoder.rest());
+  return all;
+}
+
+/// The lines of one layer.
+Chunk only_layer(const Chunk& all, std::size_t index) {
+  Chunk one;
+  std::size_t changes = 0;
+  for (const std::string& line : all.lines) {
+    if (line == ";LAYER_CHANGE") ++changes;
+    if (changes == index + 1) one.lines.push_back(line);
+  }
+  return one;
+}
+
+/// Settings with that many mixtures, all different.
+PrintSettings many_colours(std::size_t count) {
+  PrintSettings settings = two_colours();
+  while (settings.materials.size() < count) {
+    settings.materials.push_back(
+        {"more", Mixture({1, 0.05 * static_cast<double>(settings.materials.size()), 0})});
+  }
+  return settings;
+}
+
 }  // namespace
 
 TEST_CASE("the start: shutdown timer first, heat, home, modes, tools") {
@@ -132,7 +170,7 @@ TEST_CASE("the start: shutdown timer first, heat, home, modes, tools") {
 TEST_CASE("every tool is defined by all three feeders before it is used") {
   Encoder encoder({}, two_colours());
   auto lines = commands(encoder.start());
-  for (const Chunk& chunk : {encoder.layer(layer_of({wavy_path(100)})), encoder.finish()}) {
+  for (const Chunk& chunk : {printed(encoder, {layer_of({wavy_path(100)})}), encoder.finish()}) {
     for (const auto& line : commands(chunk)) lines.push_back(line);
   }
   std::map<int, double> shares;
@@ -170,15 +208,37 @@ TEST_CASE("intended mixtures are floored and as the lines write them") {
   CHECK(lines[first + 3] == "M164 S0");
 }
 
-TEST_CASE("sixteen materials leave no retraction tool, seventeen are refused") {
-  PrintSettings settings = two_colours();
-  while (settings.materials.size() < 16) settings.materials.push_back({"more", Mixture({1, 1, 0})});
-  Encoder encoder({}, settings);
-  const auto lines = commands(encoder.start());
+TEST_CASE("sixteen mixtures leave no retraction tool, with seventeen one is kept and the others take turns") {
+  Encoder sixteen({}, many_colours(16));
+  auto lines = commands(sixteen.start());
   CHECK(std::count(lines.begin(), lines.end(), "M164 S15") == 1);
   CHECK(std::none_of(lines.begin(), lines.end(), [](const auto& l) { return l == "M164 S16"; }));
-  settings.materials.push_back({"one more", Mixture({1, 1, 0})});
-  CHECK_THROWS_WITH(Encoder({}, settings), Catch::Contains("17 mixtures") && Catch::Contains("at most 16"));
+
+  PrintSettings settings = many_colours(17);
+  settings.zone_materials.clear();
+  for (std::size_t i = 0; i < 17; ++i) settings.zone_materials.push_back(i);
+  Encoder seventeen({}, settings);
+  lines = commands(seventeen.start());
+  core::BeadPath path = wavy_path(170, 60);
+  for (std::size_t i = 0; i < path.size(); ++i) path.beads[i].zone = i / 10;
+  for (const auto& line : commands(printed(seventeen, {layer_of({path}), layer_of({path}, 1)}))) {
+    lines.push_back(line);
+  }
+  std::map<int, std::string> collector, tools;
+  std::set<std::string> used;
+  int tool = -1;
+  for (const auto& line : lines) {
+    const Words words(line);
+    if (words.command == "M163") collector[static_cast<int>(words.at('S'))] = line;
+    if (words.command == "M164") {
+      CHECK(words.at('S') != tool);  // never the one in use
+      tools[static_cast<int>(words.at('S'))] = collector[0] + collector[1] + collector[2];
+    }
+    if (line.front() == 'T') tool = std::stoi(line.substr(1));
+    if (line.front() == 'G' && words.has('E') && words.has('X')) used.insert(tools.at(tool));
+  }
+  CHECK(used.size() == 17);
+  CHECK(tools.size() == 16);
 }
 
 TEST_CASE("extruded filament is area times height, for each mixture") {
@@ -186,24 +246,28 @@ TEST_CASE("extruded filament is area times height, for each mixture") {
   encoder.start();
   Played played;
   double volume = 0, prime = 0;
-  std::map<int, double> wanted;
+  std::vector<PlacedLayer> layers;
   for (std::size_t index = 0; index < 20; ++index) {
     const auto path = wavy_path(997 + index);
-    for (const core::Bead& bead : path.beads) wanted[static_cast<int>(bead.zone)] += bead.area * 0.2;
-    const Chunk chunk = encoder.layer(layer_of({path}, index));
-    const auto first_bead = std::find_if(chunk.lines.begin(), chunk.lines.end(),
-                                         [](const auto& line) { return line == "T0" || line == "T1"; });
-    if (index == 0) wanted[first_bead->at(1) - '0'] += chunk.prime_volume;
-    play(chunk, played);
-    volume += chunk.volume;
-    prime += chunk.prime_volume;
-    CHECK(chunk.volume == Approx(chunk.prime_volume + path.total_area() * 0.2).epsilon(1e-12));
-    CHECK(chunk.material_volumes[0] + chunk.material_volumes[1] == Approx(chunk.volume).epsilon(1e-12));
+    volume += path.total_area() * 0.2;
+    layers.push_back(layer_of({path}, index));
   }
-  CHECK(played.bead_filament == Approx(volume / filament_area).margin(2e-5));
-  // Where the tool changes, one rounding unit may go to the other side.
-  CHECK(played.by_tool[1] == Approx(wanted[1] / filament_area).margin(20 * 2e-5));
-  CHECK(played.by_tool[0] + played.by_tool[1] == Approx(volume / filament_area).margin(2e-5));
+  const Chunk chunk = printed(encoder, layers);
+  play(chunk, played);
+  prime = chunk.prime_volume;
+  CHECK(chunk.volume == Approx(prime + volume).epsilon(1e-12));
+  CHECK(played.bead_filament == Approx(chunk.volume / filament_area).margin(2e-5));
+  double by_layer = 0;
+  for (const LayerShare& share : chunk.layers) by_layer += share.volume;
+  CHECK(by_layer == Approx(chunk.volume));
+  // Each mixture's volume is told as the lines have it: where the tool changes, one rounding unit may go
+  // astray.
+  REQUIRE(chunk.mixture_volumes.size() == 2);
+  for (const auto& [mixture, fed] : chunk.mixture_volumes) {
+    const int tool = mixture == encoder.intended(0) ? 0 : 1;
+    CHECK(mixture == encoder.intended(static_cast<std::size_t>(tool)));
+    CHECK(played.by_tool[tool] == Approx(fed / filament_area).margin(20 * 2e-5));
+  }
   CHECK(prime > 2 * 6.1 * 0.99);
 }
 
@@ -213,8 +277,8 @@ TEST_CASE("flow is constant to one per cent where the axes allow it") {
   Encoder encoder({}, settings);
   encoder.start();
   Played played;
-  play(encoder.layer(layer_of({wavy_path(500)})), played);
-  REQUIRE(played.flows.size() > 490);
+  play(printed(encoder, {layer_of({wavy_path(500)})}), played);
+  REQUIRE(played.flows.size() > 480);
   for (const auto& [flow, length] : played.flows) {
     // 0.001 mm of position in beads of 0.4 mm adds to the tolerance of the feed rate
     CHECK(flow * filament_area == Approx(1.5).epsilon(0.02));
@@ -228,7 +292,7 @@ TEST_CASE("speed never exceeds what an axis can do") {
   settings.flow = 8;  // would be 50 mm/s
   Encoder encoder(printer, settings);
   encoder.start();
-  Chunk chunk = encoder.layer(layer_of({wavy_path(200)}));
+  const Chunk chunk = printed(encoder, {layer_of({wavy_path(200)})});
   core::Vec2 at(0, 0);
   double feed = 0;
   for (const auto& line : commands(chunk)) {
@@ -245,24 +309,28 @@ TEST_CASE("speed never exceeds what an axis can do") {
   }
 }
 
-TEST_CASE("a layer starts where the nozzle is, goes all round, and ends where it started") {
-  Encoder encoder({}, two_colours());
-  encoder.start();
-  Played played;
-  const auto path = wavy_path(300);
-  play(encoder.layer(layer_of({path}, 0)), played);
-  const core::Vec2 end = played.position;
-  const auto at_vertex = [&](const core::Bead& bead) { return (bead.position - end).norm() < 1e-3; };
-  CHECK(std::any_of(path.beads.begin(), path.beads.end(), at_vertex));
-
-  Played next = played;
-  next.travel = 0;
-  const Chunk second = encoder.layer(layer_of({path}, 1));
-  play(second, next);
-  CHECK(next.travel == 0);  // no travel, no retraction: the same curve begins where it ended
-  CHECK(next.still_filament == played.still_filament);
-  CHECK((next.position - end).norm() < 1e-9);
-  CHECK(next.z == Approx(0.4));
+TEST_CASE("a layer goes all round, ends where it started, and the next goes on from there") {
+  for (const Seam seam : {Seam::hidden, Seam::scattered, Seam::aligned, Seam::nearest}) {
+    PrintSettings settings = two_colours();
+    settings.seam = seam;
+    Encoder encoder({}, settings);
+    encoder.start();
+    std::vector<PlacedLayer> layers;
+    for (std::size_t i = 0; i < 10; ++i) layers.push_back(layer_of({wavy_path(300 + 7 * i)}, i));
+    const Chunk all = printed(encoder, layers);
+    Played played;
+    play(only_layer(all, 0), played);
+    const double still = played.still_filament;
+    for (std::size_t i = 1; i < layers.size(); ++i) {
+      const core::Vec2 begin = played.position;
+      played.travel = 0;
+      play(only_layer(all, i), played);
+      CHECK(played.travel < 1.5);             // not a travel, but the step to the next layer's nearest vertex
+      CHECK(played.still_filament == still);  // so nothing is drawn back
+      CHECK((played.position - begin).norm() < 1.5);
+      CHECK(played.z == Approx(layers[i].top));
+    }
+  }
 }
 
 TEST_CASE("a travel draws every inlet back alike and pushes as much forward again") {
@@ -270,8 +338,8 @@ TEST_CASE("a travel draws every inlet back alike and pushes as much forward agai
   for (auto& bead : far.beads) bead.position += core::Vec2(60, 0);
   Encoder encoder({}, two_colours());
   encoder.start();
-  encoder.layer(layer_of({wavy_path(300)}, 0));
-  const auto lines = commands(encoder.layer(layer_of({wavy_path(300), far}, 1)));
+  const Chunk all = printed(encoder, {layer_of({wavy_path(300)}, 0), layer_of({wavy_path(300), far}, 1)});
+  const auto lines = commands(only_layer(all, 1));
   const auto back = index_of(lines, "G1 E-4");
   CHECK(lines[back - 1] == "T2");
   CHECK(lines[back + 1].starts_with("G0 X"));
@@ -286,7 +354,7 @@ TEST_CASE("the prime line keeps clear of the part or is left out") {
     settings.extent = extent;
     Encoder encoder({}, settings);
     encoder.start();
-    return encoder.layer(layer_of({wavy_path(100)}));
+    return printed(encoder, {layer_of({wavy_path(100)})});
   };
   const Chunk front = primed({{60, 60}, {140, 140}});
   CHECK(index_of(commands(front), "G0 X5 Y5") < index_of(commands(front), "G1 E4"));
@@ -306,7 +374,7 @@ TEST_CASE("the prime line keeps clear of the part or is left out") {
 TEST_CASE("the nozzle is primed with what it needs first") {
   Encoder encoder({}, two_colours());
   encoder.start();
-  const auto lines = commands(encoder.layer(layer_of({wavy_path(300)})));
+  const auto lines = commands(printed(encoder, {layer_of({wavy_path(300)})}));
   std::vector<std::string> tools;
   std::copy_if(lines.begin(), lines.end(), std::back_inserter(tools),
                [](const auto& line) { return line.starts_with('T'); });
@@ -322,7 +390,7 @@ TEST_CASE("long beads are split below the firmware's limit") {
   Encoder encoder({}, settings);
   encoder.start();
   Played played;
-  const Chunk chunk = encoder.layer({0, 0.3, 0.3, {path}});
+  const Chunk chunk = printed(encoder, {{0, 0.3, 0.3, {path}}});
   play(chunk, played);
   CHECK(played.most_filament < 200);
   CHECK(played.bead_filament == Approx(chunk.volume / filament_area).margin(2e-5));
@@ -334,6 +402,7 @@ TEST_CASE("no line is longer than a firmware keeps, even numbered") {
   Encoder encoder(printer, two_colours());
   std::vector<Chunk> chunks = {encoder.start()};
   for (std::size_t i = 0; i < 5; ++i) chunks.push_back(encoder.layer(layer_of({wavy_path(1000)}, i)));
+  chunks.push_back(encoder.rest());
   chunks.push_back(encoder.finish());
   for (const Chunk& chunk : chunks) {
     for (const auto& line : commands(chunk)) CHECK(line.size() + std::string("N99999999 *255").size() <= 95);
@@ -349,7 +418,7 @@ TEST_CASE("the end leaves the printer cold and away from the part") {
   printer.end_gcode = "M300";
   Encoder encoder(printer, two_colours());
   encoder.start();
-  encoder.layer(layer_of({wavy_path(100)}, 0));
+  printed(encoder, {layer_of({wavy_path(100)}, 0)});
   const auto lines = commands(encoder.finish());
   CHECK(index_of(lines, "G1 E-4") < index_of(lines, "G1 Z20"));  // part height 10 and 10 above
   CHECK(index_of(lines, "G1 Z20") < index_of(lines, "G0 X0 Y200"));
@@ -384,17 +453,16 @@ TEST_CASE("the user's own lines can neither heat after the end nor outlive the i
 }
 
 TEST_CASE("the end is right wherever the printer has stopped") {
-  PrintSettings all_tools = two_colours();
-  while (all_tools.materials.size() < 16) all_tools.materials.push_back({"more", Mixture({1, 1, 0})});
+  const PrintSettings all_tools = many_colours(16);
   for (const PrintSettings& settings : {two_colours(), all_tools}) {
     Encoder encoder({}, settings);
     encoder.start();
-    // Ends at x = 0, where the end parks: x is to be written all the same.
+    // May end at x = 0, where the end parks: x is to be written all the same.
     core::BeadPath triangle;
     triangle.beads = {{{0, 150}, 20.0, 0}, {{0, 200}, 0.5, 0}, {{1, 200}, 20.0, 0}};
     Played played;
-    play(encoder.layer(layer_of({triangle})), played);
-    REQUIRE(played.position == core::Vec2(0, 150));
+    play(printed(encoder, {layer_of({triangle})}), played);
+    REQUIRE(played.position.x() <= 1);
     const auto lines = commands(encoder.finish());
     const auto back = index_of(lines, "G1 E-4");
     CHECK(index_of(lines, "G90") < index_of(lines, "M83"));
@@ -407,14 +475,13 @@ TEST_CASE("the end is right wherever the printer has stopped") {
 }
 
 TEST_CASE("with every virtual tool taken, one tool draws back and pushes forward") {
-  PrintSettings settings = two_colours();
-  while (settings.materials.size() < 16) settings.materials.push_back({"more", Mixture({1, 1, 0})});
+  const PrintSettings settings = many_colours(16);
   auto far = wavy_path(50, 4);
   for (auto& bead : far.beads) bead.position += core::Vec2(60, 0), bead.zone = 1;
   Encoder encoder({}, settings);
   encoder.start();
-  encoder.layer(layer_of({wavy_path(300)}, 0));
-  const auto lines = commands(encoder.layer(layer_of({far}, 1)));
+  const auto lines =
+      commands(only_layer(printed(encoder, {layer_of({wavy_path(300)}, 0), layer_of({far}, 1)}), 1));
   const auto back = index_of(lines, "G1 E-4");
   const auto forward = index_of(lines, "G1 E4");
   CHECK(std::none_of(lines.begin() + static_cast<std::ptrdiff_t>(back),
@@ -429,9 +496,10 @@ TEST_CASE("a part that would begin in the air is refused") {
   CHECK_THROWS_WITH(encoder.layer(layer_of({wavy_path(100)}, 1)),
                     Catch::Contains("layer 1") && Catch::Contains("in the air at 0.2 mm") &&
                         Catch::Contains("turn or place the part"));
-  const Chunk first = encoder.layer(layer_of({wavy_path(100)}, 0));  // a refusal changes nothing
-  CHECK(first.prime_volume > 0);
-  CHECK(encoder.layer(layer_of({wavy_path(100)}, 2)).prime_volume == 0);
+  // A refusal changes nothing; and it is primed once.
+  const Chunk all = printed(encoder, {layer_of({wavy_path(100)}, 0), layer_of({wavy_path(100)}, 2)});
+  CHECK(std::count(all.lines.begin(), all.lines.end(), ";TYPE:Custom") == 1);
+  CHECK(all.layers.size() >= 2);
 }
 
 TEST_CASE("an end without a beginning moves nothing") {
@@ -470,8 +538,8 @@ TEST_CASE("what the printer cannot do is refused, naming layer and place, and ch
   CHECK_THROWS_WITH(encoder.layer(layer_of({broken})), Catch::Contains("zone 2 has no mixture"));
   CHECK_THROWS_AS(encoder.layer({0, 0.2, 0, {wavy_path(10)}}), core::DataError);
   CHECK_THROWS_AS(encoder.layer({0, 200.3, 0.2, {wavy_path(10)}}), core::DataError);
-  CHECK(encoder.layer(layer_of({wavy_path(100)})).lines ==
-        undisturbed.layer(layer_of({wavy_path(100)})).lines);
+  CHECK(printed(encoder, {layer_of({wavy_path(100)})}).lines ==
+        printed(undisturbed, {layer_of({wavy_path(100)})}).lines);
 }
 
 TEST_CASE("printers and settings that make no sense are refused") {
@@ -506,7 +574,7 @@ TEST_CASE("printers and settings that make no sense are refused") {
   printer = {}, printer.mixing_volume = std::nan("");
   refused(printer, two_colours(), "mixing_volume");
   printer = {}, printer.start_gcode = "G28\nN5 G28*12";
-  refused(printer, two_colours(), "start_gcode, line 2");
+  refused(printer, two_colours(), "gcode.start, line 2");
   printer = {}, printer.end_gcode = std::string(81, 'M');
   refused(printer, two_colours(), "longer than 80");
 }
@@ -518,5 +586,5 @@ TEST_CASE("empty layers and paths of one point pass") {
   point.beads = {{{100, 100}, 0.0, 0}};
   CHECK(commands(encoder.layer(layer_of({}))).empty());
   CHECK(commands(encoder.layer(layer_of({point, {}}))).empty());
-  CHECK(encoder.layer(layer_of({wavy_path(10)})).prime_volume > 0);  // the first that is printed
+  CHECK(printed(encoder, {layer_of({wavy_path(10)})}).prime_volume > 0);  // the first that is printed
 }

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "firmware_gcode/dialect/number.hpp"
 #include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/toolpath/pace.hpp"
 #include "firmware_gcode/toolpath/speeds.hpp"
 
 using namespace unicursal;
@@ -65,17 +66,14 @@ TEST_CASE("a floor lifts idle feeders and keeps the proportion of the others") {
 }
 
 TEST_CASE("bead speed pushes the asked flow within the axes' limits") {
-  Printer printer;  // 150 mm/s in x and y
-  CHECK(bead_speed({2, 0}, 2 * 0.4 * 0.2, 2, printer) == Approx(2 / (0.4 * 0.2)));
-  CHECK(bead_speed({3, 4}, 5 * 0.4 * 0.2, 2, printer) == Approx(25));
-  CHECK(bead_speed({1, 0}, 0, 2, printer) == Approx(150));
-  CHECK(bead_speed({1, 1}, 0, 2, printer) == Approx(150 * std::sqrt(2)));
+  Printer printer;               // 150 mm/s in x and y; beads of 0.24 to 1 mm
+  const PrintSettings settings;  // 2 mm³/s
+  const Pace pace(printer, settings);
+  CHECK(pace.speed({2, 0}, 2 * 0.4 * 0.2, 1, 0.2) == Approx(2 / (0.4 * 0.2)));
+  CHECK(pace.speed({3, 4}, 5 * 0.4 * 0.2, 1, 0.2) == Approx(25));
+  CHECK(pace.speed({3, 4}, 5 * 1.6 * 0.2, 1, 0.2) == Approx(2 / (1.6 * 0.2)));  // too wide keeps the flow
+  CHECK(pace.speed({1, 0}, 0.1 * 0.2, 1, 0.2) == Approx(2 / (0.24 * 0.2)));     // too thin runs no faster
+  CHECK(pace.speed({1, 0}, 0, 1, 0.05) == Approx(150));
+  CHECK(pace.speed({1, 1}, 0, 1, 0.03) == Approx(150 * std::sqrt(2)));
   CHECK(axis_limited_speed({3, 4}, {30, 100, 10}) == Approx(50));
-}
-
-TEST_CASE("time of a move from rest to rest") {
-  CHECK(trapezoid_seconds(100, 50, 1000) == Approx(2.05));  // 100/50 + 50/1000
-  CHECK(trapezoid_seconds(1, 1000, 100) == Approx(0.2));    // never reaches its speed
-  CHECK(trapezoid_seconds(2.5, 50, 1000) == Approx(0.1));   // just reaches it
-  CHECK(trapezoid_seconds(0, 50, 1000) == 0);
 }

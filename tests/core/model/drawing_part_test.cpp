@@ -46,6 +46,24 @@ TEST_CASE("a drawing with two zones becomes layers of one island") {
   CHECK_THAT(p->warnings()[0], Contains("stroke=#000000"));
 }
 
+TEST_CASE("a drawing's first layer may have its own height") {
+  PartSource source;
+  source.files = {test_data("two_zones.svg")};
+  source.height = 1.1;
+  source.layer_height = 0.2;
+  source.first_layer_height = 0.3;
+  source.zones = {{"#0000FF", {}, 0}, {"crimson", {}, 1}};
+  const auto exact = read_part(source);
+  CHECK(exact->layer_count() == 5);
+  CHECK(exact->height() == Approx(1.1));
+  CHECK(exact->layer(4).top == Approx(1.1));
+  CHECK(exact->warnings().size() == 1);  // of the stroke, none of the height
+  source.height = 1.03;
+  const auto off = read_part(source);
+  CHECK(off->layer_count() == 5);
+  CHECK(off->warnings().size() == 2);
+}
+
 TEST_CASE("zones are found by colour in any spelling, by name, or by the file's name") {
   const TempFolder folder;
   const auto file = folder.write("shapes.svg", drawing("<g inkscape:label='all'>" + two_squares + "</g>"));

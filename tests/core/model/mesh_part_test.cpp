@@ -49,6 +49,31 @@ TEST_CASE("layers are those whose middle lies below the top, wherever the mesh s
   CHECK(layers(0.03) == 1);
 }
 
+TEST_CASE("a first layer of its own height lifts the others") {
+  PartSource source;
+  source.files = {test_data("cube20.stl")};
+  source.layer_height = 0.2;
+  source.first_layer_height = 0.3;
+  source.zones = {{"cube20.stl", {}, 0}};
+  const auto cube = read_part(source);
+  const Layer first = cube->layer(0), second = cube->layer(1);
+  CHECK(first.height == Approx(0.3));
+  CHECK(first.top == Approx(0.3));
+  CHECK(first.z == Approx(0.15));
+  CHECK(second.height == Approx(0.2));
+  CHECK(second.top == Approx(0.5));
+  CHECK(second.z == Approx(0.4));
+  // 0.3 + 98 · 0.2 = 19.9, and the middle of one more, 20.0, is not below the top
+  CHECK(cube->layer_count() == 99);
+  CHECK(cube->height() == Approx(19.9));
+  source.first_layer_height = 0.25;
+  CHECK(read_part(source)->layer_count() == 100);
+  source.first_layer_height = 30;
+  CHECK(read_part(source)->layer_count() == 1);
+  source.first_layer_height = -1;
+  CHECK_THROWS_WITH(read_part(source), Catch::Contains("first_layer_height"));
+}
+
 TEST_CASE("a torus gives a ring with a hole") {
   const TempFolder folder;
   const auto p = part({folder.write("torus.stl", binary_stl(torus_mesh(10, 3, 96, 48)))}, {"torus"}, 0.2);

@@ -74,18 +74,29 @@ TEST_CASE("Patterns are read into their types") {
   CHECK(zone("pattern = { field = \"wind.csv\" }").field.filename() == "wind.csv");
 }
 
-TEST_CASE("Keys of later versions warn and the rest of the job stands") {
-  for (const char* key : {"seam = \"hidden\"", "flow = \"auto\""}) {
-    const Job job = load(replaced(sample_job, "flow = 3.0", key));
-    INFO(key);
-    REQUIRE(job.warnings.size() == 1);
-    CHECK(job.warnings[0].find("not yet followed") != std::string::npos);
-    CHECK(job.flow > 0);
-  }
-  const Job gradient = load(replaced(sample_job, "mixture = \"sea\"",
-                                     "mixture = { from = \"sun\", to = \"sea\", along = [1, 0, 0] }"));
-  CHECK(gradient.warnings.size() == 1);
-  CHECK(gradient.materials.size() == 1);
+TEST_CASE("Seams and the share of a change before its border are read") {
+  CHECK(load(sample_job).seam == gcode::Seam::hidden);
+  CHECK(load(sample_job).change_before_border == 0.5);
+  const Job job = load(replaced(sample_job, "flow = 3.0", "seam = \"aligned\"\nchange_before_border = 0.8"));
+  CHECK(job.seam == gcode::Seam::aligned);
+  CHECK(job.change_before_border == 0.8);
+  CHECK(job.warnings.empty());
+}
+
+TEST_CASE("A gradient is a material of its own, and so is a mixture that takes up changes") {
+  const std::string gradient = "mixture = { from = \"sun\", to = \"sea\", along = [0, 3, 4] }";
+  const Job job = load(replaced(sample_job, "mixture = \"sea\"", gradient));
+  REQUIRE(job.materials.size() == 2);
+  REQUIRE(job.materials[0].gradient);
+  CHECK(job.materials[0].name == "sun to sea");
+  CHECK(job.materials[0].mixture == job.materials[1].mixture);
+  CHECK(job.materials[0].gradient->to == gcode::Mixture({0.6, 0, 0.2}));
+  CHECK(job.materials[0].gradient->along[2] == Approx(0.8));
+  CHECK(job.warnings.empty());
+  const Job same = load(replaced(sample_job, "mixture = \"sea\"", "mixture = \"sun\"\ntransition = true"));
+  REQUIRE(same.materials.size() == 2);
+  CHECK(same.materials[0].transition);
+  CHECK_FALSE(same.materials[1].transition);
 }
 
 TEST_CASE("Perimeters are none unless asked for") {

@@ -24,7 +24,7 @@ core::Polygon box(double x0, double y0, double x1, double y1) {
   return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
 }
 
-const std::vector<Mixture> red_and_blue{Mixture({1, 0, 0}), Mixture({0, 1, 0})};
+const std::vector<IntendedMaterial> red_and_blue{gcode::Mixture({1, 0, 0}), gcode::Mixture({0, 1, 0})};
 
 /// Red to the left of x = 20, blue to the right; 20 × 10 mm in all.
 TargetLayer two_zones() {

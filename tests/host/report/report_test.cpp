@@ -94,7 +94,7 @@ TEST_CASE("The report of a curve has the keys that others rely on") {
   CHECK(report.at("objectives").at("E") == report.at("objectives").at("normalised_coverage"));
 }
 
-TEST_CASE("Volumes go to the materials of the beads' zones, the prime line to the one it was laid with") {
+TEST_CASE("Volumes go to the materials of the beads' zones; what was fed, to the mixtures by name") {
   auto volumes = two_materials();
   gcode::PlacedLayer layer;
   layer.height = 0.5;
@@ -102,12 +102,11 @@ TEST_CASE("Volumes go to the materials of the beads' zones, the prime line to th
   add_layer(volumes, layer, {1, 0});
   CHECK(volumes[0].part == Approx(0.5));
   CHECK(volumes[1].part == Approx(2));
-  gcode::Chunk chunk;
-  chunk.material_volumes = {0.5, 9};
-  chunk.prime_volume = 7;
-  add_prime(volumes, chunk);
-  CHECK(volumes[0].prime == 0);
-  CHECK(volumes[1].total() == Approx(9));
+  const auto fed = fed_volumes({{volumes[1].intended, 9}, {gcode::Mixture({1, 1, 1}), 0.5}}, volumes);
+  CHECK(fed[0].name == volumes[1].name);
+  CHECK(fed[0].total() == 9);
+  CHECK(fed[1].name == "between");
+  volumes[1].prime = 7;
   const auto feeders = feeder_volumes(volumes);
   CHECK(feeders[0] == Approx(0.45));
   CHECK(feeders[1] == Approx(0.025 + 4.5));

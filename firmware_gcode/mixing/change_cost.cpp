@@ -1,0 +1,42 @@
+#include "firmware_gcode/mixing/change_cost.hpp"
+
+#include <numeric>
+
+#include "firmware_gcode/mixing/forecast.hpp"
+
+namespace unicursal::gcode {
+namespace {
+
+constexpr double room = 3;  ///< transitions: what a change needs on either side to be alone
+
+/// Of a single change with its half-way point on the border. A gradient counts with its middle.
+double cost_of(const Palette& palette, const ChamberModel& chamber, std::size_t from, std::size_t to,
+               const Rivals& rivals) {
+  const double volume = room * (chamber.dead_volume + chamber.mixing_volume) + 1;
+  Forecast forecast(palette, chamber);
+  forecast.add(Piece{volume, from, 0.5, 0, false, 0, rivals});  // fills the chamber
+  forecast.add(Piece{volume, from, 0.5, 1, false, 0, rivals});
+  forecast.add(Piece{volume, to, 0.5, 1, false, 0, rivals});
+  forecast.add(Switch{0, palette.shade(from, 0.5)});
+  forecast.add(Switch{2 * volume - chamber.delay(0.5), palette.shade(to, 0.5)});
+  const LayerMixing mixing = forecast.rest().back();
+  return mixing.misplaced + mixing.wrong;
+}
+
+}  // namespace
+
+ChangeCosts::ChangeCosts(const Palette& palette, const ChamberModel& chamber,
+                         const std::vector<bool>& matters)
+    : palette_(palette), chamber_(chamber), matters_(matters) {}
+
+double ChangeCosts::of(std::size_t from, std::size_t to) const {
+  if (from == to || !matters_[from] || !matters_[to]) return 0;
+  const auto [cost, added] = known_.try_emplace({from, to}, 0);
+  if (!added) return cost->second;
+  std::vector<std::size_t> all(palette_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(all));
+  return cost->second = cost_of(palette_, chamber_, from, to, rivals);
+}
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,44 @@
+#include "firmware_gcode/mixing/palette.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unicursal::gcode {
+namespace {
+
+Mixture between(const Mixture& a, const Mixture& b, double part) {
+  std::array<double, max_feeders> shares{};
+  for (std::size_t f = 0; f < max_feeders; ++f) shares[f] = a.share(f) + part * (b.share(f) - a.share(f));
+  return Mixture(shares);
+}
+
+}  // namespace
+
+double Gradient::part_at(const core::Vec2& place, double z) const {
+  const double way = along[0] * place.x() + along[1] * place.y() + along[2] * z;
+  return std::clamp((way - begin) / (end - begin), 0.0, 1.0);
+}
+
+Palette::Palette(const std::vector<Material>& materials,
+                 const std::function<Mixture(const Mixture&)>& written) {
+  for (const Material& material : materials) {
+    std::vector<Mixture> shades{written(material.mixture)};
+    for (std::size_t step = 1; material.gradient && step <= steps; ++step) {
+      const double part = static_cast<double>(step) / static_cast<double>(steps);
+      shades.push_back(written(between(material.mixture, material.gradient->to, part)));
+    }
+    shades_.push_back(std::move(shades));
+  }
+}
+
+Shade Palette::shade(std::size_t material, double part) const {
+  const auto last = static_cast<double>(shades_[material].size() - 1);
+  return {material, static_cast<std::size_t>(std::lround(part * last))};
+}
+
+Mixture Palette::mixture(std::size_t material, double part) const {
+  const auto& shades = shades_[material];
+  return shades.size() == 1 ? shades.front() : between(shades.front(), shades.back(), part);
+}
+
+}  // namespace unicursal::gcode

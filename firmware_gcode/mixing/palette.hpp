@@ -1,0 +1,63 @@
+// What the zones of a part are made of: single mixtures and gradients between two.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/polygon.hpp"
+#include "firmware_gcode/mixing/mixture.hpp"
+
+namespace unicursal::gcode {
+
+/// The way from one mixture to another across a zone: from it up to `begin`, to the other from `end` on,
+/// evenly between. Places are measured along `along`, on the bed, mm.
+struct Gradient {
+  Mixture to;
+  std::array<double, 3> along{1, 0, 0};  ///< of length 1
+  double begin = 0, end = 1;             ///< begin < end
+
+  /// 0…1
+  double part_at(const core::Vec2& place, double z) const;
+};
+
+/// A mixture with the name that the job gives it.
+struct Material {
+  std::string name;
+  Mixture mixture;                        ///< as asked by the job; of a gradient, where it begins
+  std::optional<Gradient> gradient = {};  ///< absent: of one mixture
+  bool transition = false;                ///< its zones are there to take up the changes between others
+};
+
+/// One of the mixtures of a material: of a gradient, that many steps along.
+struct Shade {
+  std::size_t material = 0;
+  std::size_t step = 0;
+
+  friend bool operator==(const Shade&, const Shade&) = default;
+};
+
+/// The mixtures of all materials as the printer will really mix them.
+class Palette {
+ public:
+  static constexpr std::size_t steps = 64;  ///< of a gradient: finer than the eye tells apart
+
+  /// `written` gives what the printer makes of a mixture: floor share, rounding.
+  Palette(const std::vector<Material>& materials, const std::function<Mixture(const Mixture&)>& written);
+
+  std::size_t size() const { return shades_.size(); }
+  bool is_gradient(std::size_t material) const { return steps_of(material) > 1; }
+  /// How many shades a material has; 1 unless it is a gradient.
+  std::size_t steps_of(std::size_t material) const { return shades_[material].size(); }
+  Shade shade(std::size_t material, double part) const;
+  const Mixture& mixture(const Shade& shade) const { return shades_[shade.material][shade.step]; }
+  /// Between the steps, too: what is wanted, not what is sent.
+  Mixture mixture(std::size_t material, double part) const;
+
+ private:
+  std::vector<std::vector<Mixture>> shades_;
+};
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,295 @@
+#include "firmware_gcode/mixing/schedule.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace unicursal::gcode {
+namespace {
+
+constexpr double fine = 1.0 / 16;           ///< of the mixing volume: a step where switches are weighed
+constexpr double coarse = 1.0 / 4;          ///< elsewhere
+constexpr double finest = 0.05;             ///< mm³, for chambers that hardly mix
+constexpr double gradient_step = 1.0 / 16;  ///< of the mixing volume: less between two shades does not show
+constexpr double early = 0.95;              ///< of a change done: no switch need be earlier before its border
+constexpr double late = 0.25;          ///< mixing volumes behind a border in which a switch may still come
+constexpr double horizon = 1.5;        ///< mixing volumes behind which a decision is taken for good
+constexpr double switch_cost = 0.002;  ///< mixing volumes: no switching to and fro for nothing
+constexpr double hopeless = 1.5;       ///< mixing volumes: dearer than the best by this cannot catch up
+constexpr double alike = 0.01;         ///< shares; survivors that differ less are one
+constexpr std::size_t most_survivors = 400;
+constexpr int steps_to_settle = 4;
+constexpr double same_place = 1e-9;  ///< mm³
+
+/// One way of having switched so far.
+struct Survivor {
+  double cost = 0;
+  Tanks tanks;
+  std::size_t serves = 0;  ///< the run whose material is fed
+  Shade shade;
+  std::vector<Switch> switches;  ///< that are not certain yet
+};
+
+}  // namespace
+
+struct Schedule::State {
+  State(const Palette& of, const ScheduleOptions& with)
+      : palette(of),
+        options(with),
+        wanted(of),
+        step(std::max(fine * with.chamber.mixing_volume, finest)),
+        long_step(std::max(coarse * with.chamber.mixing_volume, finest)),
+        lead(with.chamber.delay(with.before_border) - with.chamber.dead_volume),
+        reach(std::max(with.chamber.delay(early) - with.chamber.dead_volume, step)),
+        after(std::max(late * with.chamber.mixing_volume, step)),
+        gradient_lead(with.chamber.mean_delay() - with.chamber.dead_volume),
+        at(with.chamber.dead_volume) {}
+
+  void switch_at_borders();
+  void decide();
+  void begin();
+  bool near_border() const;
+  double border_of(std::size_t run) const;
+  double next_place() const;
+  void branch();
+  void follow_gradients();
+  double loss(const Misfit& bad) const;
+  void advance(double to);
+  void prune();
+  void settle();
+  void make_certain(const Switch& made);
+  Shade shade_for(const WantedRun& run) const;
+
+  const Palette& palette;
+  const ScheduleOptions options;
+  Wanted wanted;
+  const double step, long_step;
+  const double lead;   ///< mm³ in the tanks between a switch and the share of it that is to reach the border
+  const double reach;  ///< how far before a run switching to it is weighed
+  const double after;
+  const double gradient_lead;
+
+  double
+      at;  ///< the place at the tanks' entry up to which all is weighed; the feeders are dead_volume behind
+  std::size_t here = 0;  ///< the run at `at`
+  bool ended = false;
+  std::vector<Survivor> survivors;
+  double sure = 0;
+  std::vector<Switch> made;
+  std::optional<Shade> last_made;
+  double next_gradient_step = 0;
+  int steps = 0;  ///< since survivors were last compared
+};
+
+void Schedule::State::make_certain(const Switch& next) {
+  if (last_made && palette.mixture(*last_made) == palette.mixture(next.shade)) return;
+  last_made = next.shade;
+  made.push_back(next);
+}
+
+/// For comparison: as if the chamber answered at once.
+void Schedule::State::switch_at_borders() {
+  for (; here < wanted.past(); ++here) {
+    const WantedRun& run = wanted.run(here);
+    double volume = std::max(run.begin, sure);
+    make_certain({volume, palette.shade(run.material, run.part_at(volume))});
+    for (const auto& [end, part] : run.parts) {
+      if (end <= sure) continue;
+      make_certain({volume, palette.shade(run.material, part)});
+      volume = end;
+    }
+    if (here + 1 == wanted.past()) break;  // it may still grow
+  }
+  sure = wanted.end();
+  wanted.forget_before(here);
+}
+
+Shade Schedule::State::shade_for(const WantedRun& run) const {
+  return palette.shade(run.material, run.part_at(at + gradient_lead));
+}
+
+/// Every survivor begins with another of the first materials.
+void Schedule::State::begin() {
+  here = 0;
+  while (wanted.run(here).end <= at && here + 1 < wanted.past()) ++here;
+  const Tanks fresh(options.chamber, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+  for (std::size_t i = 0; i < wanted.past() && wanted.run(i).begin <= at + reach; ++i) {
+    const Shade shade = shade_for(wanted.run(i));
+    survivors.push_back({0, fresh, i, shade, {{0, shade}}});
+  }
+}
+
+/// The last run may still grow.
+double Schedule::State::border_of(std::size_t run) const {
+  const bool final = ended || run + 1 < wanted.past();
+  return final ? wanted.run(run).end : std::numeric_limits<double>::infinity();
+}
+
+bool Schedule::State::near_border() const {
+  return border_of(here) - at < reach + same_place || (here > 0 && at - wanted.run(here).begin < after);
+}
+
+/// Where to stop next: on the grid, on borders, and just where a single change is best switched.
+double Schedule::State::next_place() const {
+  const bool in_gradient = palette.is_gradient(wanted.run(here).material);
+  double place = at + (near_border() || in_gradient ? step : long_step);
+  if (border_of(here) - reach > at + same_place) place = std::min(place, border_of(here) - reach);
+  for (std::size_t i = here; i < wanted.past() && border_of(i) - lead < place; ++i) {
+    if (border_of(i) - lead > at + same_place) place = border_of(i) - lead;
+  }
+  return std::min(place, border_of(here));
+}
+
+/// Runs are served in their order, each once: what was left or passed over does not come back, so that
+/// survivors differ in where they have switched and not in how often.
+void Schedule::State::branch() {
+  const std::size_t count = survivors.size();
+  for (std::size_t s = 0; s < count; ++s) {
+    if (survivors[s].serves < here && survivors[s].shade == shade_for(wanted.run(here)))
+      survivors[s].serves = here;
+  }
+  for (std::size_t i = here; i < wanted.past() && wanted.run(i).begin <= at + reach; ++i) {
+    if (i == here && here > 0 && at - wanted.run(i).begin >= after) continue;
+    const Shade shade = shade_for(wanted.run(i));
+    for (std::size_t s = 0; s < count; ++s) {
+      if (survivors[s].serves >= i || survivors[s].shade == shade) continue;
+      Survivor changed = survivors[s];
+      changed.cost += switch_cost * options.chamber.mixing_volume;
+      changed.serves = i;
+      changed.shade = shade;
+      changed.switches.push_back({at - options.chamber.dead_volume, shade});
+      survivors.push_back(std::move(changed));
+    }
+  }
+}
+
+void Schedule::State::follow_gradients() {
+  if (at < next_gradient_step) return;
+  next_gradient_step = at + std::max(gradient_step * options.chamber.mixing_volume, finest);
+  for (Survivor& survivor : survivors) {
+    if (!palette.is_gradient(survivor.shade.material) || survivor.serves < wanted.first()) continue;
+    const Shade shade = shade_for(wanted.run(survivor.serves));
+    if (shade == survivor.shade) continue;
+    survivor.shade = shade;
+    survivor.switches.push_back({at - options.chamber.dead_volume, shade});
+  }
+}
+
+/// Misplaced plastic, and once more what a person (and the report) takes for another material. The second
+/// term would draw every change to its half-way point, so that it keeps out where another share is asked for.
+double Schedule::State::loss(const Misfit& bad) const {
+  return bad.misplaced + (bad.wrong && options.before_border == 0.5 ? 1 : 0);
+}
+
+void Schedule::State::advance(double to) {
+  const double volume = to - at, middle = (at + to) / 2;
+  const WantedRun& run = wanted.run(here);
+  const Tanks::Shares want = wanted.shares(run, middle);
+  // The tail of the change before lies in the first half of a run, the head of the next in the second.
+  const double left = border_of(here) - middle;
+  const bool head = left < reach && left < middle - run.begin;
+  const double weight = 2 * run.weight * volume * (head ? 1 - options.before_border : options.before_border);
+  for (Survivor& survivor : survivors) {
+    const Tanks::Shares arrived = survivor.tanks.pass(palette.mixture(survivor.shade).shares(), volume);
+    survivor.cost += weight * loss(misfit(palette, run, want, arrived));
+  }
+  at = to;
+  while (wanted.run(here).end <= at + same_place && here + 1 < wanted.past()) ++here;
+}
+
+void Schedule::State::prune() {
+  std::stable_sort(survivors.begin(), survivors.end(),
+                   [](const Survivor& a, const Survivor& b) { return a.cost < b.cost; });
+  const double limit = survivors.front().cost + std::max(hopeless * options.chamber.mixing_volume, finest);
+  std::vector<Survivor> kept;
+  for (Survivor& survivor : survivors) {
+    if (survivor.cost > limit || kept.size() == most_survivors) break;
+    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Survivor& other) {
+      return other.shade == survivor.shade && other.tanks.difference(survivor.tanks) < alike;
+    });
+    if (!seen) kept.push_back(std::move(survivor));
+  }
+  survivors = std::move(kept);
+}
+
+/// Hands over what all survivors have in common; after the horizon the best one's word is law.
+void Schedule::State::settle() {
+  steps = 0;
+  prune();
+  const double dead = options.chamber.dead_volume;
+  const double overdue = ended && at >= wanted.end() - same_place
+                             ? std::numeric_limits<double>::infinity()
+                             : at - dead - std::max(horizon * options.chamber.mixing_volume, step);
+  for (;;) {
+    const std::vector<Switch>& best = survivors.front().switches;
+    const auto agrees = [&best](const Survivor& s) {
+      if (best.empty() || s.switches.empty()) return best.empty() && s.switches.empty();
+      return s.switches.front().at == best.front().at && s.switches.front().shade == best.front().shade;
+    };
+    const bool agreed = std::all_of(survivors.begin(), survivors.end(), agrees);
+    if (!agreed) {
+      double next = std::numeric_limits<double>::infinity();
+      for (const Survivor& s : survivors) {
+        if (!s.switches.empty()) next = std::min(next, s.switches.front().at);
+      }
+      if (next > overdue) {
+        sure = std::max(sure, next);
+        return;
+      }
+      std::erase_if(survivors, [&](const Survivor& s) { return !agrees(s); });
+    }
+    if (survivors.front().switches.empty()) break;
+    make_certain(survivors.front().switches.front());
+    for (Survivor& s : survivors) s.switches.erase(s.switches.begin());
+  }
+  sure = std::max(sure, ended && at >= wanted.end() - same_place ? wanted.end() : at - dead);
+}
+
+void Schedule::State::decide() {
+  if (!options.look_ahead) return switch_at_borders();
+  if (wanted.past() == 0) return;
+  const double limit = ended ? wanted.end() : wanted.end() - reach;
+  if (survivors.empty()) {
+    if (limit <= at && !ended) return;
+    begin();
+  }
+  // What is decided must not depend on when it is asked for: only at the end is a step cut short.
+  while (at < limit - same_place) {
+    const double to = next_place();
+    if (to > limit) break;
+    if (near_border()) branch();
+    follow_gradients();
+    advance(to);
+    if (++steps >= steps_to_settle) settle();
+  }
+  if (ended) settle();
+  wanted.forget_before(here > 0 ? here - 1 : 0);
+}
+
+Schedule::Schedule(const Palette& palette, const ScheduleOptions& options)
+    : state_(std::make_unique<State>(palette, options)) {
+  assert(options.before_border > 0 && options.before_border < 1);
+}
+Schedule::~Schedule() = default;
+Schedule::Schedule(Schedule&&) noexcept = default;
+
+void Schedule::add(const Piece& piece) {
+  state_->wanted.add(piece);
+}
+
+void Schedule::end() {
+  state_->ended = true;
+}
+
+std::vector<Switch> Schedule::take() {
+  state_->decide();
+  return std::exchange(state_->made, {});
+}
+
+double Schedule::certain() const {
+  return state_->sure;
+}
+
+}  // namespace unicursal::gcode

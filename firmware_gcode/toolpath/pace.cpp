@@ -1,0 +1,34 @@
+#include "firmware_gcode/toolpath/pace.hpp"
+
+#include <algorithm>
+
+#include "firmware_gcode/toolpath/held_flow.hpp"
+#include "firmware_gcode/toolpath/speeds.hpp"
+
+namespace unicursal::gcode {
+
+Pace::Pace(const Printer& printer, const PrintSettings& settings)
+    : printer_(printer),
+      settings_(settings),
+      flow_(settings.flow),
+      open_(settings.automatic_flow && !settings.speed) {}
+
+void Pace::settle(const std::vector<PlacedLayer>& layers) {
+  flow_ = held_flow(layers, settings_, printer_);
+  open_ = false;
+}
+
+double Pace::speed(const core::Vec2& displacement, double volume, std::size_t layer,
+                   double layer_height) const {
+  const double factor = layer == 0 ? settings_.first_layer_speed : 1;
+  const double length = displacement.norm();
+  double speed = axis_limited_speed(displacement, printer_.max_speed);
+  if (settings_.speed) {
+    speed = std::min(speed, factor * *settings_.speed);
+    return volume > 0 ? std::min(speed, printer_.max_flow * length / volume) : speed;
+  }
+  const double thinnest = printer_.bead_width_range[0] * layer_height;  // mm², cross-section
+  return std::min(speed, factor * flow_ / std::max(thinnest, volume / length));
+}
+
+}  // namespace unicursal::gcode

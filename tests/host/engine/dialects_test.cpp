@@ -1,0 +1,85 @@
+// Whole dry runs: the same job in every dialect, and what the program says beforehand against what the
+// simulated printer then does.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal {
+namespace {
+
+using nlohmann::json;
+using test::replaced;
+
+/// The report of a dry run of a job on a profile.
+json dry_run(const std::string& job, const std::string& profile) {
+  const test::TempFolder folder;
+  folder.write("bench.toml", profile);
+  folder.write("plate.svg", test::sample_drawing);
+  const auto file = folder.write("job.toml", job);
+  const test::Outcome outcome =
+      test::run({"dry-run", file.string(), "--report", (folder / "report.json").string()});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return json::parse(test::read_text(folder / "report.json"));
+}
+
+const std::string marlin = test::sample_profile;
+const std::string repetier = replaced(marlin, "firmware = \"marlin\"", "firmware = \"repetier\"");
+
+}  // namespace
+
+TEST_CASE("The same job in both dialects leaves the same deposit, up to the shares' rounding") {
+  const json a = dry_run(test::sample_job, marlin), b = dry_run(test::sample_job, repetier);
+  CHECK(a["simulator"]["personality"] == "marlin");
+  CHECK(b["simulator"]["personality"] == "repetier");
+  for (const char* key : {"area_mm2", "gap_mm2", "overfill_mm2", "spilled_mm2"}) {
+    INFO(key);
+    CHECK(b["laid"]["total"][key].get<double>() ==
+          Approx(a["laid"]["total"][key].get<double>()).epsilon(1e-3).margin(0.05));
+  }
+  CHECK(a["extruded_mm3"] == b["extruded_mm3"]);
+  double all = 0, difference = 0;
+  for (std::size_t feeder = 0; feeder < 3; ++feeder) {
+    const double one = a["feeder_volumes_mm3"][feeder], other = b["feeder_volumes_mm3"][feeder];
+    all += one;
+    difference = std::max(difference, std::abs(one - other));
+  }
+  CHECK(difference / all < 0.01);  // parts of a hundred
+  for (const json& report : {a, b}) {
+    CHECK(report["comparison"]["worst_relative_error"].get<double>() < 0.01);
+    CHECK(report["simulator"]["warnings"].empty());
+  }
+}
+
+TEST_CASE("The time is known beforehand within 2 %, however the job is printed") {
+  const auto [job, profile] = GENERATE(table<std::string, std::string>({
+      {test::sample_job, marlin},
+      {test::sample_job, repetier},
+      {replaced(test::sample_job, "flow = 3.0", "flow = 5.0"), marlin},
+      {replaced(test::sample_job, "flow = 3.0", "speed = 60"), marlin},
+      {replaced(test::sample_job, "flow = 3.0", "flow = \"auto\"\nskirt = 2\nfirst_layer_speed = 0.5"),
+       marlin},
+      {replaced(test::sample_job, "flow = 3.0", "first_layer_height = 0.3\nfan = 50"),
+       replaced(marlin, "max_flow = 5.0", "max_flow = 5.0\nz_hop = 0.4")},
+      {replaced(test::sample_job, "flow = 3.0", "flow = 5.0"),
+       replaced(marlin, "nozzle = 0.6", "nozzle = 0.6\njunction_deviation = 0.02\nacceleration = 800")},
+  }));
+  const json report = dry_run(job, profile);
+  const double told = report["estimated_laying_seconds"];
+  const double taken = report["simulator"]["printing_seconds"];
+  INFO(job);
+  CHECK(told == Approx(taken).epsilon(0.02));
+  CHECK(report["estimated_print_seconds"].get<double>() > told);
+}
+
+TEST_CASE("Feeders that slip are fed by their factors, and the report tells what arrives") {
+  const json report = dry_run(test::sample_job, replaced(marlin, "max_flow = 5.0",
+                                                         "max_flow = 5.0\nflow_factors = [1.1, 1, 0.95]\n"
+                                                         "steps_per_mm = 420"));
+  CHECK(report["comparison"]["worst_relative_error"].get<double>() < 0.01);
+}
+
+}  // namespace unicursal
