@@ -109,6 +109,16 @@ reply::Position position_with(std::string_view text) {
   return position;
 }
 
+/// "AUTOREPORT_TEMP:1" behind "Cap:".
+Reply capability_with(std::string_view rest, std::string_view whole) {
+  constexpr std::size_t longest = 40;
+  const auto colon = rest.find(':');
+  const std::string_view value = colon == std::string_view::npos ? "" : rest.substr(colon + 1);
+  if (colon == 0 || colon > longest || (value != "0" && value != "1"))
+    return reply::Unknown{std::string(whole)};
+  return reply::Capability{printable(rest.substr(0, colon)), value == "1"};
+}
+
 bool ends_word(std::string_view rest) {
   return rest.empty() || is_space(rest.front());
 }
@@ -136,6 +146,8 @@ Reply parse_reply(std::string_view line) {
     rest = trimmed(rest);
     return reply::Echo{std::string(rest), rest.starts_with("Unknown command")};
   }
+  if (take(rest, "Cap:")) return capability_with(rest, whole);
+  if (rest.starts_with("Unknown command")) return reply::Echo{std::string(rest), true};
   if (take(rest, "//action:")) return reply::Action{std::string(trimmed(rest))};
   if (rest.starts_with("FIRMWARE_NAME:")) return reply::Firmware{std::string(rest)};
   if (rest.starts_with("X:") && !after_label(rest, "Y:").empty()) return position_with(rest);

@@ -61,7 +61,13 @@ struct Action {
 struct Firmware {
   std::string text;
 };
-/// "echo:…"; `unknown_command` when the firmware did not understand a line.
+/// "Cap:AUTOREPORT_TEMP:1", of the same answer.
+struct Capability {
+  std::string name;
+  bool on = false;
+};
+/// "echo:…"; `unknown_command` when the firmware did not understand a line (Repetier says so without
+/// "echo:").
 struct Echo {
   std::string text;
   bool unknown_command = false;
@@ -80,8 +86,8 @@ struct Unknown {
 }  // namespace reply
 
 using Reply = std::variant<reply::Ok, reply::Resend, reply::Error, reply::Start, reply::Busy, reply::Wait,
-                           reply::Skip, reply::TemperatureReport, reply::Action, reply::Firmware, reply::Echo,
-                           reply::Position, reply::Blank, reply::Unknown>;
+                           reply::Skip, reply::TemperatureReport, reply::Action, reply::Firmware,
+                           reply::Capability, reply::Echo, reply::Position, reply::Blank, reply::Unknown>;
 
 /// One line without its newline; spaces and carriage returns around it do not matter. Never throws.
 Reply parse_reply(std::string_view line);

@@ -58,8 +58,8 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
   return lines;
 }
 
-FirstTemperatures first_temperatures(const Printer& printer, const PrintSettings& settings) {
-  FirstTemperatures first{printer.nozzle_temperature, printer.bed_temperature};
+HeatTargets first_temperatures(const Printer& printer, const PrintSettings& settings) {
+  HeatTargets first{printer.nozzle_temperature, printer.bed_temperature};
   for (const LayerTemperature& change : settings.temperatures) {
     if (change.layer > 0) break;
     first = {change.nozzle.value_or(first.nozzle), change.bed.value_or(first.bed)};
@@ -68,7 +68,7 @@ FirstTemperatures first_temperatures(const Printer& printer, const PrintSettings
 }
 
 std::vector<std::string> warm_up(const Printer& printer, const PrintSettings& settings) {
-  const FirstTemperatures first = first_temperatures(printer, settings);
+  const HeatTargets first = first_temperatures(printer, settings);
   const std::string nozzle = degrees(first.nozzle), bed = degrees(first.bed);
   return {shut_down_after(inactivity_shutdown),
           "M220 S100",

@@ -20,11 +20,11 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
 inline constexpr const char* user_lines_begin = ";BEGIN of your own lines";
 inline constexpr const char* user_lines_end = ";END of your own lines";
 
-struct FirstTemperatures {
+struct HeatTargets {
   double nozzle, bed;  ///< °C
 };
 /// What the print begins with.
-FirstTemperatures first_temperatures(const Printer& printer, const PrintSettings& settings);
+HeatTargets first_temperatures(const Printer& printer, const PrintSettings& settings);
 
 /// Inactivity shutdown, factors reset, heat, home. Bed and nozzle warm up while the axes home, which saves
 /// a minute; the waits come after, so that whatever has oozed meanwhile stays away from the bed.

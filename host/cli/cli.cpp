@@ -226,6 +226,7 @@ class CommandLine {
     declare_resume();
     declare_curve();
     declare_simulate();
+    declare_doctor();
     declare_tune();
     command("ports", "list the serial ports that a printer may hang on", "unicursal ports");
   }
@@ -236,10 +237,20 @@ class CommandLine {
     const std::string name = app_.get_subcommands().front()->get_name();
     if (name == "dry-run") return dry_run(dry_run_command());
     if (name == "plan") return plan({job_.options(), output_});
-    if (name == "print")
-      return print({job_.options(), text_if(port_), path_if(spool_), {json_}, pause_heat()});
-    if (name == "resume")
-      return resume({text_if(print_), path_if(spool_), text_if(port_), yes_, list_, {json_}, pause_heat()});
+    if (name == "print") {
+      return print({job_.options(), text_if(port_), path_if(spool_), path_if(log_), {json_}, pause_heat()});
+    }
+    if (name == "resume") {
+      return resume({text_if(print_),
+                     path_if(spool_),
+                     text_if(port_),
+                     path_if(log_),
+                     yes_,
+                     list_,
+                     {json_},
+                     pause_heat()});
+    }
+    if (name == "doctor") return doctor(doctor_command());
     if (name == "curve") return curve(curve_command());
     if (name == "simulate") return simulate(simulate_command());
     if (name == "tune") return tune(tune_.finished());
@@ -287,6 +298,7 @@ class CommandLine {
         ->check(finite_number(0, 1e6))
         ->type_name("K");
     printer_.declare(*app);
+    declare_log(*app);
     app->footer(app->get_footer() + "\n\n" + fault_footer());
   }
 
@@ -303,6 +315,12 @@ class CommandLine {
     app->add_option("--port", port_, "serial port, or auto; the default is the profile's")->type_name("PORT");
     declare_control(*app);
     declare_spool(*app);
+    declare_log(*app);
+  }
+
+  void declare_log(CLI::App& app) {
+    app.add_option("--log", log_, "write every byte of the serial line to FILE; old ones become FILE.1, …")
+        ->type_name("FILE");
   }
 
   void declare_json(CLI::App& app) {
@@ -330,6 +348,21 @@ class CommandLine {
         ->type_name("DIR");
   }
 
+  void declare_doctor() {
+    CLI::App* app =
+        command("doctor", "ask a printer what it is, and tell what would go wrong; nothing moves or heats",
+                "unicursal doctor --port auto");
+    app->add_option("--port", port_, "serial port, or auto; the default is the profile's, or auto")
+        ->type_name("PORT");
+    app->add_option("--profile", job_.profile, "the printer's profile, to be held against what it tells")
+        ->type_name("FILE");
+    doctor_baud_given_ = app->add_option("--baud", baud_, "bits/s; the default is the profile's, or 250000")
+                             ->check(finite_number(300, 4e6))
+                             ->type_name("RATE");
+    app->add_flag("--json", json_, "print what was found as JSON");
+    declare_log(*app);
+  }
+
   void declare_resume() {
     CLI::App* app = command("resume", "go on with a print that was interrupted", "unicursal resume");
     app->add_option("print", print_, "which one: its name or the beginning of it; the default is the newest")
@@ -337,6 +370,7 @@ class CommandLine {
     declare_spool(*app);
     app->add_option("--port", port_, "serial port, or auto; the default is the one that it was begun on")
         ->type_name("PORT");
+    declare_log(*app);
     app->add_flag("--yes", yes_, "go on without asking when the printer has lost its place");
     app->add_flag("--list", list_, "only list the prints that are kept");
     app->footer(
@@ -438,8 +472,14 @@ class CommandLine {
     return command;
   }
 
+  DoctorCommand doctor_command() const {
+    DoctorCommand command{text_if(port_), path_if(job_.profile), {}, path_if(log_), json_};
+    if (doctor_baud_given_->count() > 0) command.baud = static_cast<unsigned>(baud_);
+    return command;
+  }
+
   DryRunCommand dry_run_command() const {
-    DryRunCommand command{job_.options(), {}, printer_.chosen(), charge_, {json_}};
+    DryRunCommand command{job_.options(), {}, printer_.chosen(), charge_, path_if(log_), {json_}};
     printer_.apply(command.printer);
     command.printer.speed = speed_;
     return command;
@@ -472,10 +512,12 @@ class CommandLine {
   PrinterArguments printer_;
   TuneArguments tune_;
   double speed_ = 0, charge_ = 0, baud_ = 250000;
-  CLI::Option* baud_given_ = nullptr;
+  CLI::Option *baud_given_ = nullptr, *doctor_baud_given_ = nullptr;
+  bool json_ = false;
+  std::string log_;
   double pixel_ = 0.05;
   std::size_t layer_ = 0, island_ = 0;
-  bool yes_ = false, list_ = false, json_ = false;
+  bool yes_ = false, list_ = false;
   std::string pause_heat_ = "keep";
   std::string spool_, print_;
   std::string output_, port_, link_, rasters_, control_, transcript_;

@@ -43,6 +43,7 @@ struct DryRunCommand {
   sim::SimulatorOptions printer;    ///< its personality, chip, faults; and its speed, 0: virtual time
   bool personality_chosen = false;  ///< otherwise it is what the profile's firmware is
   double charge = 0;                ///< printer seconds for each second of planning, in virtual time
+  std::optional<std::filesystem::path> log;  ///< of the serial line
   DisplayOptions display;
 };
 
@@ -50,6 +51,7 @@ struct PrintCommand {
   JobOptions job;
   std::optional<std::string> port;             ///< absent: the profile's
   std::optional<std::filesystem::path> spool;  ///< folder of the prints; absent: the user's
+  std::optional<std::filesystem::path> log;    ///< of the serial line
   DisplayOptions display;
   PauseHeat pause_heat = PauseHeat::keep;
 };
@@ -58,10 +60,19 @@ struct ResumeCommand {
   std::optional<std::string> print;            ///< name or beginning of it, or a folder; absent: the newest
   std::optional<std::filesystem::path> spool;  ///< folder of the prints
   std::optional<std::string> port;             ///< absent: the print's
+  std::optional<std::filesystem::path> log;    ///< of the serial line
   bool yes = false;                            ///< agree to what would be asked
   bool list = false;                           ///< only tell which prints there are
   DisplayOptions display;
   PauseHeat pause_heat = PauseHeat::keep;
+};
+
+struct DoctorCommand {
+  std::optional<std::string> port;               ///< absent: the profile's, or auto
+  std::optional<std::filesystem::path> profile;  ///< what the printer is believed to be
+  std::optional<unsigned> baud;                  ///< absent: the profile's, or 250000
+  std::optional<std::filesystem::path> log;      ///< of the serial line
+  bool json = false;
 };
 
 struct CurveCommand {
@@ -111,6 +122,7 @@ Exit tune(const TuneCommand& command);
 /// Throws core::DataError for a printer that cannot be simulated.
 void check_simulator(const sim::SimulatorOptions& options);
 Exit ports();
+Exit doctor(const DoctorCommand& command);
 
 /// "3", "3:7", ":7" or "3:"; both ends included. Throws core::DataError.
 LayerRange parse_layers(const std::string& text);

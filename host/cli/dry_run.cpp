@@ -47,12 +47,14 @@ Comparison compare_with(const nlohmann::json& simulator, const Run& run, const S
   const gcode::Printer& printer = run.prepared().job.profile.printer;
   fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
   fed.flow_factors = printer.flow_factors;
-  fed.lines_sent = result.statistics.lines;
+  fed.lines_sent = result.statistics.lines + result.statistics.queries;
   return compare(run.fed(), simulator, fed);
 }
 
-StreamSettings settings_for(const DryRunCommand& command, const SimulatorProcess& simulator) {
+StreamSettings settings_for(const DryRunCommand& command, const Profile& profile,
+                            const SimulatorProcess& simulator) {
   StreamSettings settings;
+  settings.link = link_options(profile, command.log);
   settings.longest_pause = unattended_pause;
   if (is_virtual(command)) {
     settings.clock = std::make_shared<LockstepClock>(simulator.control());
@@ -136,7 +138,7 @@ Exit dry_run(const DryRunCommand& command) {
                                                                          : SimulatorProcess::Time::own);
   run.tell(check);
   check.watch(simulator.take_rasters());
-  StreamSettings settings = settings_for(command, simulator);
+  StreamSettings settings = settings_for(command, prepared.job.profile, simulator);
   Lookahead lookahead(*prepared.part, pace_for(command, prepared, settings));
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
   PlannedSource source(lookahead, run);

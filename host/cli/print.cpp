@@ -33,6 +33,7 @@ Exit print(const PrintCommand& command) {
   const int port = open_port(order.port, prepared.job.profile.baud);
   Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
   settings.spool = &spool;
+  settings.link = link_options(prepared.job.profile, command.log);
   PlannedSource source(lookahead, run);
   const StreamResult result = stream_with_progress(port, source, command.display, settings);
   tell_about_spool(spool, result);

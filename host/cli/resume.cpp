@@ -135,6 +135,7 @@ class Resumption {
     settings.clock = clock_;
     settings.pause_heat = command_.pause_heat;
     settings.spool = &spool_;
+    settings.link = link_options(prepared_.job.profile, command_.log);
     settings.continuation = Continuation{std::move(leg), [this] { catch_up(run_, spool_); }};
     const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
     PlannedSource source(lookahead_, run_, spool_.extent().rest);

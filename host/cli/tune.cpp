@@ -96,6 +96,13 @@ std::optional<std::filesystem::path> pictures_of(const TuneCommand& command) {
   return usual_pictures;
 }
 
+/// The simulator ends only when nothing holds its clock any more.
+StreamSettings in_lockstep(const SimulatorProcess& simulator) {
+  StreamSettings settings;
+  settings.clock = std::make_shared<LockstepClock>(simulator.control());
+  return settings;
+}
+
 std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const Profile& profile,
                                                const Strip& strip, const FinishedPrint& print) {
   if (command.machine) load_profile(*command.machine);
@@ -109,10 +116,8 @@ std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const
     while (const auto frame = reader.next()) seen->take(*frame, reader);
   });
   FinishedSource source(print, profile.printer);
-  StreamSettings settings;
-  settings.clock = std::make_shared<LockstepClock>(simulator.control());
-  expect_whole(stream_with_progress(open_port(simulator.port(), profile.baud), source, {}, settings));
-  settings.clock.reset();  // hangs up, which the simulator waits for
+  expect_whole(
+      stream_with_progress(open_port(simulator.port(), profile.baud), source, {}, in_lockstep(simulator)));
   simulator.finish();
   watching.get();
   if (pictures) show(stdout, "picture:   {}\n", (*pictures / "deposit-0000.png").string());

@@ -10,6 +10,7 @@
 #include "host/cli/display.hpp"
 #include "host/cli/show.hpp"
 #include "host/engine/session_json.hpp"
+#include "host/link/serial_log.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -166,6 +167,14 @@ std::FILE* words_of(const DisplayOptions& display) {
   return display.json ? stderr : stdout;
 }
 
+LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log) {
+  LinkOptions options;
+  options.receive_buffer = profile.receive_buffer - 1;  // in a ring, one place always stays free
+  options.temperatures = std::chrono::seconds(2);
+  if (log) options.log = std::make_shared<SerialLog>(*log);
+  return options;
+}
+
 nlohmann::json planning_json(const Lookahead& lookahead) {
   const PlanningEffort effort = lookahead.effort();
   return {{"seconds", effort.seconds}, {"cpu_seconds", effort.cpu_seconds}, {"threads", lookahead.threads()}};
@@ -173,8 +182,15 @@ nlohmann::json planning_json(const Lookahead& lookahead) {
 
 nlohmann::json link_json(const StreamResult& result) {
   const LinkStatistics& s = result.statistics;
-  return {{"firmware", result.firmware},    {"lines", s.lines},     {"sent", s.sent},
-          {"acknowledged", s.acknowledged}, {"resends", s.resends}, {"bytes", s.bytes}};
+  return {{"firmware", result.firmware},
+          {"lines", s.lines},
+          {"sent", s.sent},
+          {"acknowledged", s.acknowledged},
+          {"resends", s.resends},
+          {"bytes", s.bytes},
+          {"probes", s.probes},
+          {"queries", s.queries},
+          {"recounts", s.recounts}};
 }
 
 StreamResult stream_with_progress(int port, Source& source, const DisplayOptions& options,

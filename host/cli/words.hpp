@@ -38,6 +38,9 @@ Exit tell_ending(const StreamResult& result, const DisplayOptions& display);
 /// Where words for people go: events have the standard output for themselves.
 std::FILE* words_of(const DisplayOptions& display);
 
+/// How the printer of a profile is talked to.
+LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log);
+
 /// The report's "planning": seconds, cpu_seconds, threads.
 nlohmann::json planning_json(const Lookahead& lookahead);
 /// The report's "link".

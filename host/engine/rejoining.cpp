@@ -48,7 +48,8 @@ std::optional<Lost> lost_since(const JournalState& journal, const Rejoined& foun
                             (*found.position)[0], (*found.position)[1], (*found.position)[2]),
                 std::nullopt};
   }
-  if (cooled(expected.nozzle, found.nozzle_target) || cooled(expected.bed, found.bed_target)) {
+  if (cooled(expected.nozzle, found.temperatures.nozzle_target) ||
+      cooled(expected.bed, found.temperatures.bed_target)) {
     return Lost{"its heaters have been switched off", place};
   }
   return std::nullopt;

@@ -56,7 +56,7 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   const gcode::ModalState state = state_at(spool.chunks(), Leg{}, line);
   if (!placed_somewhere(state)) return restart;
   restart.leg.begins_at = line;
-  restart.layer = layer_at(spool.chunks(), *state.position[2]);
+  restart.layer = layer_of(spool.chunks(), line);
   restart.repeated = std::max(sent, certain) - certain;
   note_heights(restart, spool.chunks(), journal, certain, std::max(sent, certain));
   if (ended_in_order) restart.lowest = restart.highest;

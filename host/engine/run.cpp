@@ -1,6 +1,5 @@
 #include "host/engine/run.hpp"
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -71,7 +70,7 @@ Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& out
 
 gcode::Chunk Run::layer(PlannedLayer planned) {
   const gcode::PlacedLayer layer = placed(prepared_, planned);
-  gcode::Chunk chunk = replay(layer);
+  gcode::Chunk chunk = encoded(layer);
   totals_.figures += measure(planned);
   if (planned.effort < 1) ++totals_.hurried_layers;
   totals_.least_effort = std::min(totals_.least_effort, planned.effort);
@@ -82,7 +81,22 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
     entries_[layer.index].json = std::move(entry);
   }
   if (pictures_) pictures_->draw(std::move(planned));
+  count(chunk);
   log_finished_layers(false);
+  return chunk;
+}
+
+gcode::Chunk Run::replay(const gcode::PlacedLayer& layer) {
+  gcode::Chunk chunk = encoded(layer);
+  count(chunk);
+  return chunk;
+}
+
+gcode::Chunk Run::encoded(const gcode::PlacedLayer& layer) {
+  gcode::Chunk chunk = encoder_.layer(layer);
+  ++totals_.layers;
+  totals_.flow = flow();
+  add_layer(totals_.materials, layer, zone_materials_);
   return chunk;
 }
 
@@ -90,15 +104,6 @@ gcode::Chunk Run::rest() {
   gcode::Chunk chunk = encoder_.rest();
   count(chunk);
   log_finished_layers(true);
-  return chunk;
-}
-
-gcode::Chunk Run::replay(const gcode::PlacedLayer& layer) {
-  gcode::Chunk chunk = encoder_.layer(layer);
-  ++totals_.layers;
-  totals_.flow = flow();
-  add_layer(totals_.materials, layer, zone_materials_);
-  count(chunk);
   return chunk;
 }
 

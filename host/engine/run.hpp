@@ -45,11 +45,11 @@ class Run {
   /// From now on tells `check` what every layer is to be. It must outlive the last layer.
   void tell(DepositCheck& check) { check_ = &check; }
   gcode::Chunk layer(PlannedLayer planned);
+  /// What was withheld, after the last layer.
+  gcode::Chunk rest();
   /// The same for a layer that was planned in an earlier run, of which only the bead paths are left: neither
   /// figures nor pictures.
   gcode::Chunk replay(const gcode::PlacedLayer& layer);
-  /// What was withheld, after the last layer.
-  gcode::Chunk rest();
   gcode::Chunk finish();
 
   /// mm³/s that is held; where the speed is constant, what that comes to at the job's bead width.
@@ -66,6 +66,7 @@ class Run {
   void write_report(const nlohmann::json& extra);
 
  private:
+  gcode::Chunk encoded(const gcode::PlacedLayer& layer);
   void count(const gcode::Chunk& chunk);
   void count_layers(const gcode::Chunk& chunk);
   void log_finished_layers(bool all);

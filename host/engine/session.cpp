@@ -51,9 +51,9 @@ std::size_t whole_layers(const gcode::Chunk& chunk) {
                                                 [](const gcode::LayerShare& share) { return share.last; }));
 }
 
-LinkOptions link_options(const std::shared_ptr<Clock>& clock) {
-  LinkOptions options;
-  options.clock = clock;
+LinkOptions link_options(const StreamSettings& settings) {
+  LinkOptions options = settings.link;
+  options.clock = settings.clock;
   return options;
 }
 
@@ -88,7 +88,7 @@ Session::State::State(asio::any_io_executor on, int descriptor, Source& of, Stre
       clock(settings.clock),
       wake(on, clock),
       self(std::make_shared<State*>(this)),
-      link(on, descriptor, link_options(clock)) {
+      link(on, descriptor, link_options(settings)) {
   link.on_message([this](const std::string& line) { hear(line); });
   source.on_ready([on, weak = std::weak_ptr(self)] {
     asio::post(on, [weak] {

@@ -81,6 +81,7 @@ enum class PauseHeat {
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
   Spool* spool = nullptr;  ///< that keeps the print, if one does
+  LinkOptions link = {};   ///< on the clock above
   /// With a spool that holds the first layers already; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;

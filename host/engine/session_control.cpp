@@ -26,7 +26,7 @@ constexpr double hottest_nozzle = 300, hottest_bed = 150;  ///< °C; beyond, it 
 constexpr auto over = "the print is ending";
 
 std::vector<std::string> signs_of_life() {
-  return {gcode::stay_watchful(), "M105"};
+  return {gcode::stay_watchful()};
 }
 
 /// None, if it is within.

@@ -20,7 +20,8 @@ void Session::State::keep_journal() {
     const std::uint64_t handed = link.statistics().lines;
     const std::uint64_t behind = interposing && handed > line ? handed - line : 0;
     const std::uint64_t at = interposing ? place : first + line - extra;
-    spool->journal().anchor({number + static_cast<std::uint32_t>(behind), at}, std::exchange(anew, false));
+    spool->journal().anchor({number + static_cast<std::uint32_t>(behind), at},
+                            std::exchange(anew, false) || number == 1);
   });
 }
 
@@ -40,6 +41,7 @@ void Session::State::end_journal(const StreamResult& ended) {
 /// Strips the chunk of its comments, and spools it. When the disk is full, the print waits until there is
 /// room; false when it was stopped meanwhile, so that nothing of the chunk may be sent.
 asio::awaitable<bool> Session::State::keep(SpooledChunk record, gcode::Chunk& chunk) {
+  if (spool) record.begun = layers_begun_in(chunk.lines);
   std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
   if (!spool) co_return true;
   record.lines = chunk.lines;

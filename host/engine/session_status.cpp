@@ -163,6 +163,8 @@ SessionStatus Session::State::status() const {
   const Waiting waiting = source.waiting();
   status.lookahead = waiting.seconds;
   status.lookahead_layers = waiting.layers;
+  if (const auto& queues = link.queues(); queues && queues->planner_size > 0)
+    status.queue = 1 - static_cast<double>(queues->planner_free) / queues->planner_size;
   status.speed_percent = speed_percent;
   status.flow_percent = flow_percent;
   if (caught_up) status.warnings = source.warnings();

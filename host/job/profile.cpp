@@ -19,11 +19,11 @@ Range within(const gcode::Bounds& bounds, const char* unit) {
   return between(bounds.least, bounds.greatest, unit);
 }
 
-unsigned read_baud(const Section& section, unsigned otherwise) {
-  const char* const remedy = "write for example baud = 250000";
-  const double baud = section.number_or("baud", otherwise, between(300, 4000000, "bits/s"), remedy);
-  if (baud != std::floor(baud)) section.fail("baud", "is no whole number", remedy);
-  return static_cast<unsigned>(baud);
+unsigned read_whole(const Section& section, const char* key, unsigned otherwise, const Range& range) {
+  const std::string remedy = fmt::format("write for example {} = {}", key, otherwise);
+  const double number = section.number_or(key, otherwise, range, remedy.c_str());
+  if (number != std::floor(number)) section.fail(key, "is no whole number", remedy.c_str());
+  return static_cast<unsigned>(number);
 }
 
 void read_machine(const Section& section, Profile& profile) {
@@ -38,7 +38,9 @@ void read_machine(const Section& section, Profile& profile) {
     }
   }
   profile.port = section.text_or("port", profile.port, "write \"auto\" or a path such as \"/dev/ttyUSB0\"");
-  profile.baud = read_baud(section, profile.baud);
+  profile.baud = read_whole(section, "baud", profile.baud, between(300, 4000000, "bits/s"));
+  profile.receive_buffer =
+      read_whole(section, "receive_buffer", profile.receive_buffer, between(32, 65536, "bytes"));
   printer.bed =
       section.numbers_or("bed", printer.bed, within(gcode::bounds::bed, "mm"), "write bed = [x, y, z] in mm");
   printer.nozzle = section.number_or("nozzle", printer.nozzle, within(gcode::bounds::nozzle, "mm"),
@@ -148,11 +150,12 @@ Profile load_profile(const std::filesystem::path& path) {
   Profile profile;
   profile.file = std::filesystem::absolute(path);
   const Section root = file.root({"printer", "extruder", "temperature", "transition", "gcode"});
-  read_machine(root.section("printer",
-                            {"name", "firmware", "port", "baud", "bed", "nozzle", "bead_width_range",
-                             "max_speed", "max_acceleration", "jerk", "junction_deviation", "acceleration"},
-                            "a profile describes the machine below [printer]; is this file a profile?"),
-               profile);
+  read_machine(
+      root.section("printer",
+                   {"name", "firmware", "port", "baud", "receive_buffer", "bed", "nozzle", "bead_width_range",
+                    "max_speed", "max_acceleration", "jerk", "junction_deviation", "acceleration"},
+                   "a profile describes the machine below [printer]; is this file a profile?"),
+      profile);
   read_extruder(
       root.section_or_empty("extruder", {"feeders", "filament_diameter", "max_flow", "floor_share",
                                          "retraction_length", "retraction_speed", "z_hop", "steps_per_mm",

@@ -13,6 +13,7 @@ struct Profile {
   gcode::Printer printer;
   std::string port = "auto";  ///< "auto": the only serial port there is
   unsigned baud = 250000;
+  unsigned receive_buffer = 128;  ///< bytes, of the board
 };
 
 /// Throws core::FileError or JobError.

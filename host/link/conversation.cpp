@@ -19,7 +19,7 @@ constexpr int number_attempts = 5;      ///< to set the line number, over a nois
 constexpr int probe_attempts = 4;       ///< each as long as LinkOptions::silence
 constexpr int find_attempts = 2;        ///< when rejoining, each as long as LinkOptions::silence
 constexpr int most_asks = 20;           ///< the same question, when refusals come in between
-constexpr int patience = 50;            ///< resends in a row that bring the job no further
+constexpr int most_resends = 50;        ///< in a row that bring the job no further
 constexpr auto finishes_nothing =
     "the printer is alive but has finished no command for very long; look at it, then start again";
 constexpr std::uint32_t probe_distance = 1000;  ///< ahead of any number that could be right
@@ -81,10 +81,26 @@ asio::awaitable<void> Link::State::greet() {
     co_await quiet(std::min<Duration>(boot_chatter, options.boot));
   }
   co_await ask_firmware();
+  co_await begin_reports();
   co_await reset_numbers();
   doubt = false;
   phase = Phase::streaming;
   if (numbering) numbering(ledger.next_to_number(), 0);
+}
+
+/// Once more if no ok comes; the print does not depend on it.
+asio::awaitable<void> Link::State::begin_reports() {
+  if (options.temperatures.count() == 0) co_return;
+  if (!identity.can("AUTOREPORT_TEMP")) {
+    ask_at = now() + options.temperatures;
+    co_return;
+  }
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto oks_before = oks;
+    const std::function<bool()> answered = [&] { return oks > oks_before; };
+    write(fmt::format("M155 S{}\n", options.temperatures.count()));
+    if (co_await until(answered, now() + std::min<Duration>(ask_again, options.silence))) co_return;
+  }
 }
 
 // ---- rejoining
@@ -108,10 +124,9 @@ asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
     co_await ask("M114\n", located);
   }
   found.position = told_position;
-  if (told_temperatures) {
-    found.nozzle_target = told_temperatures->nozzle_target;
-    found.bed_target = told_temperatures->bed_target;
-  }
+  found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
+  const std::function<bool()> named = [this] { return !firmware.empty(); };
+  co_await ask("M115\n", named);
   found.next = co_await ask_for_number(beyond);
   probing = false;
   co_return found;
@@ -150,8 +165,10 @@ asio::awaitable<void> Link::State::ask(std::string_view query, const std::functi
 }
 
 void Link::State::go_on(std::uint32_t next) {
-  ledger = Ledger(options.receive_buffer, next);
+  ledger = Ledger(options.receive_buffer, next, options.last_number);
   doubt = true;  // an ok that is still to come may be that of an earlier line
+  if (options.temperatures.count() > 0 && !identity.can("AUTOREPORT_TEMP"))
+    ask_at = now() + options.temperatures;
   phase = Phase::streaming;
 }
 
@@ -180,7 +197,7 @@ asio::awaitable<void> Link::State::reset_numbers() {
     const std::function<bool()> answered = [&] { return oks > oks_before || refusals > refusals_before; };
     doubt = false;
     write(framed(0, "M110 N0"));
-    const bool heard = co_await until(answered, now() + options.silence);
+    const bool heard = co_await until(answered, now() + patience());
     co_await quiet(options.quiet);
     if (heard && refusals == refusals_before && !doubt) co_return;
   }
@@ -191,23 +208,67 @@ asio::awaitable<void> Link::State::reset_numbers() {
 
 asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<State> self) {
   const auto unproven = [this] { return draining && doubt && !holding && ledger.settled(); };
-  const std::function<bool()> trouble = [&] { return asked || stranger || unproven(); };
+  // Numbers begin anew only behind lines that are proven to be done.
+  const auto used_up = [this] { return !holding && ledger.exhausted(); };
+  const auto idle = [this] { return idle_words > 1; };
+  const std::function<bool()> due = [&] { return asked || stranger || unproven() || used_up() || idle(); };
   try {
     for (;;) {
-      co_await until(trouble, stall_deadline());
+      co_await until(due, std::min(stall_deadline(), ask_at));
       if (asked)
         co_await answer_resend();
-      else if (stranger || unproven() || now() >= stall_deadline())
+      else if (stranger || unproven() || idle() || now() >= stall_deadline() || (used_up() && doubt))
         co_await resynchronise();
+      else if (used_up())
+        co_await count_anew();
+      else if (now() >= ask_at)
+        ask_temperatures();
     }
   } catch (const LinkError&) {
     // fail() has told everyone who waits.
   }
 }
 
+Duration Link::State::patience() const {
+  return identity.can("BUSY_PROTOCOL") ? std::min(options.keepalive, options.silence) : options.silence;
+}
+
 TimePoint Link::State::stall_deadline() const {
-  if (!ledger.in_flight()) return now() + options.silence;
-  return std::min(last_life + options.silence, ok_deadline());
+  if (!ledger.in_flight()) return now() + patience();
+  return std::min(last_life + patience(), ok_deadline());
+}
+
+void Link::State::ask_temperatures() {
+  ask_at = now() + options.temperatures;
+  if (holding || ledger.exhausted()) return;
+  insert_query();
+  pump();
+}
+
+void Link::State::insert_query() {
+  if (ledger.fence()) ++statistics.queries;
+  if (numbering) numbering(ledger.next_to_number(), ledger.numbered());
+}
+
+/// M110 may act once more when it is executed, and then must find no newer line before it. A firmware whose
+/// oks come at receipt has to be idle for that, which it says every second.
+asio::awaitable<void> Link::State::count_anew() {
+  holding = true;
+  if (identity.family == gcode::Family::repetier) {
+    const auto words_before = waits_heard;
+    const std::function<bool()> idle = [&] { return waits_heard > words_before; };
+    co_await until(idle, now() + options.no_ok);
+  }
+  co_await reset_numbers();
+  ++statistics.recounts;
+  ledger.restart();
+  asked.reset();
+  stranger.reset();
+  doubt = holding = false;
+  last_ok = last_life = now();
+  if (numbering) numbering(ledger.next_to_number(), ledger.numbered());
+  pump();
+  signal.notify();
 }
 
 TimePoint Link::State::ok_deadline() const {
@@ -219,11 +280,11 @@ asio::awaitable<void> Link::State::answer_resend() {
   if (!asked) co_return;
   if (ledger.acknowledged() > best_acknowledged)
     best_acknowledged = ledger.acknowledged(), fruitless_resends = 0;
-  if (++fruitless_resends > patience) {
+  if (++fruitless_resends > most_resends) {
     give_up(
         fmt::format("the printer has asked {} times for line {} and those around it; the line to it is "
                     "too noisy, check the cable and keep it away from motors and mains",
-                    patience, *asked));
+                    most_resends, *asked));
   }
   ++statistics.resends;
   resume_from(*asked, false);
@@ -231,12 +292,12 @@ asio::awaitable<void> Link::State::answer_resend() {
 
 void Link::State::resume_from(std::uint32_t number, bool with_fence) {
   ledger.rewind(number);
-  if (with_fence) ledger.fence();
-  if (with_fence && numbering) numbering(ledger.next_to_number(), ledger.numbered());
+  if (with_fence) insert_query();
   statistics.acknowledged = ledger.acknowledged();
   asked.reset();
   stranger.reset();
   holding = false;
+  idle_words = 0;
   last_ok = last_life = now();
   pump();
   signal.notify();

@@ -39,30 +39,35 @@ std::string framed(std::uint32_t number, std::string_view command) {
 
 void Ledger::number(std::string_view command, bool fence) {
   lines_.push_back({framed(end(), command), is_query(command), is_slow(command), fence});
+  if (!fence) ++numbered_;
 }
 
 std::size_t Ledger::fill(std::string& bytes) {
   std::size_t count = 0;
   for (;; ++count) {
     if (next_ == end()) {
-      if (waiting_.empty()) break;
+      if (waiting_.empty() || end() > last_) break;
       number(waiting_.front(), false);
       waiting_.pop_front();
     }
     const std::string& frame = line(next_).frame;
-    if (in_flight() && bytes_in_flight_ + frame.size() > window_) break;
+    if (counted_ < next_ && bytes_in_buffer_ + frame.size() > window_) break;
     bytes += frame;
-    bytes_in_flight_ += frame.size();
+    bytes_in_buffer_ += frame.size();
     ++next_;
   }
   return count;
 }
 
 void Ledger::advance(std::uint32_t front) {
+  leave_buffer(std::min(front, next_));
   for (; front_ < front; ++front_) {
-    if (front_ < next_) bytes_in_flight_ -= line(front_).frame.size();
     if (!line(front_).fence) ++acknowledged_;
   }
+}
+
+void Ledger::leave_buffer(std::uint32_t front) {
+  for (; counted_ < front; ++counted_) bytes_in_buffer_ -= line(counted_).frame.size();
 }
 
 void Ledger::forget() {
@@ -76,11 +81,12 @@ bool Ledger::acknowledge() {
   return true;
 }
 
-bool Ledger::acknowledge_number(std::uint32_t number) {
+bool Ledger::acknowledge_number(std::uint32_t number, std::uint32_t queued) {
   const auto known = locate(number);
   if (!known || *known < front_ || *known >= next_) return false;
   const bool oldest = *known == front_;
   advance(*known + 1);
+  leave_buffer(std::min(front_ + queued, next_));
   forget();
   return oldest;
 }
@@ -113,17 +119,23 @@ void Ledger::rewind(std::uint32_t number) {
   for (; front_ > number; --front_) {
     if (!line(front_ - 1).fence) --acknowledged_;
   }
-  next_ = number;
-  bytes_in_flight_ = 0;
+  next_ = counted_ = number;
+  bytes_in_buffer_ = 0;
   forget();
 }
 
-void Ledger::fence() {
+bool Ledger::fence() {
   for (std::uint32_t n = front_; n < end(); ++n) {
-    if (line(n).fence) return;
+    if (line(n).fence) return false;
   }
   number("M105", true);
-  ++fences_;
+  return true;
+}
+
+void Ledger::restart() {
+  assert(!in_flight() && next_ == end());
+  lines_.clear();
+  base_ = front_ = next_ = counted_ = 1;
 }
 
 }  // namespace unicursal::host

@@ -22,8 +22,12 @@ std::string framed(std::uint32_t number, std::string_view command);
 class Ledger {
  public:
   /// `window`: bytes that may be in flight. `first`: the number of the first line.
-  explicit Ledger(std::size_t window, std::uint32_t first = 1)
-      : window_(window), first_(first), base_(first), front_(first), next_(first) {}
+  /// `last`: the number after which they have to begin anew.
+  explicit Ledger(std::size_t window, std::uint32_t first = 1, std::uint32_t last = highest)
+      : window_(window), last_(last), base_(first), front_(first), next_(first), counted_(first) {}
+
+  /// The highest number that leaves 80 bytes for the command in a line of 95.
+  static constexpr std::uint32_t highest = 99999999;
 
   /// Puts a command behind all that wait.
   void push(std::string command) { waiting_.push_back(std::move(command)); }
@@ -35,8 +39,9 @@ class Ledger {
   /// line is a fence, whose answer looks different.
   bool acknowledge();
   /// An ok with a number, as sent or modulo 65536. False unless it is the oldest line's; all up to it are
-  /// acknowledged when it is in flight.
-  bool acknowledge_number(std::uint32_t number);
+  /// acknowledged when it is in flight. `queued`: how many lines behind it the firmware has taken out of its
+  /// receive buffer as well, where it tells; they leave room for others.
+  bool acknowledge_number(std::uint32_t number, std::uint32_t queued = 0);
   /// "ok T:…": the answer to the oldest M105 in flight; all before it are done, too. False when there is
   /// none.
   bool acknowledge_query();
@@ -48,11 +53,15 @@ class Ledger {
   /// The firmware has everything before `number` and nothing from there on. Precondition: located.
   void rewind(std::uint32_t number);
   /// Lets a M105 follow the last numbered line, ahead of what waits, unless one is already under way: its
-  /// answer is proof that everything before it has been executed.
-  void fence();
+  /// answer is proof that everything before it has been executed. Returns whether it was inserted.
+  bool fence();
   /// Lines of the user that have a number, and the number that the next one of them will get.
-  std::uint64_t numbered() const { return end() - first_ - fences_; }
+  std::uint64_t numbered() const { return numbered_; }
   std::uint32_t next_to_number() const { return end(); }
+  /// No number is left for what waits, and all before it is done: restart() is due.
+  bool exhausted() const { return end() > last_ && !waiting_.empty() && next_ == end() && !in_flight(); }
+  /// The firmware now counts from 1 again. Precondition: nothing is in flight.
+  void restart();
 
   bool in_flight() const { return front_ < next_; }
   /// Whether one of the lines sent lately may keep the firmware busy for long: heating, homing, a pause.
@@ -82,17 +91,19 @@ class Ledger {
   const Line& line(std::uint32_t number) const { return lines_[number - base_]; }
   void number(std::string_view command, bool fence);
   void advance(std::uint32_t front);
+  void leave_buffer(std::uint32_t front);
   void forget();
 
   std::size_t window_;
   std::deque<std::string> waiting_;  ///< not numbered yet
   std::deque<Line> lines_;           ///< numbers base_ … end() - 1
-  std::uint32_t first_;
+  std::uint32_t last_;
   std::uint32_t base_;
-  std::uint32_t front_;  ///< the oldest in flight
-  std::uint32_t next_;   ///< the next to write; before end() after a rewind
-  std::uint32_t fences_ = 0;
-  std::size_t bytes_in_flight_ = 0;
+  std::uint32_t front_;    ///< the oldest in flight
+  std::uint32_t next_;     ///< the next to write; before end() after a rewind
+  std::uint32_t counted_;  ///< the oldest that may still be in the receive buffer
+  std::size_t bytes_in_buffer_ = 0;
+  std::uint64_t numbered_ = 0;
   std::uint64_t acknowledged_ = 0;
 };
 

@@ -94,6 +94,18 @@ const std::string& Link::firmware() const {
   return state_->firmware;
 }
 
+const gcode::Identity& Link::identity() const {
+  return state_->identity;
+}
+
+const gcode::Temperatures& Link::temperatures() const {
+  return state_->temperatures;
+}
+
+const std::optional<PrinterQueues>& Link::queues() const {
+  return state_->queues;
+}
+
 void Link::on_numbering(std::function<void(std::uint32_t, std::uint64_t)> listener) {
   state_->numbering = std::move(listener);
 }

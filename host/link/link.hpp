@@ -22,9 +22,13 @@
 #include <string>
 #include <vector>
 
+#include "firmware_gcode/reply/identity.hpp"
+#include "firmware_gcode/reply/reply.hpp"
 #include "host/link/clock.hpp"
 
 namespace unicursal::host {
+
+class SerialLog;
 
 /// The printer is not there, does not answer, has reset, or has stopped itself. The message is a sentence
 /// with the remedy.
@@ -46,20 +50,29 @@ class PrinterReset : public LinkError {
   using LinkError::LinkError;
 };
 
+/// Of the chip or board at the other end of a USB cable.
+struct UsbId {
+  std::uint16_t vendor = 0, product = 0;
+
+  friend bool operator==(const UsbId&, const UsbId&) = default;
+};
+
 /// A port that can be offered to a user.
 struct PortInfo {
   std::string path;         ///< /dev/ttyUSB0
   std::string stable_path;  ///< /dev/serial/by-id/…, empty when there is none
   std::string description;
   bool usb = false;
+  std::optional<UsbId> usb_id;
 };
 
 /// Those on USB first.
 std::vector<PortInfo> list_ports();
 
 /// Opens exclusively, raw, 8N1, HUPCL cleared; libserialport for real ports, directly for pseudo-terminals.
-/// "auto" takes the only port on USB, or else the only port, that there is. Returns the file descriptor,
-/// owned by the caller. Throws PortError.
+/// `path` may also be USB numbers ("1a86:7523"), or "auto": the only port on USB, or else the only port, that
+/// there is; where there are several, the first that answers M115 (find_port.hpp). Returns the file
+/// descriptor, owned by the caller. Throws PortError.
 int open_port(const std::string& path, unsigned baud);
 
 struct LinkOptions {
@@ -70,6 +83,13 @@ struct LinkOptions {
   std::chrono::milliseconds no_ok{600000};      ///< signs of life but no ok from a quick command: give up
   std::chrono::milliseconds slow_ok{3600000};   ///< the same while heating, homing or waiting for a person
   std::chrono::milliseconds quiet{40};          ///< without a byte: all that the printer had to say is said
+  /// The same as `silence` for firmwares that say every 2 s that they are busy (Cap:BUSY_PROTOCOL).
+  std::chrono::milliseconds keepalive{3000};
+  /// Between reports of temperatures, which the printer is told to make, or else asked for; 0: no reports.
+  /// Whole seconds.
+  std::chrono::seconds temperatures{0};
+  std::uint32_t last_number = 99999999;      ///< after it, lines are counted from 1 anew (M110)
+  std::shared_ptr<SerialLog> log = nullptr;  ///< of every byte either way
 };
 
 struct LinkStatistics {
@@ -78,15 +98,23 @@ struct LinkStatistics {
   std::uint64_t acknowledged = 0;  ///< of `lines`, those that the printer has taken
   std::uint64_t resends = 0;       ///< resend requests obeyed
   std::uint64_t probes = 0;        ///< times the link had to ask where the printer is
+  std::uint64_t queries = 0;       ///< numbered lines of the link's own, each once
+  std::uint64_t recounts = 0;      ///< times the lines were numbered from 1 anew
   std::uint64_t bytes = 0;         ///< written
+};
+
+/// What the printer's queues have room for, as ADVANCED_OK tells it.
+struct PrinterQueues {
+  std::uint32_t planner_free = 0, planner_size = 0;    ///< moves; the most that were ever free
+  std::uint32_t commands_free = 0, commands_size = 0;  ///< the running one counts
 };
 
 /// Where a printer is in a conversation that another program has begun.
 struct Rejoined {
-  std::uint32_t next = 0;                           ///< number of the line that it wants; Repetier: perhaps
-                                                    ///< modulo 65536
-  std::optional<std::array<double, 3>> position;    ///< mm, x y z after all that it has taken
-  std::optional<double> nozzle_target, bed_target;  ///< °C
+  std::uint32_t next = 0;                         ///< number of the line that it wants; Repetier: perhaps
+                                                  ///< modulo 65536
+  std::optional<std::array<double, 3>> position;  ///< mm, x y z after all that it has taken
+  gcode::Temperatures temperatures;               ///< °C
 };
 
 class Link {
@@ -120,6 +148,12 @@ class Link {
   const LinkStatistics& statistics() const;
   /// What M115 answered (FIRMWARE_NAME…), empty before connect() and for firmwares that do not tell.
   const std::string& firmware() const;
+  /// The same, understood.
+  const gcode::Identity& identity() const;
+  /// The last that the printer has told; °C.
+  const gcode::Temperatures& temperatures() const;
+  /// As of the last ok; nothing from firmwares that do not tell.
+  const std::optional<PrinterQueues>& queues() const;
   /// Called when the numbers of the user's lines shift: the `line`th of them, counted from 0, will be
   /// `number`, and those behind it follow on. Always before that line is written.
   void on_numbering(std::function<void(std::uint32_t number, std::uint64_t line)> listener);

@@ -1,4 +1,5 @@
 // What the printer's replies mean for the link. See state.hpp for the facts behind it.
+#include <algorithm>
 #include <variant>
 
 #include "host/link/state.hpp"
@@ -39,17 +40,43 @@ void Link::State::hear(std::string_view line) {
 void Link::State::take(const reply::Ok& ok) {
   ++oks;
   last_ok = last_life = now();
-  if (!ok.temperatures.empty()) told_temperatures = ok.temperatures;
+  idle_words = 0;
+  if (!ok.temperatures.empty()) {
+    told_temperatures = ok.temperatures;
+    note(ok.temperatures);
+  }
+  const std::uint32_t queued = note_places(ok);
   if (phase == Phase::greeting || holding) return;
   bool expected;
   if (ok.line)
-    expected = ledger.acknowledge_number(*ok.line);
+    expected = ledger.acknowledge_number(*ok.line, queued);
   else if (!ok.temperatures.empty() && ledger.acknowledge_query())
     expected = true;
   else
     expected = ledger.acknowledge() || ledger.at_fence();
   if (!expected) doubt = true;
   statistics.acknowledged = ledger.acknowledged();
+}
+
+void Link::State::note(const Temperatures& told) {
+  if (told.nozzle) temperatures.nozzle = told.nozzle, temperatures.nozzle_target = told.nozzle_target;
+  if (told.bed) temperatures.bed = told.bed, temperatures.bed_target = told.bed_target;
+}
+
+std::uint32_t Link::State::note_places(const reply::Ok& ok) {
+  if (!ok.planner_places || !ok.command_places) return 0;
+  constexpr std::uint32_t most = 4096;  // of any firmware's queues; noise may say anything
+  const std::uint32_t moves = std::min(*ok.planner_places, most);
+  const std::uint32_t commands = std::min(*ok.command_places, most);
+  if (!queues) queues.emplace();
+  queues->planner_free = moves, queues->commands_free = commands;
+  if (phase == Phase::greeting) {
+    // The firmware is idle, but for the command that this answers.
+    queues->planner_size = std::max(queues->planner_size, moves);
+    queues->commands_size = std::max(queues->commands_size, commands + 1);
+  }
+  const std::uint32_t taken = commands + 1;
+  return out_of_band || taken > queues->commands_size ? 0 : queues->commands_size - taken;
 }
 
 void Link::State::take(const reply::Resend& resend) {
@@ -93,7 +120,14 @@ void Link::State::take(const reply::Busy&) {
   last_life = now();
 }
 
+/// Repetier's, every second in which it does nothing. The first may have crossed with lines on their way.
+void Link::State::take(const reply::Wait&) {
+  ++waits_heard;
+  if (phase == Phase::streaming && !holding && ledger.in_flight()) ++idle_words;
+}
+
 void Link::State::take(const reply::TemperatureReport& report) {
+  note(report.temperatures);
   if (!report.waiting) {
     told_temperatures = report.temperatures;
     return;
@@ -107,6 +141,13 @@ void Link::State::take(const reply::TemperatureReport& report) {
 
 void Link::State::take(const reply::Firmware& told) {
   firmware = printable(told.text, 1000);
+  auto promised = std::move(identity.capabilities);
+  identity = identify(told.text);
+  identity.capabilities = std::move(promised);
+}
+
+void Link::State::take(const reply::Capability& capability) {
+  identity.learn(capability.name, capability.on);
 }
 
 void Link::State::take(const reply::Echo& echo) {

@@ -15,8 +15,15 @@
 // - Damage that makes a numbered line look like an unnumbered command gets "Unknown command" and an ok; the
 //   gap shows with the next number. Damage that the 8-bit checksum does not see cannot be found by anyone.
 // - "start" in mid-print means that the printer has forgotten everything: nothing may be sent any more.
-// - Numbers count up from 1 and never wrap: lines stay within 95 characters up to number 99 999 999, which at
-//   600 lines/s is reached after two days without pause; the link then ends the job with an error.
+// - Lines stay within 95 characters up to number 99 999 999, which at 600 lines/s is reached after two days
+//   without pause. Then, when all is acknowledged, M110 goes out alone and they are counted from 1 again.
+// - "ok N7 P3 B1" (ADVANCED_OK) tells how many commands wait in the queue behind line 7: those have left the
+//   receive buffer, so that others may follow. What was sent out of band would be counted with them: then it
+//   is not used any more.
+// - A Marlin with Cap:BUSY_PROTOCOL is never silent for more than 2 s while it works, a Repetier says "wait"
+//   when it does not: both tell soon that an ok was lost, long before the deadline for printers that do not.
+// - Temperatures: M155 where the firmware knows it, since a M105 waits behind every move; otherwise a
+//   numbered M105, which shifts the numbers of the lines behind it.
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -59,13 +66,18 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   void take(const gcode::reply::Start& start);
   void take(const gcode::reply::Busy& busy);
   void take(const gcode::reply::TemperatureReport& report);
+  void take(const gcode::reply::Wait& wait);
   void take(const gcode::reply::Firmware& firmware);
+  void take(const gcode::reply::Capability& capability);
   void take(const gcode::reply::Echo& echo);
   void take(const gcode::reply::Position& position);
   void take(const gcode::reply::Unknown& unknown);
   template <class Other>
   void take(const Other&) {}
   void asked_for(std::uint32_t number);
+  void note(const gcode::Temperatures& told);
+  /// How many lines behind the acknowledged one wait in the firmware's command queue.
+  std::uint32_t note_places(const gcode::reply::Ok& ok);
 
   // Conversation (conversation.cpp)
   asio::awaitable<void> greet();
@@ -76,12 +88,18 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   asio::awaitable<void> supervise(std::shared_ptr<State> self);
   asio::awaitable<void> ask_firmware();
   asio::awaitable<void> reset_numbers();
+  asio::awaitable<void> begin_reports();
+  asio::awaitable<void> count_anew();
+  void ask_temperatures();
+  void insert_query();
   asio::awaitable<void> answer_resend();
   asio::awaitable<void> resynchronise();
   asio::awaitable<bool> probe();
   void resume_from(std::uint32_t number, bool with_fence);
   /// Until no byte has come for `pause`, or for about a second at most.
   asio::awaitable<void> quiet(Duration pause);
+  /// Nothing has failed, and all is in the printer's hands; without a word for this long that is in doubt.
+  Duration patience() const;
   TimePoint stall_deadline() const;
   TimePoint ok_deadline() const;  ///< by when an ok must have come, however busy the printer is
   TimePoint now() const { return options.clock->now(); }
@@ -102,6 +120,10 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   const LinkOptions options;
   LinkStatistics statistics;
   std::string firmware;
+  gcode::Identity identity;
+  gcode::Temperatures temperatures;
+  std::optional<PrinterQueues> queues;
+  TimePoint ask_at = TimePoint::max();  ///< for temperatures, of firmwares that make no reports
   std::function<void(const std::string&)> listener;
   std::function<void(std::uint32_t, std::uint64_t)> numbering;
   std::optional<std::string> failure;
@@ -124,6 +146,8 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   bool holding = false;                   ///< nothing may be sent and no ok counts: resend or probe under way
   bool probing = false;                   ///< the next error is our own doing
   bool doubt = false;                     ///< something odd has happened since the last proof
+  bool out_of_band = false;               ///< lines without a number are perhaps in the printer's queue
+  int idle_words = 0;                     ///< times it has said that it waits while lines were in flight
   std::optional<std::uint32_t> asked;     ///< the line that the printer wants
   std::optional<std::uint32_t> stranger;  ///< one that it asked for and cannot be given
   int fruitless_resends = 0;              ///< since more lines were acknowledged than ever before
@@ -131,7 +155,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   std::string last_error;
 
   std::uint64_t bytes_heard = 0;
-  std::uint64_t oks = 0, refusals = 0, lines_heard = 0;
+  std::uint64_t oks = 0, refusals = 0, lines_heard = 0, waits_heard = 0;
   TimePoint last_ok = now();
   TimePoint last_life = now();  ///< of an ok or a busy
 };

@@ -8,12 +8,11 @@
 #include <asio/redirect_error.hpp>
 #include <asio/use_awaitable.hpp>
 
+#include "host/link/serial_log.hpp"
 #include "host/link/state.hpp"
 
 namespace unicursal::host {
 namespace {
-
-constexpr std::uint32_t last_number = 99999999;  ///< longer numbers would make lines too long
 
 /// Waits for heat that a cool-down ends, one for each report of it: bed and nozzle may both wait, and the
 /// user's own lines once more. No more, since a firmware that does not know M108 only collects them.
@@ -31,7 +30,7 @@ Link::State::State(asio::any_io_executor on, int descriptor, LinkOptions with)
       port(executor, descriptor),
       options(with),
       signal(executor, options.clock),
-      ledger(options.receive_buffer) {
+      ledger(options.receive_buffer, 1, options.last_number) {
   port.non_blocking(true);
   options.clock->attach(port.native_handle(), [this] { return statistics.bytes; });
 }
@@ -47,6 +46,7 @@ asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State
       co_return;
     }
     bytes_heard += count;
+    if (options.log) options.log->add(SerialLog::Way::in, now(), {buffer.data(), count});
     splitter.feed({buffer.data(), count}, [this](std::string_view line) { hear(line); });
     pump();
     signal.notify();
@@ -63,11 +63,11 @@ void Link::State::pump() {
     if (unsent.empty() && phase == Phase::streaming && !holding) {
       if (!ledger.in_flight()) last_ok = last_life = now();
       statistics.sent += ledger.fill(unsent);
-      if (ledger.next() > last_number) fail("the job has too many lines for one print; split it");
     }
     if (unsent.empty()) return;
     asio::error_code error;
     const std::size_t count = port.write_some(asio::buffer(unsent), error);
+    if (options.log && count > 0) options.log->add(SerialLog::Way::out, now(), {unsent.data(), count});
     unsent.erase(0, count);
     statistics.bytes += count;
     if (error == asio::error::would_block || error == asio::error::try_again)
@@ -92,7 +92,7 @@ void Link::State::cool_down() noexcept {
   try {
     if (failure || phase == Phase::greeting) return;
     statistics.lines -= ledger.forget_waiting();
-    doubt = true;
+    doubt = out_of_band = true;
     interruptions = most_interruptions;
     write("M108\nM104 S0\nM140 S0\n");
     signal.notify();

@@ -1,7 +1,6 @@
 #include "host/spool/chunk_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "host/spool/bytes.hpp"
@@ -86,14 +85,15 @@ gcode::ModalState state_at(const std::filesystem::path& chunks, const Leg& leg, 
   return state;
 }
 
-std::optional<LayerPlace> layer_at(const std::filesystem::path& chunks, double height) {
+std::optional<LayerPlace> layer_of(const std::filesystem::path& chunks, std::uint64_t line) {
   std::optional<LayerPlace> place;
   ChunkReader reader(chunks);
   std::size_t layers = 0;
   while (const auto chunk = reader.next()) {
-    if (chunk->kind != SpooledChunk::Kind::layer) continue;
-    const LayerPlace here{layers++, chunk->layer.top};
-    if (!place || std::abs(here.top - height) < std::abs(place->top - height)) place = here;
+    for (const LayerBegun& begun : chunk->begun) {
+      if (reader.first_line() + begun.line > line) return place;
+      place = LayerPlace{layers++, begun.top};
+    }
   }
   return place;
 }

@@ -71,12 +71,12 @@ class LegReader {
 /// The state of a printer that has run a leg up to `place`, all legs before it included.
 gcode::ModalState state_at(const std::filesystem::path& chunks, const Leg& leg, std::uint64_t place);
 
-/// The layer, counted from 0 among those printed, whose upper face is nearest to a height in mm; none if no
-/// layer is spooled. (Lines come later than the layer they were spooled with: the encoder looks ahead.)
+/// The layer, counted from 0 among those printed, that a print's line belongs to, with its upper face in mm;
+/// none for lines before the first.
 struct LayerPlace {
   std::size_t index = 0;
   double top = 0;
 };
-std::optional<LayerPlace> layer_at(const std::filesystem::path& chunks, double height);
+std::optional<LayerPlace> layer_of(const std::filesystem::path& chunks, std::uint64_t line);
 
 }  // namespace unicursal::host

@@ -1,6 +1,7 @@
 #include "host/spool/spooled_chunk.hpp"
 
 #include <cmath>
+#include <cstdlib>
 
 #include "host/spool/bytes.hpp"
 
@@ -17,10 +18,38 @@ void put(ByteWriter& bytes, const core::BeadPath& path) {
   }
 }
 
+void put(ByteWriter& bytes, const core::Ring& ring) {
+  bytes.put(static_cast<std::uint32_t>(ring.size()));
+  for (const core::Vec2& v : ring) bytes.put(v.x()).put(v.y());
+}
+
+void put(ByteWriter& bytes, const core::Polygon& polygon) {
+  put(bytes, polygon.outer);
+  bytes.put(static_cast<std::uint32_t>(polygon.holes.size()));
+  for (const core::Ring& hole : polygon.holes) put(bytes, hole);
+}
+
 double length_in(ByteReader& bytes) {
   const double value = bytes.number();
   if (!std::isfinite(value)) throw DamagedBytes("holds a length that is no number");
   return value;
+}
+
+core::Ring ring_in(ByteReader& bytes) {
+  core::Ring ring(bytes.count(2 * 8));
+  for (core::Vec2& v : ring) {
+    const double x = length_in(bytes), y = length_in(bytes);
+    v = {x, y};
+  }
+  return ring;
+}
+
+core::Polygon polygon_in(ByteReader& bytes) {
+  core::Polygon polygon;
+  polygon.outer = ring_in(bytes);
+  polygon.holes.resize(bytes.count(4));
+  for (core::Ring& hole : polygon.holes) hole = ring_in(bytes);
+  return polygon;
 }
 
 core::BeadPath path_in(ByteReader& bytes) {
@@ -35,36 +64,6 @@ core::BeadPath path_in(ByteReader& bytes) {
   return path;
 }
 
-constexpr std::size_t point_bytes = 2 * 8;
-
-void put(ByteWriter& bytes, const core::Ring& ring) {
-  bytes.put(static_cast<std::uint32_t>(ring.size()));
-  for (const core::Vec2& point : ring) bytes.put(point.x()).put(point.y());
-}
-
-void put(ByteWriter& bytes, const core::Polygon& polygon) {
-  put(bytes, polygon.outer);
-  bytes.put(static_cast<std::uint32_t>(polygon.holes.size()));
-  for (const core::Ring& hole : polygon.holes) put(bytes, hole);
-}
-
-core::Ring ring_in(ByteReader& bytes) {
-  core::Ring ring(bytes.count(point_bytes));
-  for (core::Vec2& point : ring) {
-    const double x = length_in(bytes), y = length_in(bytes);
-    point = {x, y};
-  }
-  return ring;
-}
-
-core::Polygon polygon_in(ByteReader& bytes) {
-  core::Polygon polygon;
-  polygon.outer = ring_in(bytes);
-  polygon.holes.resize(bytes.count(4));
-  for (core::Ring& hole : polygon.holes) hole = ring_in(bytes);
-  return polygon;
-}
-
 core::Effort effort_in(ByteReader& bytes) {
   core::Effort effort(bytes.count(4));
   for (int& steps : effort) steps = static_cast<int>(bytes.take<std::uint32_t>());
@@ -72,6 +71,18 @@ core::Effort effort_in(ByteReader& bytes) {
 }
 
 }  // namespace
+
+std::vector<LayerBegun> layers_begun_in(const std::vector<std::string>& lines) {
+  static constexpr std::string_view mark = ";Z:";  // follows ;LAYER_CHANGE
+  std::vector<LayerBegun> result;
+  std::uint32_t commands = 0;
+  for (const std::string& line : lines) {
+    if (line.starts_with(mark))
+      result.push_back({commands, std::strtod(line.c_str() + mark.size(), nullptr)});
+    if (!line.empty() && line.front() != ';') ++commands;
+  }
+  return result;
+}
 
 std::string to_bytes(const SpooledChunk& chunk) {
   ByteWriter bytes;
@@ -81,6 +92,8 @@ std::string to_bytes(const SpooledChunk& chunk) {
   for (const core::BeadPath& path : chunk.layer.paths) put(bytes, path);
   bytes.put(static_cast<std::uint32_t>(chunk.layer.outlines.size()));
   for (const core::Polygon& outline : chunk.layer.outlines) put(bytes, outline);
+  bytes.put(static_cast<std::uint32_t>(chunk.begun.size()));
+  for (const LayerBegun& begun : chunk.begun) bytes.put(begun.line).put(begun.top);
   bytes.put(static_cast<std::uint32_t>(chunk.efforts.size()));
   for (const core::Effort& effort : chunk.efforts) {
     bytes.put(static_cast<std::uint32_t>(effort.size()));
@@ -104,6 +117,11 @@ SpooledChunk chunk_from(std::string_view content) {
   for (core::BeadPath& path : chunk.layer.paths) path = path_in(bytes);
   chunk.layer.outlines.resize(bytes.count(8));
   for (core::Polygon& outline : chunk.layer.outlines) outline = polygon_in(bytes);
+  chunk.begun.resize(bytes.count(4 + 8));
+  for (LayerBegun& begun : chunk.begun) {
+    begun.line = bytes.take<std::uint32_t>();
+    begun.top = length_in(bytes);
+  }
   chunk.efforts.resize(bytes.count(4));
   for (core::Effort& effort : chunk.efforts) effort = effort_in(bytes);
   chunk.lines.resize(bytes.count(4));

@@ -13,13 +13,30 @@
 
 namespace unicursal::host {
 
+/// Where a layer begins among the lines of a chunk.
+struct LayerBegun {
+  std::uint32_t line = 0;  ///< counted from 0, comments left out
+  double top = 0;          ///< mm
+
+  friend bool operator==(const LayerBegun&, const LayerBegun&) = default;
+};
+
 struct SpooledChunk {
-  enum class Kind : std::uint8_t { start, layer, rest, finish };
+  enum class Kind : std::uint8_t {
+    start,
+    layer,  ///< what became certain when the encoder was given a layer; may belong to earlier ones
+    rest,   ///< what it had withheld
+    finish
+  };
   Kind kind = Kind::start;
   gcode::PlacedLayer layer;           ///< for Kind::layer: what the encoder was given, on the bed, mm
+  std::vector<LayerBegun> begun;      ///< in `lines`
   std::vector<core::Effort> efforts;  ///< of its islands
   std::vector<std::string> lines;     ///< as sent: no comments
 };
+
+/// From the comments of a chunk that has them still.
+std::vector<LayerBegun> layers_begun_in(const std::vector<std::string>& lines);
 
 std::string to_bytes(const SpooledChunk& chunk);
 /// Throws DamagedBytes.

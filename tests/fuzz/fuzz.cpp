@@ -28,6 +28,7 @@
 #include "tests/core/support/plan_faults.hpp"
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"
+#include "tests/fuzz/replies.hpp"
 #include "tests/fuzz/simulator.hpp"
 #include "tests/fuzz/spool.hpp"
 #include "tests/host/support/sample_job.hpp"
@@ -143,7 +144,9 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"faults", test::faults},
     {"control", test::control},
     {"journal", test::journal},
-    {"chunks", test::chunks}};
+    {"chunks", test::chunks},
+    {"replies", test::read_replies},
+    {"conversation", test::converse}};
 
 /// True for a file that was read, false for one that was refused as it should be.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -185,7 +188,8 @@ int main(int count, char** words) {
   if (count < 4) {
     std::fprintf(
         stderr,
-        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks "
+        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|"
+        "replies|conversation "
         "SECONDS [FIRST]\n");
     return 2;
   }

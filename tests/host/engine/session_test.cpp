@@ -127,7 +127,7 @@ TEST_CASE("The firmware's own wishes are obeyed like the user's") {
   const Lines plain = undisturbed();
   SECTION("pause and resume") {
     SessionBench bench(
-        {"--fault", "say://action:pause@line=200", "--fault", "say://action:resume@command=M105"});
+        {"--fault", "say://action:pause@line=200", "--fault", "say://action:resume@command=M85"});
     CHECK(bench.print().pauses == 1);
     CHECK(holds(inserted(plain, bench.executed()), "M400"));
   }

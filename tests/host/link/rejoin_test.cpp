@@ -99,7 +99,7 @@ TEST_CASE("a second program goes on where the first one died, with nothing lost 
       REQUIRE(found.position);
       CHECK((*found.position)[0] == Approx(last % 100));
       CHECK((*found.position)[1] == Approx(last % 7));
-      CHECK(found.nozzle_target == 0.0);
+      CHECK(found.temperatures.nozzle_target == 0.0);
       link.go_on(next);
       co_await link.send({lines.begin() + next - 1, lines.end()});
       co_await link.drain();

@@ -1,0 +1,143 @@
+#include "host/doctor/examine.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "host/link/signal.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int questions = 11;            ///< for the time of an answer; odd, for the median
+constexpr auto late_answers = 500ms;     ///< after an ok, of firmwares that answer behind it
+constexpr std::size_t most_lines = 500;  ///< kept of what a printer says; M503 has some forty
+
+/// The number behind a letter that begins a word.
+std::optional<double> word_value(std::string_view line, char letter) {
+  for (auto at = line.find(letter); at != std::string_view::npos; at = line.find(letter, at + 1)) {
+    if (at == 0 || line[at - 1] != ' ') continue;
+    double value = 0;
+    const auto [end, error] = std::from_chars(line.data() + at + 1, line.data() + line.size(), value);
+    if (error == std::errc()) return value;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::array<double, 4>> axes_in(std::string_view line) {
+  std::array<double, 4> values{};
+  constexpr std::string_view letters = "XYZE";
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    const auto value = word_value(line, letters[i]);
+    if (!value) return std::nullopt;
+    values[i] = *value;
+  }
+  return values;
+}
+
+bool has_word(std::string_view line, std::string_view word) {
+  const auto at = line.find(word);
+  if (at == std::string_view::npos || (at > 0 && line[at - 1] != ' ' && line[at - 1] != ':')) return false;
+  return at + word.size() == line.size() || line[at + word.size()] == ' ';
+}
+
+/// One question after the other, each with what came in the meantime.
+class Interview {
+ public:
+  Interview(Link& link, asio::any_io_executor executor, std::shared_ptr<Clock> clock)
+      : link_(link), clock_(clock), pause_(executor, clock) {
+    link_.on_message([this](const std::string& line) {
+      if (heard_.size() < most_lines) heard_.push_back(line);
+    });
+  }
+  ~Interview() { link_.on_message(nullptr); }
+  Interview(const Interview&) = delete;
+  Interview& operator=(const Interview&) = delete;
+
+  asio::awaitable<void> connect() { co_await link_.connect(); }
+
+  asio::awaitable<std::vector<std::string>> ask(std::string line) {
+    heard_.clear();
+    std::vector<std::string> lines;
+    lines.push_back(std::move(line));
+    co_await link_.send(std::move(lines));
+    co_await link_.drain();
+    const std::function<bool()> never = [] { return false; };
+    if (link_.identity().family != gcode::Family::marlin)
+      co_await pause_.wait(clock_->now() + late_answers, never);
+    co_return std::move(heard_);
+  }
+
+  /// Whether it says nothing against the command.
+  asio::awaitable<bool> knows(std::string line) {
+    const std::vector<std::string> answer = co_await ask(std::move(line));
+    co_return std::none_of(answer.begin(), answer.end(), [](const std::string& said) {
+      return said.find("nknown command") != std::string::npos;
+    });
+  }
+
+  asio::awaitable<double> answer_seconds() {
+    std::vector<double> seconds;
+    std::vector<std::string> query;
+    query.push_back("M105");
+    for (int i = 0; i < questions; ++i) {
+      const TimePoint asked = clock_->now();
+      co_await link_.send(query);
+      co_await link_.drain();
+      seconds.push_back(std::chrono::duration<double>(clock_->now() - asked).count());
+    }
+    std::sort(seconds.begin(), seconds.end());
+    co_return seconds[seconds.size() / 2];
+  }
+
+  bool heard(std::string_view line) const {
+    return std::find(heard_.begin(), heard_.end(), line) != heard_.end();
+  }
+
+ private:
+  Link& link_;
+  std::shared_ptr<Clock> clock_;
+  Signal pause_;
+  std::vector<std::string> heard_;
+};
+
+}  // namespace
+
+MachineSettings settings_in(const std::vector<std::string>& lines) {
+  MachineSettings settings;
+  for (const std::string& line : lines) {
+    if (has_word(line, "M92")) settings.steps_per_mm = axes_in(line);
+    if (has_word(line, "M203")) settings.max_speed = axes_in(line);
+    if (has_word(line, "M201")) settings.max_acceleration = axes_in(line);
+    if (has_word(line, "M200")) {
+      // Older ones have no S: D0 is off.
+      const auto on = word_value(line, 'S'), diameter = word_value(line, 'D');
+      settings.volumetric = on ? *on != 0 : diameter.value_or(0) != 0;
+    }
+  }
+  return settings;
+}
+
+asio::awaitable<Examination> examine(Link& link, asio::any_io_executor executor,
+                                     std::shared_ptr<Clock> clock) {
+  Interview interview(link, executor, clock);
+  Examination found;
+  co_await interview.connect();
+  found.reset_by_opening = interview.heard("start");
+  found.mixes = co_await interview.knows("M163 S99 P1");
+  found.shuts_down = co_await interview.knows("M85 S0");
+  found.tells_settings = co_await interview.knows("M503 S0");
+  if (found.tells_settings) {
+    const std::vector<std::string> lines = co_await interview.ask("M503 S0");
+    found.settings = settings_in(lines);
+  }
+  found.answer_seconds = co_await interview.answer_seconds();
+  found.identity = link.identity();
+  found.temperatures = link.temperatures();
+  found.queues = link.queues();
+  co_return found;
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,75 @@
+#include "host/link/find_port.hpp"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "fake_printer.hpp"
+#include "host/link/line_rate.hpp"
+
+using namespace unicursal;
+using namespace unicursal::host;
+using test::FakePrinter;
+
+namespace {
+
+const std::vector<PortInfo> listed = {
+    {"/dev/ttyUSB0", "", "a GPS mouse", true, UsbId{0x1546, 0x01a7}},
+    {"/dev/ttyUSB1", "", "CH340", true, UsbId{0x1a86, 0x7523}},
+    {"/dev/ttyACM0", "/dev/serial/by-id/usb-board", "board", true, UsbId{0x0483, 0x5740}},
+    {"/dev/ttyS0", "", "on the mainboard", false, std::nullopt},
+};
+
+std::vector<std::string> paths(const std::vector<PortInfo>& ports) {
+  std::vector<std::string> all;
+  for (const PortInfo& port : ports) all.push_back(port.path);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("ports are meant by path, by USB numbers, or as what a printer may hang on") {
+  using Paths = std::vector<std::string>;
+  CHECK(paths(matching_ports(listed, "auto")) == Paths{"/dev/ttyUSB1", "/dev/ttyACM0", "/dev/ttyUSB0"});
+  CHECK(paths(matching_ports({listed.back()}, "auto")) == Paths{"/dev/ttyS0"});
+  CHECK(paths(matching_ports(listed, "1a86:7523")) == Paths{"/dev/ttyUSB1"});
+  CHECK(paths(matching_ports(listed, "0483:5740")) == Paths{"/dev/ttyACM0"});
+  CHECK(matching_ports(listed, "1A86:9999").empty());
+  CHECK(paths(matching_ports(listed, "/dev/pts/7")) == Paths{"/dev/pts/7"});
+  CHECK(paths(matching_ports(listed, "1a86:752x")) == Paths{"1a86:752x"});
+  CHECK(matching_ports({}, "auto").empty());
+}
+
+TEST_CASE("among several ports the one that answers as a printer is taken") {
+  FakePrinter silent({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
+  FakePrinter printer({.boots = false});
+  FakePrinter modem({.inwards = [](const std::string&) { return std::string("garbage\n"); }, .boots = false});
+  const std::vector<PortInfo> ports = {{silent.path(), "", "", true, {}},
+                                       {"/dev/no-such-port", "", "", true, {}},
+                                       {modem.path(), "", "", true, {}},
+                                       {printer.path(), "", "", true, {}}};
+  const int port = open_answering_port(ports, 250000);
+  const std::string path = "/proc/self/fd/" + std::to_string(port);
+  CHECK(std::filesystem::read_symlink(path) == printer.path());
+  // The others are free again.
+  ::close(open_port(silent.path(), 250000));
+  ::close(open_port(modem.path(), 250000));
+  ::close(port);
+}
+
+TEST_CASE("where nobody answers, all ports are named") {
+  FakePrinter silent({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
+  const std::vector<PortInfo> ports = {{silent.path(), "", "", true, {}}};
+  CHECK_THROWS_WITH(open_answering_port(ports, 250000),
+                    Catch::Contains(silent.path()) && Catch::Contains("250000"));
+}
+
+TEST_CASE("any baud rate reaches the driver") {
+  FakePrinter printer({});
+  for (const unsigned baud : {250000u, 115200u, 123456u, 500000u}) {
+    const int port = open_port(printer.path(), baud);
+    CHECK(line_rate(port) == baud);
+    ::close(port);
+  }
+}
