@@ -173,12 +173,12 @@ bool ends_like(const std::vector<std::string>& seen, const std::vector<std::stri
 
 }  // namespace
 
-TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice") {
+TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice", "[paced]") {
   kill_and_resume(0, 2, 1);
   kill_and_resume(100, 3, 2);
 }
 
-TEST_CASE("the same over a line that garbles what passes") {
+TEST_CASE("the same over a line that garbles what passes", "[paced]") {
   kill_and_resume(100, 3, 3, garbling);
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("a print that is complete says so, and is listed") {
   CHECK(test::run(list).out.find("completed") != std::string::npos);
 }
 
-TEST_CASE("after a reset the print goes on at the last place that is certain, if one agrees") {
+TEST_CASE("after a reset the print goes on at the last place that is certain, if one agrees", "[paced]") {
   const Seen whole = undisturbed(0).seen;
   const std::string line = "700";
   Bench bench(0, {"--fault", "reset@line=" + line});
@@ -231,7 +231,7 @@ TEST_CASE("after a reset the print goes on at the last place that is certain, if
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
-TEST_CASE("a stop while a lost printer heats again moves nothing, and the print can still go on") {
+TEST_CASE("a stop while a lost printer heats again moves nothing, and the print can still go on", "[paced]") {
   const Seen whole = undisturbed(0).seen;
   Bench bench(50, {"--fault", "reset@line=700"});
   REQUIRE(test::run(bench.print()).code == 1);
@@ -272,7 +272,7 @@ TEST_CASE("a cable that was pulled and put back costs nothing") {
   check_equal(bench.seen(), whole);
 }
 
-TEST_CASE("a print that was stopped and parked can be taken up again") {
+TEST_CASE("a print that was stopped and parked can be taken up again", "[paced]") {
   const Seen whole = undisturbed(0).seen;
   Bench bench(100);
   Child child(bench.print());
@@ -308,7 +308,7 @@ TEST_CASE("a print goes on with the job it was begun with, whatever has become o
   check_equal(bench.seen(), expected.seen);
 }
 
-TEST_CASE("when the disk is full the print waits, and goes on when there is room") {
+TEST_CASE("when the disk is full the print waits, and goes on when there is room", "[paced]") {
   const Seen expected = undisturbed(0).seen;
   Bench bench(0);
   Child host(bench.print());
