@@ -11,6 +11,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/show.hpp"
 #include "host/cli/version.hpp"
+#include "host/daemon/state_folder.hpp"
 #include "host/link/link.hpp"
 
 namespace unicursal::host {
@@ -113,6 +114,8 @@ class CommandLine {
     declare_resume();
     declare_curve();
     declare_simulate();
+    declare_serve();
+    declare_remote();
     command("ports", "list the serial ports that a printer may hang on", "unicursal ports");
   }
 
@@ -123,6 +126,12 @@ class CommandLine {
     if (name == "dry-run") return dry_run(dry_run_command());
     if (name == "plan") return plan({job_.options(), output_});
     if (name == "print") return print({job_.options(), text_if(port_), path_if(spool_)});
+    if (name == "serve") return serve(serve_options());
+    if (name == "queue") return queue(queue_command());
+    if (name == "status" || name == "start" || name == "pause" || name == "cancel" || name == "stop")
+      return remote(remote_command(name));
+    if (name == "resume" && print_.empty() && !list_ && daemon_prints(remote_command(name)))
+      return remote(remote_command(name));
     if (name == "resume") return resume({text_if(print_), path_if(spool_), text_if(port_), yes_, list_});
     if (name == "curve") return curve(curve_command());
     if (name == "simulate") return simulate(simulate_command());
@@ -198,17 +207,102 @@ class CommandLine {
     app->add_option("print", print_, "which one: its name or the beginning of it; the default is the newest")
         ->type_name("PRINT");
     declare_spool(*app);
+    declare_state(*app);
     app->add_option("--port", port_, "serial port, or auto; the default is the one that it was begun on")
         ->type_name("PORT");
     app->add_flag("--yes", yes_, "go on without asking when the printer has lost its place");
     app->add_flag("--list", list_, "only list the prints that are kept");
     app->footer(
         app->get_footer() +
-        "\n\nIf the printer is still on and hot, it goes on with the next line: none is lost, none is "
+        "\n\nWhen a daemon (`unicursal serve`) holds a print, that one goes on. Otherwise it is for a print "
+        "that\nwas broken off. If the printer is still on and hot, it goes on with the next line: none is "
+        "lost, none is "
         "run\ntwice. If it was reset or cooled, you are told where the print stopped, and asked: the "
         "nozzle\nheats where it stands, rises, homes x and y only, squeezes out plastic beside the "
         "part, and\ngoes on at the last place that is certain. z cannot be homed on the part, so it "
         "must not have\nbeen moved. The profile's own start lines are not run again.");
+  }
+
+  void declare_state(CLI::App& app) {
+    app.add_option("--state", state_,
+                   "folder of the daemon; the default is unicursal/daemon in $XDG_STATE_HOME or "
+                   "~/.local/state")
+        ->type_name("DIR");
+  }
+
+  void declare_serve() {
+    CLI::App* app = command("serve", "own the printer, keep a queue of jobs, and be steered over HTTP",
+                            "unicursal serve --port /dev/ttyUSB0 --profile diamond.toml --jobs ~/jobs");
+    app->add_option("--port", port_, "serial port, or auto; the default is the profile's")->type_name("PORT");
+    app->add_option("--profile", job_.profile, "the printer's profile, instead of those that jobs name")
+        ->type_name("FILE");
+    app->add_option("--jobs", job_folders_, "folder whose jobs may be queued; may be given several times")
+        ->type_name("DIR")
+        ->take_all()
+        ->expected(1);
+    app->add_option("--listen", serve_.listen, "address and port; 127.0.0.1:8377 is the default")
+        ->type_name("ADDRESS");
+    app->add_option("--name", serve_.names, "another name of this computer by which clients come")
+        ->type_name("HOST")
+        ->take_all()
+        ->expected(1);
+    app->add_flag("--no-token", serve_.no_token, "let everyone on this computer steer; only on loopback");
+    declare_state(*app);
+    declare_spool(*app);
+    app->footer(
+        app->get_footer() +
+        "\n\nA print is begun by `unicursal start`, never by itself: the last part may still lie on the "
+        "bed.\nSIGTERM or Ctrl-C parks and cools a print that is going on, and waits for that; once more "
+        "stops the\nprinter at once. The API is described in API.md.");
+  }
+
+  void declare_remote() {
+    const std::pair<const char*, const char*> words[] = {
+        {"status", "what the daemon does"},
+        {"start", "let the daemon print the job that waits first, or the one of this number"},
+        {"pause", "hold the daemon's print: it parks, and waits for resume"},
+        {"cancel", "end the daemon's print: it parks and cools"},
+        {"stop", "stop the daemon's printer at once (M112); it needs a reset afterwards"}};
+    for (const auto& [word, what] : words) {
+      CLI::App* app = command(word, what, std::string("unicursal ") + word);
+      declare_state(*app);
+      app->add_flag("--json", json_, "the daemon's own answer");
+      if (std::string(word) == "start")
+        app->add_option("job", job_number_, "its number")->type_name("NUMBER");
+    }
+    CLI::App* app = command("queue", "the daemon's jobs", "unicursal queue --add leaf.toml");
+    declare_state(*app);
+    app->add_flag("--json", json_, "the daemon's own answer");
+    app->add_flag("--jobs", list_, "list the jobs that can be added");
+    CLI::Option* add =
+        app->add_option("--add", queue_add_, "a job in the daemon's folders")->type_name("JOB");
+    app->add_option("--upload", queue_upload_, "a job of your own, sent with the files that it names")
+        ->type_name("FILE")
+        ->excludes(add);
+    app->add_option("--layers", job_.layers, "of it, these only: first:last counted from 0")
+        ->type_name("A:B");
+    app->add_option("--remove", queue_remove_, "take the job of this number away")->type_name("NUMBER");
+  }
+
+  RemoteCommand remote_command(const std::string& word) const {
+    return {word, path_if(state_), json_, job_number_};
+  }
+
+  QueueCommand queue_command() const {
+    QueueCommand command{remote_command("queue"), text_if(queue_add_), path_if(queue_upload_), {}, {}, list_};
+    if (!job_.layers.empty()) command.layers = parse_layers(job_.layers);
+    command.remove = queue_remove_;
+    return command;
+  }
+
+  ServeOptions serve_options() const {
+    ServeOptions options = serve_;
+    options.daemon.state = state_.empty() ? default_state_folder() : std::filesystem::path(state_);
+    options.daemon.jobs.assign(job_folders_.begin(), job_folders_.end());
+    options.daemon.port = text_if(port_);
+    options.daemon.profile = path_if(job_.profile);
+    options.daemon.spool = path_if(spool_);
+    return options;
   }
 
   void declare_curve() {
@@ -318,7 +412,11 @@ class CommandLine {
   CLI::Option* baud_given_ = nullptr;
   double pixel_ = 0.05;
   std::size_t layer_ = 0, island_ = 0;
-  bool yes_ = false, list_ = false;
+  bool yes_ = false, list_ = false, json_ = false;
+  std::string state_, queue_add_, queue_upload_;
+  std::vector<std::string> job_folders_;
+  std::optional<std::uint64_t> job_number_, queue_remove_;
+  ServeOptions serve_;
   std::string spool_, print_;
   std::string output_, port_, link_, rasters_, control_, transcript_;
   std::vector<std::string> outputs_;
