@@ -26,6 +26,7 @@
 #include "tests/core/support/plan_faults.hpp"
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"
+#include "tests/fuzz/http_target.hpp"
 #include "tests/host/support/sample_job.hpp"
 
 namespace unicursal {
@@ -129,7 +130,8 @@ void plan(const fs::path& folder, core::Random& random) {
 }
 
 const std::map<std::string, std::function<void(const fs::path&, core::Random&)>> targets{
-    {"drawing", drawing}, {"mesh", mesh}, {"directions", directions}, {"job", job}, {"plan", plan}};
+    {"drawing", drawing}, {"mesh", mesh}, {"directions", directions},
+    {"job", job},         {"plan", plan}, {"http", test::http}};
 
 /// True for a file that was read, false for one that was refused as it should be.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -169,7 +171,7 @@ int run(const std::string& name, const fs::path& folder, double seconds, std::ui
 
 int main(int count, char** words) {
   if (count < 4) {
-    std::fprintf(stderr, "usage: fuzz FOLDER drawing|mesh|directions|job|plan SECONDS [FIRST]\n");
+    std::fprintf(stderr, "usage: fuzz FOLDER drawing|mesh|directions|job|plan|http SECONDS [FIRST]\n");
     return 2;
   }
   return unicursal::run(words[2], words[1], std::atof(words[3]),

@@ -28,7 +28,8 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
     CHECK(status_of(stranger.read_until("\r\n\r\n")) == 401);
   }
   SECTION("from other sites") {
-    CHECK(bench.status(bench.request("POST", "/api/print/start", "", "Origin: http://evil.example\r\n")) == 403);
+    CHECK(bench.status(bench.request("POST", "/api/print/start", "", "Origin: http://evil.example\r\n")) ==
+          403);
     CHECK(bench.status(bench.request("GET", "/api/status", "", "Sec-Fetch-Site: cross-site\r\n")) == 403);
     CHECK(bench.status("GET /api/status HTTP/1.1\r\nHost: evil.example\r\nAuthorization: Bearer " +
                        bench.token() + "\r\n\r\n") == 421);
@@ -43,7 +44,8 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
     CHECK(bench.status(bench.request("PUT", "/api/files/a/.hidden", "x")) == 400);
     CHECK(bench.status(bench.request("PUT", "/api/files/a/b/c", "x")) == 400);
     for (const char* job : {"../secret.toml", "/etc/passwd", "/etc/passwd.toml", "plate.svg"})
-      CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"" + std::string(job) + "\"}")) == 400);
+      CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"" + std::string(job) + "\"}")) ==
+            400);
     CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"secret.toml\"}")) == 404);
     CHECK_FALSE(std::filesystem::exists(bench.path("state/files")));
   }
@@ -92,8 +94,8 @@ TEST_CASE("bodies and heads that never end are given up, others are served meanw
   bench.serve();
   RawConnection head(bench.port()), body(bench.port());
   head.send("GET /api/status HTTP/1.1\r\nX: ");
-  body.send("POST /api/jobs HTTP/1.1\r\nHost: " + bench.host() + "\r\nAuthorization: Bearer " + bench.token() +
-            "\r\nContent-Length: 100\r\n\r\n{");
+  body.send("POST /api/jobs HTTP/1.1\r\nHost: " + bench.host() + "\r\nAuthorization: Bearer " +
+            bench.token() + "\r\nContent-Length: 100\r\n\r\n{");
   CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
   CHECK(status_of(head.read_all()) == 408);
   CHECK(status_of(body.read_all()) == 408);

@@ -72,7 +72,8 @@ TEST_CASE("what two readers could understand differently is refused") {
 }
 
 TEST_CASE("no path leads upwards, however it is written") {
-  for (const char* path : {"/..", "/api/../x", "/api/jobs/..", "//x", "/a//b", "/./a", "/%2e%2e/x", "/a\\..\\b"})
+  for (const char* path :
+       {"/..", "/api/../x", "/api/jobs/..", "//x", "/a//b", "/./a", "/%2e%2e/x", "/a\\..\\b"})
     CHECK(refused("GET " + std::string(path) + " HTTP/1.1") == 400);
   CHECK(refused("GET /api/jobs/12 HTTP/1.1") == 200);
   CHECK(refused("GET /a..b HTTP/1.1") == 200);
@@ -153,10 +154,10 @@ TEST_CASE("a client's frames that break the protocol are refused") {
     }
     return 0;
   };
-  CHECK(code(std::string("\x81\x01", 2) + "a") == 1002);                   // not masked
-  CHECK(code(masked(0x09, "")) == 1002);                                   // a control frame in pieces
-  CHECK(code(masked(0x83, "")) == 1002);                                   // a kind that is none
-  CHECK(code(masked(0xc1, "")) == 1002);                                   // an extension that nobody asked for
+  CHECK(code(std::string("\x81\x01", 2) + "a") == 1002);  // not masked
+  CHECK(code(masked(0x09, "")) == 1002);                  // a control frame in pieces
+  CHECK(code(masked(0x83, "")) == 1002);                  // a kind that is none
+  CHECK(code(masked(0xc1, "")) == 1002);                  // an extension that nobody asked for
   CHECK(code(std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10)) == 1009);  // as long as it gets
   CHECK(code(std::string("\x82\xfe\xff\xff", 4)) == 1009);
 }

@@ -33,7 +33,8 @@ class DaemonBench {
     std::filesystem::create_directory(path("jobs"));
     folder_.write("jobs/bench.toml.profile", sample_profile);
     folder_.write("jobs/plate.svg", sample_drawing);
-    folder_.write("jobs/plate.toml", replaced(sample_job, "bench.toml", "bench.toml.profile"));
+    folder_.write("jobs/plate.toml", replaced(replaced(sample_job, "bench.toml", "bench.toml.profile"),
+                                              "height = 0.4", "height = 20.0"));
     folder_.write("secret.toml", sample_job);
   }
 
@@ -49,9 +50,9 @@ class DaemonBench {
   }
 
   void serve(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"serve",   "--listen",    "127.0.0.1:0", "--state", path("state"),
-                                       "--spool", path("spool"), "--port",      path("port"), "--jobs",
-                                       path("jobs")};
+    std::vector<std::string> arguments{"serve",       "--listen", "127.0.0.1:0", "--state",
+                                       path("state"), "--spool",  path("spool"), "--port",
+                                       path("port"),  "--jobs",   path("jobs")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     daemon_ = std::make_unique<Child>(arguments);
     await([this] { return daemon_->out().find('\n') != std::string::npos; }, *daemon_);
@@ -61,7 +62,12 @@ class DaemonBench {
   }
 
   Child& daemon() { return *daemon_; }
-  Child& printer() { return *printer_; }
+  /// What the printer has run; it is switched off for that.
+  std::string transcript() {
+    kill(printer_->id(), SIGTERM);
+    printer_->wait();
+    return read_text(path("lines.txt"));
+  }
   int port() const { return port_; }
   const std::string& token() const { return token_; }
   std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
@@ -79,7 +85,8 @@ class DaemonBench {
     return connection.read_all();
   }
   int status(const std::string& bytes) const { return status_of(send(bytes)); }
-  nlohmann::json ask(const std::string& method, const std::string& target, const std::string& body = {}) const {
+  nlohmann::json ask(const std::string& method, const std::string& target,
+                     const std::string& body = {}) const {
     const std::string answer = send(request(method, target, body));
     return nlohmann::json::parse(answer.substr(answer.find("\r\n\r\n") + 4));
   }
@@ -97,7 +104,8 @@ class DaemonBench {
     await([&] { return print_state() == state; }, *daemon_);
   }
   void await_job(int id, const std::string& state) {
-    await([&] { return ask("GET", "/api/jobs/" + std::to_string(id)).value("state", "") == state; }, *daemon_);
+    await([&] { return ask("GET", "/api/jobs/" + std::to_string(id)).value("state", "") == state; },
+          *daemon_);
   }
 
  private:

@@ -60,7 +60,8 @@ class RawConnection {
   bool read_some() {
     char bytes[4096];
     const ssize_t size = recv(fd_, bytes, sizeof bytes, 0);
-    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) throw std::runtime_error("no answer in a minute");
+    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK))
+      throw std::runtime_error("no answer in a minute");
     if (size > 0) received_.append(bytes, static_cast<std::size_t>(size));
     return size > 0;
   }
