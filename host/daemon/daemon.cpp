@@ -287,6 +287,7 @@ void Daemon::shut_down(std::function<void()> done) {
 // ---- events
 
 void Daemon::join(std::shared_ptr<EventStream> client) {
+  std::erase_if(clients_, [](const auto& one) { return !one->open(); });
   client->send(
       json({{"event", "hello"}, {"status", status()}}).dump(-1, ' ', false, json::error_handler_t::replace));
   clients_.push_back(std::move(client));

@@ -26,8 +26,7 @@ asio::awaitable<void> EventStream::run(std::string first) {
   asio::co_spawn(
       socket_.get_executor(), [self]() -> asio::awaitable<void> { co_await self->write(); }, asio::detached);
   co_await read(std::move(first));
-  open_ = false;
-  wake_.cancel();
+  abort();  // others may still hold this object, and with it the socket
 }
 
 void EventStream::send(const std::string& text) {
@@ -52,6 +51,7 @@ void EventStream::abort() {
   asio::error_code ignored;
   socket_.close(ignored);
   wake_.cancel();
+  silence_.cancel();
 }
 
 /// Sends what waits, and a ping when nothing has for a while.

@@ -85,6 +85,21 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
     half.finish_sending();
     CHECK(status_of(half.read_all()) == 400);
   }
+  SECTION("listeners that leave, or say what they must not, are let go") {
+    const std::string upgrade =
+        test::replaced(bench.request("GET", "/api/events"), "Connection: close",
+                       "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==");
+    RawConnection leaves(bench.port()), breaks(bench.port());
+    leaves.send(upgrade);
+    CHECK(leaves.read_until("\"hello\"").find(" 101 ") != std::string::npos);
+    leaves.finish_sending();
+    leaves.read_all();                   // ends, or the test fails
+    breaks.send(upgrade + "\x81\x01z");  // not masked
+    breaks.read_until("\x88\x02\x03\xea");
+    breaks.finish_sending();
+    breaks.read_all();
+  }
   CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
   CHECK(bench.ask("GET", "/api/jobs")["jobs"].empty());
 }
