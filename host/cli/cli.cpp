@@ -130,7 +130,7 @@ class CommandLine {
     if (name == "queue") return queue(queue_command());
     if (name == "status" || name == "start" || name == "pause" || name == "cancel" || name == "stop")
       return remote(remote_command(name));
-    if (name == "resume" && print_.empty() && !list_ && daemon_prints(remote_command(name)))
+    if (name == "resume" && means_daemon() && daemon_prints(remote_command(name)))
       return remote(remote_command(name));
     if (name == "resume") return resume({text_if(print_), path_if(spool_), text_if(port_), yes_, list_});
     if (name == "curve") return curve(curve_command());
@@ -283,6 +283,9 @@ class CommandLine {
         ->type_name("A:B");
     app->add_option("--remove", queue_remove_, "take the job of this number away")->type_name("NUMBER");
   }
+
+  /// Whoever names a kept print, or where prints are kept, does not mean the daemon's.
+  bool means_daemon() const { return !list_ && print_.empty() && (spool_.empty() || !state_.empty()); }
 
   RemoteCommand remote_command(const std::string& word) const {
     return {word, path_if(state_), json_, job_number_};

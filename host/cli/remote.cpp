@@ -172,12 +172,11 @@ Exit queue(const QueueCommand& command) {
 }
 
 bool daemon_prints(const RemoteCommand& command) {
-  const auto client = Client::find(folder_of(command));
-  if (!client) return false;
   try {
-    return obeyed(client->ask("GET", "/api/status")).contains("print");
-  } catch (const DaemonError&) {
-    return false;  // it is gone, and has left its address behind
+    const auto client = Client::find(folder_of(command));
+    return client && obeyed(client->ask("GET", "/api/status")).contains("print");
+  } catch (const core::DataError&) {
+    return false;  // it is gone and has left its address behind, or there is no home for it
   }
 }
 
