@@ -21,19 +21,20 @@ class Pace {
       : enough_(std::move(enough)), recorded_(recorded) {}
 
   /// Begins the next stage. The result refers to this object and is used up before the next stage begins.
-  Another stage() {
+  /// `enough` is not asked before `least` steps.
+  Another stage(int least = 0) {
     spent_.push_back(0);
-    return [this] { return another(); };
+    return [this, least] { return another(least); };
   }
 
   const std::vector<int>& spent() const { return spent_; }
 
  private:
-  bool another() {
+  bool another(int least) {
     const std::size_t stage = spent_.size() - 1;
     if (recorded_ != nullptr) {
       if (stage >= recorded_->size() || spent_[stage] >= (*recorded_)[stage]) return false;
-    } else if (enough_ && enough_()) {
+    } else if (spent_[stage] >= least && enough_ && enough_()) {
       return false;
     }
     ++spent_[stage];

@@ -34,7 +34,10 @@ constexpr double least_half_width = 0.15, most_half_width = 0.3;  ///< bead widt
 constexpr std::size_t most_pieces = 50;  ///< of materials in one island, to be joined one by one
 constexpr double speck = 0.05;           ///< square bead widths; no curve of its own below that
 constexpr double most_thin = 0.002;      ///< of a piece of one material that its own curve may leave out
-constexpr double nearly_far = 1.0;       ///< bead widths; where fairing for direction gives up
+/// Steps of fairing, however little time there is: as drawn, the vertices of a curve lie so regularly that
+/// the exact diagram of its segments takes thirty times as long.
+constexpr int least_fairing = 3;
+constexpr double nearly_far = 1.0;  ///< bead widths; where fairing for direction gives up
 
 /// What a piece of the island asks, as far as seeds and schedules depend on it.
 struct Wishes {
@@ -120,7 +123,7 @@ void fair_draft(Draft& draft, const FillableRegion& part, IslandWork& work) {
   fairing.field = &work.demands.field();
   fairing.workers = &work.workers;
   fairing.zones = work.demands.orientation_zones();
-  fairing.another = work.pace.stage();
+  fairing.another = work.pace.stage(least_fairing);
   Curve result = fair(smoothed(draft.curve, part.region, w, &work.workers), part.region, fairing).curve;
   if (!work.demands.field().empty() &&
       look_for_holes(result, part.region, w, &work.workers).farthest > nearly_far * w) {

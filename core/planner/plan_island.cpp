@@ -78,6 +78,10 @@ IslandPlan IslandPlanner::plan(const Island& island, double z, const PlanOptions
   return std::move(work.plan);
 }
 
+bool IslandPlanner::fits(const Island& island, const PlanOptions& options) const {
+  return !fillable(island.outline, options.bead_width, half_width(options)).regions.empty();
+}
+
 IslandPlan plan_island(const Island& island, const std::vector<Zone>& zones, const PlanOptions& options) {
   return IslandPlanner(zones).plan(island, 0, options);
 }

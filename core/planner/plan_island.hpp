@@ -101,6 +101,8 @@ class IslandPlanner {
   /// Never throws for a valid island, however small or odd; what cannot be filled is in `unfilled_area`.
   /// `z` mm is the height of the cut. Deterministic for equal arguments; may be called from several threads.
   IslandPlan plan(const Island& island, double z, const PlanOptions& options) const;
+  /// Whether any of it is wide enough for a curve; much quicker than planning it.
+  bool fits(const Island& island, const PlanOptions& options) const;
 
  private:
   struct Directions;

@@ -107,7 +107,9 @@ class CommandLine {
   CommandLine() {
     app_.set_version_flag("--version", std::string("unicursal ") + version);
     app_.require_subcommand(1);
-    app_.footer("unicursal COMMAND --help tells more about a command, with an example.");
+    app_.footer(
+        "unicursal COMMAND --help tells more about a command, with an example.\nExit codes: 0 success, 1 it "
+        "did not end well, 2 the input was refused, 3 stopped by the user.");
     declare_dry_run();
     declare_plan();
     declare_print();
@@ -125,14 +127,16 @@ class CommandLine {
     const std::string name = app_.get_subcommands().front()->get_name();
     if (name == "dry-run") return dry_run(dry_run_command());
     if (name == "plan") return plan({job_.options(), output_});
-    if (name == "print") return print({job_.options(), text_if(port_), path_if(spool_)});
+    if (name == "print")
+      return print({job_.options(), text_if(port_), path_if(spool_), {json_}, pause_heat()});
     if (name == "serve") return serve(serve_options());
     if (name == "queue") return queue(queue_command());
     if (name == "status" || name == "start" || name == "pause" || name == "cancel" || name == "stop")
       return remote(remote_command(name));
     if (name == "resume" && means_daemon() && daemon_prints(remote_command(name)))
       return remote(remote_command(name));
-    if (name == "resume") return resume({text_if(print_), path_if(spool_), text_if(port_), yes_, list_});
+    if (name == "resume")
+      return resume({text_if(print_), path_if(spool_), text_if(port_), yes_, list_, {json_}, pause_heat()});
     if (name == "curve") return curve(curve_command());
     if (name == "simulate") return simulate(simulate_command());
     return ports();
@@ -166,6 +170,7 @@ class CommandLine {
     CLI::App* app = command("dry-run", "print on a simulated printer, and see what would come out",
                             "unicursal dry-run heart.toml --report heart.json --picture pictures");
     job_.declare(*app);
+    declare_json(*app);
     app->add_option(
            "--speed", speed_,
            "printer seconds per second; 0, the default, is virtual time: as fast as this computer can, "
@@ -192,8 +197,31 @@ class CommandLine {
         command("print", "stream to a printer over USB", "unicursal print heart.toml --port /dev/ttyUSB0");
     job_.declare(*app);
     app->add_option("--port", port_, "serial port, or auto; the default is the profile's")->type_name("PORT");
+    declare_control(*app);
     declare_spool(*app);
   }
+
+  void declare_json(CLI::App& app) {
+    app.add_flag("--json", json_, "events on standard output, one JSON object on each line");
+  }
+
+  void declare_pause_heat(CLI::App& app) {
+    app.add_option("--pause-heat", pause_heat_,
+                   "what becomes of the nozzle's heat in a pause: keep (the default) or lower")
+        ->check(CLI::IsMember({"keep", "lower"}));
+  }
+
+  void declare_control(CLI::App& app) {
+    declare_json(app);
+    declare_pause_heat(app);
+    app.footer(
+        app.get_footer() +
+        "\n\nIn a terminal, a word and Enter steers the print: pause, resume, cancel (parks and cools), "
+        "stop (at\nonce), speed 80, flow 95 (per cent), nozzle 205, bed 55 (°C). Ctrl-C is cancel, "
+        "twice is stop.");
+  }
+
+  PauseHeat pause_heat() const { return pause_heat_ == "lower" ? PauseHeat::lower : PauseHeat::keep; }
 
   void declare_spool(CLI::App& app) {
     app.add_option("--spool", spool_,
@@ -221,6 +249,7 @@ class CommandLine {
         "nozzle\nheats where it stands, rises, homes x and y only, squeezes out plastic beside the "
         "part, and\ngoes on at the last place that is certain. z cannot be homed on the part, so it "
         "must not have\nbeen moved. The profile's own start lines are not run again.");
+    declare_control(*app);
   }
 
   void declare_state(CLI::App& app) {
@@ -249,6 +278,7 @@ class CommandLine {
     app->add_flag("--no-token", serve_.no_token, "let everyone on this computer steer; only on loopback");
     declare_state(*app);
     declare_spool(*app);
+    declare_pause_heat(*app);
     app->footer(
         app->get_footer() +
         "\n\nA print is begun by `unicursal start`, never by itself: the last part may still lie on the "
@@ -305,6 +335,7 @@ class CommandLine {
     options.daemon.port = text_if(port_);
     options.daemon.profile = path_if(job_.profile);
     options.daemon.spool = path_if(spool_);
+    options.daemon.pause_heat = pause_heat();
     return options;
   }
 
@@ -381,7 +412,7 @@ class CommandLine {
   }
 
   DryRunCommand dry_run_command() const {
-    DryRunCommand command{job_.options(), {}, charge_};
+    DryRunCommand command{job_.options(), {}, charge_, {json_}};
     printer_.apply(command.printer);
     command.printer.speed = speed_;
     return command;
@@ -420,6 +451,7 @@ class CommandLine {
   std::vector<std::string> job_folders_;
   std::optional<std::uint64_t> job_number_, queue_remove_;
   ServeOptions serve_;
+  std::string pause_heat_ = "keep";
   std::string spool_, print_;
   std::string output_, port_, link_, rasters_, control_, transcript_;
   std::vector<std::string> outputs_;

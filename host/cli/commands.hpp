@@ -13,6 +13,7 @@
 #include "host/daemon/serve.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
+#include "host/engine/session.hpp"
 #include "sim/simulator.hpp"
 
 namespace unicursal::host {
@@ -25,6 +26,11 @@ struct JobOptions {
   RunOutputs outputs;
 };
 
+/// How a print shows what it does, and what it does when it is held.
+struct DisplayOptions {
+  bool json = false;  ///< events on standard output
+};
+
 struct PlanCommand {
   JobOptions job;
   std::filesystem::path output;  ///< G-code
@@ -34,12 +40,15 @@ struct DryRunCommand {
   JobOptions job;
   sim::SimulatorOptions printer;  ///< its personality, chip, faults; and its speed, 0: virtual time
   double charge = 0;              ///< printer seconds for each second of planning, in virtual time
+  DisplayOptions display;
 };
 
 struct PrintCommand {
   JobOptions job;
   std::optional<std::string> port;             ///< absent: the profile's
   std::optional<std::filesystem::path> spool;  ///< folder of the prints; absent: the user's
+  DisplayOptions display;
+  PauseHeat pause_heat = PauseHeat::keep;
 };
 
 struct ResumeCommand {
@@ -48,6 +57,8 @@ struct ResumeCommand {
   std::optional<std::string> port;             ///< absent: the print's
   bool yes = false;                            ///< agree to what would be asked
   bool list = false;                           ///< only tell which prints there are
+  DisplayOptions display;
+  PauseHeat pause_heat = PauseHeat::keep;
 };
 
 /// One that a daemon is asked to do: status, start, pause, resume, cancel, stop.

@@ -48,11 +48,20 @@ StreamSettings settings_for(const DryRunCommand& command, const SimulatorProcess
   settings.longest_pause = unattended_pause;
   if (is_virtual(command)) {
     settings.clock = std::make_shared<LockstepClock>(simulator.control());
-    settings.charge = command.charge;
   } else {
     settings.clock = real_clock(command.printer.speed);
   }
   return settings;
+}
+
+/// In virtual time what planning takes is charged for; where it is free, there is no hurry.
+LookaheadOptions pace_for(const DryRunCommand& command, const PreparedJob& prepared,
+                          const StreamSettings& settings) {
+  LookaheadOptions options = paced(lookahead_options(prepared), settings.clock);
+  if (!is_virtual(command)) return options;
+  options.pace.reset();
+  if (command.charge > 0) options.pace = Pace{{}, command.charge};
+  return options;
 }
 
 /// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.
@@ -94,6 +103,7 @@ void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
 Exit dry_run(const DryRunCommand& command) {
   check_simulator(command.printer);
   const PreparedJob prepared = prepare_and_warn(command.job);
+  check_beginning(prepared);
   Run run(prepared, "dry-run", outputs_of(command));
   // Outlives the simulator, whose end is that of the stream it waits for.
   DepositCheck check(intended_mixtures(run), command.job.outputs.pictures);
@@ -102,11 +112,11 @@ Exit dry_run(const DryRunCommand& command) {
                                                                          : SimulatorProcess::Time::own);
   run.tell(check);
   check.watch(simulator.take_rasters());
-  Lookahead lookahead(*prepared.part, lookahead_options(prepared));
-  check_beginning(prepared, lookahead);
+  StreamSettings settings = settings_for(command, simulator);
+  Lookahead lookahead(*prepared.part, pace_for(command, prepared, settings));
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  const StreamResult result =
-      stream_with_progress(port, lookahead, run, "dry run", settings_for(command, simulator));
+  const StreamResult result = stream_with_progress(port, lookahead, run, command.display, settings);
+  settings.clock.reset();  // hangs up, which the simulator waits for
   const nlohmann::json planning = planning_of(command, lookahead, result);
   if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
   nlohmann::json seen = simulator.finish();
@@ -120,12 +130,10 @@ Exit dry_run(const DryRunCommand& command) {
             {"comparison", to_json(comparison)},
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
-  show(stdout, "{}", summary(run.totals(), lookahead.effort()));
-  if (result.ending == Ending::stopped) {
-    show(stdout, "stopped by the user\n");
-    return Exit::failed;
-  }
-  show(stdout, "{}{}{}", summary(comparison), summary(motion), summary(check.total()));
+  show(words_of(command.display), "{}", summary(run.totals(), lookahead.effort()));
+  const Exit exit = tell_ending(result, command.display);
+  if (exit != Exit::success) return exit;
+  show(words_of(command.display), "{}{}{}", summary(comparison), summary(motion), summary(check.total()));
   if (check.problem()) show(stderr, "warning: {}\n", *check.problem());
   return comparison.lines_whole() ? Exit::success : Exit::failed;
 }

@@ -37,10 +37,10 @@ class GcodeFile {
 Exit plan(const PlanCommand& command) {
   const PreparedJob prepared = prepare_and_warn(command.job, {command.output});
   Run run(prepared, "plan", command.job.outputs);
+  check_beginning(prepared);
   GcodeFile file(command.output);
   file.write(run.start());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
-  check_beginning(prepared, lookahead);
   {
     Progress progress("planning", prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {

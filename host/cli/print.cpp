@@ -26,17 +26,18 @@ Exit print(const PrintCommand& command) {
   const PreparedJob prepared = prepare_and_warn(command.job);
   Run run(prepared, "print", command.job.outputs);
   const PrintOrder order = order_of(command, prepared);
-  Lookahead lookahead(*prepared.part, lookahead_options(prepared));
-  check_beginning(prepared, lookahead);
+  check_beginning(prepared);
+  StreamSettings settings;
+  settings.pause_heat = command.pause_heat;
+  Lookahead lookahead(*prepared.part, paced(lookahead_options(prepared), settings.clock));
   const int port = open_port(order.port, prepared.job.profile.baud);
   Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
-  StreamSettings settings;
   settings.spool = &spool;
-  const StreamResult result = stream_with_progress(port, lookahead, run, "printing", settings);
+  const StreamResult result = stream_with_progress(port, lookahead, run, command.display, settings);
   tell_about_spool(spool, result);
   conclude(run, result, {{"planning", planning_json(lookahead)}});
-  show(stdout, "{}", summary(run.totals(), lookahead.effort()));
-  return tell_ending(result);
+  show(words_of(command.display), "{}", summary(run.totals(), lookahead.effort()));
+  return tell_ending(result, command.display);
 }
 
 }  // namespace unicursal::host

@@ -112,7 +112,7 @@ class Resumption {
         prepared_(prepare_again(spool)),
         run_(prepared_, "resume", {}),
         extent_(catch_up(run_, spool)),
-        lookahead_(*prepared_.part, behind(prepared_, extent_)) {}
+        lookahead_(*prepared_.part, paced(behind(prepared_, extent_), clock_)) {}
 
   Exit operator()() {
     const JournalState& before = spool_.before();
@@ -126,10 +126,12 @@ class Resumption {
  private:
   StreamResult stream(Continuation continuation) {
     StreamSettings settings;
+    settings.clock = clock_;
+    settings.pause_heat = command_.pause_heat;
     settings.spool = &spool_;
     settings.continuation = std::move(continuation);
     const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
-    return stream_with_progress(port, lookahead_, run_, "printing", settings);
+    return stream_with_progress(port, lookahead_, run_, command_.display, settings);
   }
 
   Exit restart(const Lost& lost) {
@@ -142,7 +144,7 @@ class Resumption {
   Exit end(const StreamResult& result) {
     tell_about_spool(spool_, result);
     conclude(run_, result, nlohmann::json::object());
-    return tell_ending(result);
+    return tell_ending(result, command_.display);
   }
 
   const ResumeCommand& command_;
@@ -150,6 +152,7 @@ class Resumption {
   const PreparedJob prepared_;
   Run run_;
   const SpoolExtent extent_;
+  const std::shared_ptr<Clock> clock_ = real_clock();
   Lookahead lookahead_;
 };
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/progress.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/display.hpp"
 #include "host/cli/show.hpp"
+#include "host/engine/session_json.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -20,6 +23,8 @@ std::size_t parse_index(std::string_view text, const std::string& whole) {
 }
 
 namespace fs = std::filesystem;
+
+constexpr double look_ahead = 300;  ///< s of printing that are planned before they are needed
 
 /// Whether two names mean the same file, be it there or not. Devices take any number of outputs.
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -55,43 +60,10 @@ void check_outputs(const Job& job, const std::vector<fs::path>& outputs) {
   }
 }
 
-bool has_curve(const PlannedLayer& layer) {
-  for (const core::IslandPlan& plan : layer.plans) {
-    for (const core::PlannedCurve& curve : plan.curves) {
-      if (curve.path.size() >= 2 && curve.path.total_length() > 0) return true;
-    }
-  }
-  return false;
-}
-
-const char* word(Ending ending) {
-  switch (ending) {
-    case Ending::completed:
-      return "completed";
-    case Ending::stopped:
-      return "stopped";
-    case Ending::failed:
-      break;
-  }
-  return "failed";
-}
-
-/// Temperatures and the like are no news; errors and what the printer does on its own are.
-bool worth_showing(const std::string& message) {
-  for (const char* start : {"Error", "//action", "stopping", "echo: cold", "echo: too long", "!!"}) {
-    if (message.rfind(start, 0) == 0) return true;
-  }
-  return false;
-}
-
-/// What comes from a printer is shown without control characters and not at any length.
-std::string tame(const std::string& message) {
-  constexpr std::size_t longest = 200;
-  std::string text = message.substr(0, longest);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return text;
+bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
+  const core::PlanOptions plan = lookahead_options(prepared).plan;
+  return std::any_of(layer.islands.begin(), layer.islands.end(),
+                     [&](const core::Island& island) { return prepared.planner->fits(island, plan); });
 }
 
 }  // namespace
@@ -120,25 +92,32 @@ PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::pa
   return prepared;
 }
 
-void check_beginning(const PreparedJob& prepared, Lookahead& lookahead) {
-  const PlannedLayer* first = lookahead.peek();
-  if (!first || has_curve(*first)) return;
-  for (std::size_t empty = 0; const std::optional<PlannedLayer> layer = lookahead.wait(); ++empty) {
-    if (!has_curve(*layer)) continue;
+void check_beginning(const PreparedJob& prepared) {
+  const std::size_t end = prepared.first + prepared.count;
+  for (std::size_t index = prepared.first; index < end; ++index) {
+    const core::Layer layer = prepared.part->layer(index);
+    if (!has_curve(prepared, layer)) continue;
+    if (index == prepared.first) return;
     throw core::DataError(
         prepared.job.file.string(), "part",
         fmt::format("the first {} layers hold nothing that can be printed; printing would "
                     "begin in the air at z = {:.2f} mm",
-                    empty, layer->layer.top - layer->layer.height - prepared.lowered),
-        fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", layer->layer.index));
+                    index - prepared.first, layer.top - layer.height - prepared.lowered),
+        fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", layer.index));
   }
   throw core::DataError(
       prepared.job.file.string(), "part", "is nowhere wide enough for a closed curve",
       fmt::format("choose a bead_width below {:g} mm, or scale the part", prepared.job.bead_width));
 }
 
+LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock) {
+  options.horizon = look_ahead;
+  options.pace = pace_by(clock);
+  return options;
+}
+
 void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra) {
-  nlohmann::json rest = {{"ended", word(result.ending)}, {"link", link_json(result)}};
+  nlohmann::json rest = {{"ended", name(result.ending)}, {"link", link_json(result)}};
   if (result.ending == Ending::failed) rest["reason"] = result.reason;
   rest.update(extra);
   std::string problem;
@@ -150,7 +129,7 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
   if (result.ending == Ending::failed) throw PrintError(result.reason);
   if (!problem.empty()) {
     throw PrintError(
-        fmt::format("the print was {}, but its report is lost: {}", word(result.ending), problem));
+        fmt::format("the print was {}, but its report is lost: {}", name(result.ending), problem));
   }
 }
 
@@ -160,10 +139,28 @@ void tell_about_spool(Spool& spool, const StreamResult& result) {
   show(stderr, "to go on with this print: unicursal resume {}\n", spool.folder().filename().string());
 }
 
-Exit tell_ending(const StreamResult& result) {
-  if (result.ending == Ending::completed) return Exit::success;
-  show(stdout, "stopped by the user; the printer is {}\n", result.parked ? "parked and cooling" : "cooling");
+Exit tell_ending(const StreamResult& result, const DisplayOptions& display) {
+  if (display.json) {
+    nlohmann::json end = {{"event", "end"}, {"ended", name(result.ending)}, {"parked", result.parked}};
+    if (!result.reason.empty()) end["reason"] = result.reason;
+    show(stdout, "{}\n", end.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else if (result.ending == Ending::stopped) {
+    show(stdout, "stopped by the user; the printer is {}\n",
+         result.parked ? "parked and cooling" : "cooling");
+  }
+  switch (result.ending) {
+    case Ending::completed:
+      return Exit::success;
+    case Ending::stopped:
+      return Exit::stopped;
+    case Ending::failed:
+      break;
+  }
   return Exit::failed;
+}
+
+std::FILE* words_of(const DisplayOptions& display) {
+  return display.json ? stderr : stdout;
 }
 
 nlohmann::json planning_json(const Lookahead& lookahead) {
@@ -177,18 +174,16 @@ nlohmann::json link_json(const StreamResult& result) {
           {"acknowledged", s.acknowledged}, {"resends", s.resends}, {"bytes", s.bytes}};
 }
 
-StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const std::string& what,
+StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const DisplayOptions& options,
                                   const StreamSettings& settings) {
-  Progress progress(what, run.prepared().count);
+  Display display(options.json ? DisplayForm::json : DisplayForm::words);
   const auto observer = [&](const Session& session, const SessionEvent& event) {
-    const SessionStatus status = session.status();
-    if (event.kind == SessionEvent::Kind::progress)
-      progress.update(status.layer - std::min<std::size_t>(status.layer, 1), status.layer_fraction);
-    if (event.kind == SessionEvent::Kind::notice ||
-        (event.kind == SessionEvent::Kind::printer && worth_showing(event.text)))
-      progress.say(tame(event.text));
+    display.show(session, event);
   };
-  return stream(port, lookahead, run, observer, settings);
+  const auto console = [](Session& session, const std::string& words) {
+    if (const std::string answer = obey(session, words); !answer.empty()) show(stderr, "{}\n", answer);
+  };
+  return stream(port, lookahead, run, observer, settings, console);
 }
 
 }  // namespace unicursal::host

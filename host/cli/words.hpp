@@ -1,6 +1,7 @@
 // Steps and sentences that several commands share.
 #pragma once
 
+#include <cstdio>
 #include <nlohmann/json_fwd.hpp>
 
 #include "host/cli/commands.hpp"
@@ -13,9 +14,12 @@ namespace unicursal::host {
 /// and `more`, that are one of the job's own files or one another.
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<std::filesystem::path>& more = {});
 
-/// Plans until it is known whether the first layer holds a curve. Throws core::DataError if it does not:
-/// the print would begin in the air, or there would be none.
-void check_beginning(const PreparedJob& prepared, Lookahead& lookahead);
+/// Throws core::DataError if the first layer is nowhere wide enough for a curve: the print would begin in the
+/// air, or there would be none.
+void check_beginning(const PreparedJob& prepared);
+
+/// With the time that the printing leaves, by the clock of a session.
+LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock);
 
 /// The report of a print that has come to an end, whichever; a failure to write it is none of the input's.
 /// Throws PrintError, also when the print has failed.
@@ -25,15 +29,18 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
 void tell_about_spool(Spool& spool, const StreamResult& result);
 
 /// The last words of a print that has not failed, and its exit code.
-Exit tell_ending(const StreamResult& result);
+Exit tell_ending(const StreamResult& result, const DisplayOptions& display);
+
+/// Where words for people go: events have the standard output for themselves.
+std::FILE* words_of(const DisplayOptions& display);
 
 /// The report's "planning": seconds, cpu_seconds, threads.
 nlohmann::json planning_json(const Lookahead& lookahead);
 /// The report's "link".
 nlohmann::json link_json(const StreamResult& result);
 
-/// Streams with a progress line; what the printer complains about is shown above it.
-StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const std::string& what,
+/// Streams with a progress line, or events; what the printer complains about is shown above it.
+StreamResult stream_with_progress(int port, Lookahead& lookahead, Run& run, const DisplayOptions& options,
                                   const StreamSettings& settings = {});
 
 }  // namespace unicursal::host

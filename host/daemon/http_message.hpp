@@ -3,8 +3,9 @@
 // percent signs in paths (no name that the API knows needs them).
 //
 // Not by RESTinio, though it is in Debian: 0.6.16 closes the connection without a word on a malformed, too
-// large or too slow request, and shows a request only when its whole body has arrived, so that a stranger's
-// would be kept in memory before the token is asked for. A client is owed a 4xx, before its body.
+// large or too slow request (tried: all five kinds), and shows a request only when its whole body has
+// arrived, so that a stranger's would be kept in memory before the token is asked for. A client is owed a
+// 4xx, before its body.
 #pragma once
 
 #include <cstddef>

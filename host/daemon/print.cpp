@@ -9,12 +9,21 @@
 
 namespace unicursal::host {
 
+namespace {
+
+PreparedJob checked(const PrintPlan& plan) {
+  PreparedJob prepared = prepare(load_job(plan.job, plan.profile), plan.layers);
+  check_beginning(prepared);
+  return prepared;
+}
+
+}  // namespace
+
 Print::Print(const PrintPlan& plan)
-    : pause_heat_(plan.pause_heat),
-      prepared_(prepare(load_job(plan.job, plan.profile), plan.layers)),
+    : prepared_(checked(plan)),
       run_(prepared_, "serve", {}),
-      lookahead_(*prepared_.part, lookahead_options(prepared_)) {
-  check_beginning(prepared_, lookahead_);
+      lookahead_(*prepared_.part, paced(lookahead_options(prepared_), settings_.clock)) {
+  settings_.pause_heat = plan.pause_heat;
   PrintOrder order;
   order.job_name = prepared_.job.file.stem().string();
   order.port = plan.port.value_or(plan.own_port ? "auto" : prepared_.job.profile.port);
@@ -34,10 +43,8 @@ Print::~Print() {
 }
 
 Session& Print::begin(asio::any_io_executor executor) {
-  StreamSettings settings;
-  settings.spool = &*spool_;
-  settings.pause_heat = pause_heat_;
-  session_.emplace(std::move(executor), std::exchange(port_, -1), lookahead_, run_, settings);
+  settings_.spool = &*spool_;
+  session_.emplace(std::move(executor), std::exchange(port_, -1), lookahead_, run_, settings_);
   return *session_;
 }
 

@@ -47,7 +47,7 @@ class Print {
   std::string kept_as() const { return spool_->folder().filename().string(); }
 
  private:
-  const PauseHeat pause_heat_;
+  StreamSettings settings_;
   const PreparedJob prepared_;
   Run run_;
   Lookahead lookahead_;

@@ -24,6 +24,8 @@ class LockstepClock final : public Clock {
   void forget(asio::steady_timer& timer) noexcept override;
   /// Throws SimulatorError when the simulator is gone, or when it and the host wait for each other.
   void run(asio::io_context& loop) override;
+  /// The simulator waits for every byte that it was told of.
+  bool may_discard() const override { return false; }
   void attach(int port, std::function<std::uint64_t()> written) override;
 
  private:

@@ -1,5 +1,6 @@
 #include "host/engine/run.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -15,6 +16,7 @@ nlohmann::json layer_entry(const PlannedLayer& planned, const gcode::PlacedLayer
   entry["height_mm"] = layer.height;
   entry["volume_mm3"] = chunk.volume;
   entry["estimated_seconds"] = chunk.seconds;
+  if (planned.effort < 1) entry["effort"] = planned.effort;
   return entry;
 }
 
@@ -53,6 +55,8 @@ gcode::Chunk Run::layer(PlannedLayer planned) {
   const gcode::PlacedLayer layer = placed(prepared_, planned);
   gcode::Chunk chunk = replay(layer);
   totals_.figures += measure(planned);
+  if (planned.effort < 1) ++totals_.hurried_layers;
+  totals_.least_effort = std::min(totals_.least_effort, planned.effort);
   if (check_ != nullptr) check_->expect(target_of(prepared_, planned));
   if (log_) {
     nlohmann::json entry = layer_entry(planned, layer, chunk);
@@ -112,6 +116,7 @@ void Run::write_report(const nlohmann::json& extra) {
       {"extruded_mm3", totals_.volume},
       {"estimated_print_seconds", totals_.print_seconds},
       {"lines", totals_.lines},
+      {"effort", {{"hurried_layers", totals_.hurried_layers}, {"least", totals_.least_effort}}},
   };
   if (repeatable_) {
     forget_times(rest["totals"]);

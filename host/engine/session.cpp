@@ -1,6 +1,7 @@
 #include "host/engine/session.hpp"
 
 #include <algorithm>
+#include <asio/post.hpp>
 #include <exception>
 #include <new>
 
@@ -64,11 +65,20 @@ Session::State::State(asio::any_io_executor on, int descriptor, Lookahead& plann
       settings(std::move(with)),
       spool(settings.spool),
       clock(settings.clock),
-      computer(settings.charge, planned.threads(), planned.ahead()),
       wake(on, clock),
+      self(std::make_shared<State*>(this)),
       link(on, descriptor, link_options(clock)) {
   link.on_message([this](const std::string& line) { hear(line); });
+  lookahead.on_ready([on, weak = std::weak_ptr(self)] {
+    asio::post(on, [weak] {
+      if (const auto alive = weak.lock()) (*alive)->wake.notify();
+    });
+  });
   if (spool) keep_journal();
+}
+
+Session::State::~State() {
+  lookahead.on_ready({});
 }
 
 // ---- the way through a print
@@ -81,6 +91,7 @@ asio::awaitable<void> Session::State::print() {
     if (settings.continuation) co_await send_spooled();
     if (!settings.continuation || settings.continuation->extent.start_lines == 0) co_await start();
     co_await send_layers();
+    if (aborted) throw LinkError("the print was stopped at once");
     if (!stopped) co_await between();  // a pause that was asked for in the last lines
   } catch (const LinkError&) {
     throw;
@@ -153,6 +164,10 @@ asio::awaitable<void> Session::State::start() {
   if (!co_await keep({}, chunk)) co_return;
   heating = true;
   enter(SessionState::heating);
+  if (run.prepared().job.profile.printer.start_gcode.find("M85") != std::string::npos)
+    warn(
+        "the profile's start lines set M85; it is set again after them, since nothing else cools the printer "
+        "when this computer fails");
   co_await send(chunk, 0);
   co_await get_hot();
 }
@@ -184,18 +199,34 @@ asio::awaitable<void> Session::State::send_layers() {
 /// what is charged for planning passes afterwards.
 asio::awaitable<std::optional<PlannedLayer>> Session::State::next_layer() {
   const TimePoint asked = clock->now();
-  std::optional<PlannedLayer> layer;
-  {
-    const Clock::Hold hold(*clock);
-    layer = co_await lookahead.next();
-  }
-  if (layer) {
-    const double ready = computer.ready(layer->cpu_seconds, seconds(clock->now() - began));
-    const std::function<bool()> interrupted = [this] { return to_be_interrupted(); };
-    co_await wake.wait(began + duration(ready), interrupted);
-  }
+  tell_position();
+  co_await planned();
+  std::optional<PlannedLayer> layer = lookahead.wait();
+  const TimePoint ready{layer ? duration(layer->ready_at) : Duration::zero()};
+  const std::function<bool()> interrupted = [this] { return to_be_interrupted(); };
+  if (ready > clock->now()) co_await wake.wait(ready, interrupted);
   waited += seconds(clock->now() - asked);
   co_return layer;
+}
+
+/// The nozzle stands still meanwhile: a pause has to take it away from the part.
+asio::awaitable<void> Session::State::planned() {
+  const std::function<bool()> event = [this] {
+    return lookahead.ready() || to_be_interrupted() || pause_wanted || firmware_holds || !wanted.empty();
+  };
+  while (!lookahead.ready() && !to_be_interrupted()) {
+    {
+      const Clock::Hold hold(*clock);
+      co_await wake.wait(TimePoint::max(), event);
+    }
+    co_await between();
+  }
+}
+
+/// What the printer still has in its queue is left out: it is little, and on the safe side.
+void Session::State::tell_position() {
+  const double left = chunk_seconds * (1 - layer_fraction) * 100 / speed_percent;
+  lookahead.printed(seconds(clock->now().time_since_epoch()), left);
 }
 
 asio::awaitable<void> Session::State::finish() {
@@ -246,8 +277,10 @@ asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk, std::size_
   for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
     if (!own) co_await between();
     if (stopped && !ending()) co_return;
-    layers_begun = layers_done;
-    layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
+    if (!parking) {
+      layers_begun = layers_done;
+      layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
+    }
     const std::size_t end = std::min(i + batch, chunk.lines.size());
     co_await hand({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                    chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -261,6 +294,7 @@ asio::awaitable<void> Session::State::hand(std::vector<std::string> lines) {
   if (!parking) {
     place += count;
     note_progress();
+    if (!heating) tell_position();
   }
   tell(SessionEvent::Kind::progress);
 }
@@ -287,6 +321,10 @@ StreamResult Session::State::result(const std::exception_ptr& error) {
 }
 
 // ---- from outside
+
+Pace pace_by(std::shared_ptr<Clock> clock) {
+  return {[clock = std::move(clock)] { return seconds(clock->now().time_since_epoch()); }, 1};
+}
 
 Session::Session(asio::any_io_executor executor, int port, Lookahead& lookahead, Run& run,
                  StreamSettings settings)

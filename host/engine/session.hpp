@@ -80,7 +80,6 @@ enum class PauseHeat {
 
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
-  double charge = 0;       ///< s of the clock that each second of planning is to take
   Spool* spool = nullptr;  ///< that keeps the print, if one does
   /// With a spool: it holds the first layers already, and `run` and `lookahead` begin behind them.
   std::optional<Continuation> continuation;
@@ -142,6 +141,9 @@ struct SessionEvent {
 };
 
 const char* name(SessionEvent::Kind kind);
+
+/// For a look-ahead that plans by the real clock of a session.
+Pace pace_by(std::shared_ptr<Clock> clock);
 
 /// Why a command is not obeyed, a sentence; nothing when it is.
 using Refusal = std::optional<std::string>;

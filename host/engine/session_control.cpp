@@ -81,6 +81,7 @@ asio::awaitable<void> Session::State::hold() {
   resume_wanted = firmware_holds = false;
   if (stopped) co_return;
   enter(SessionState::resuming);
+  tell_position();
   heating = true;  // a stop ends it
   if (aside) co_await interpose(gcode::come_back(printer, pause_here()).lines);
   if (aside && !stopped) co_await link.drain();
@@ -100,6 +101,7 @@ asio::awaitable<void> Session::State::wait_held() {
   while (!resume_wanted && !stopped) {
     if (!co_await wake.wait(std::min(last, clock->now() + sign_of_life), ready)) {
       if (clock->now() >= last) co_return;
+      tell_position();
       if (!firmware_holds) co_await interpose(signs_of_life());
     }
     co_await make_changes();

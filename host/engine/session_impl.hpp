@@ -13,13 +13,13 @@
 #include "firmware_gcode/toolpath/modal_state.hpp"
 #include "firmware_gcode/toolpath/pause.hpp"
 #include "host/engine/session.hpp"
-#include "host/engine/slow_computer.hpp"
 #include "host/link/signal.hpp"
 
 namespace unicursal::host {
 
 struct Session::State {
   State(asio::any_io_executor on, int descriptor, Lookahead& planned, Run& of, StreamSettings with);
+  ~State();
 
   // The way through a print (session.cpp)
   asio::awaitable<void> print();
@@ -30,6 +30,8 @@ struct Session::State {
   asio::awaitable<void> get_hot();
   asio::awaitable<void> send_layers();
   asio::awaitable<std::optional<PlannedLayer>> next_layer();
+  asio::awaitable<void> planned();
+  void tell_position();
   asio::awaitable<void> finish();
   asio::awaitable<void> park();
   asio::awaitable<void> send_last(gcode::Chunk chunk);
@@ -77,8 +79,8 @@ struct Session::State {
   Spool* const spool;
   const std::shared_ptr<Clock> clock;
   const TimePoint began = clock->now();
-  SlowComputer computer;
   Signal wake;
+  const std::shared_ptr<State*> self;  ///< for those who may come when it is gone
   Link link;
   std::function<void(const SessionEvent&)> observer;
 

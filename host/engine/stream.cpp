@@ -2,8 +2,13 @@
 
 #include <asio/co_spawn.hpp>
 #include <asio/io_context.hpp>
+#include <asio/posix/stream_descriptor.hpp>
+#include <asio/read_until.hpp>
 #include <asio/signal_set.hpp>
 #include <csignal>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace unicursal::host {
 namespace {
@@ -13,12 +18,24 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+constexpr std::size_t longest_words = 1000;  ///< bytes of a line that is typed
+
+/// Opened anew, since what is set for it would hold for whoever else has the standard input open. A program
+/// in the background gets an error instead of being stopped.
+int open_terminal() {
+  if (::isatty(STDIN_FILENO) != 1) return -1;
+  std::signal(SIGTTIN, SIG_IGN);
+  return ::open("/dev/tty", O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+}
+
 class Foreground {
  public:
   Foreground(int port, Lookahead& lookahead, Run& run, const SessionObserver& observer,
-             const StreamSettings& settings)
+             const StreamSettings& settings, const SessionConsole& console)
       : clock_(settings.clock),
         signals_(loop_, SIGINT, SIGTERM),
+        console_(console),
+        terminal_(loop_),
         session_(loop_.get_executor(), port, lookahead, run, settings) {
     if (!is_ignored(SIGHUP)) signals_.add(SIGHUP);
     session_.on_event([this, &observer](const SessionEvent& event) { observer(session_, event); });
@@ -26,6 +43,10 @@ class Foreground {
 
   StreamResult operator()() {
     await_signal();
+    if (const int terminal = console_ ? open_terminal() : -1; terminal >= 0) {
+      terminal_.assign(terminal);
+      await_words();
+    }
     std::optional<StreamResult> result;
     asio::co_spawn(loop_, session_.run(), [&](const std::exception_ptr& error, StreamResult ended) {
       result = error ? session_.failed(error) : std::move(ended);
@@ -52,9 +73,23 @@ class Foreground {
     });
   }
 
+  void await_words() {
+    const auto typed = asio::dynamic_buffer(typed_, longest_words);
+    asio::async_read_until(terminal_, typed, '\n', [this](const asio::error_code& error, std::size_t count) {
+      if (error) return;
+      const std::string words = typed_.substr(0, count);
+      typed_.erase(0, count);
+      console_(session_, words);
+      await_words();
+    });
+  }
+
   asio::io_context loop_{1};
   const std::shared_ptr<Clock> clock_;
   asio::signal_set signals_;
+  const SessionConsole& console_;
+  asio::posix::stream_descriptor terminal_;
+  std::string typed_;
   Session session_;
   bool stopped_ = false;
 };
@@ -62,8 +97,8 @@ class Foreground {
 }  // namespace
 
 StreamResult stream(int port, Lookahead& lookahead, Run& run, const SessionObserver& observer,
-                    const StreamSettings& settings) {
-  return Foreground(port, lookahead, run, observer, settings)();
+                    const StreamSettings& settings, const SessionConsole& console) {
+  return Foreground(port, lookahead, run, observer, settings, console)();
 }
 
 }  // namespace unicursal::host

@@ -30,6 +30,9 @@ class Clock {
   /// The link hangs on this descriptor and has written so many bytes to it; −1 when it has closed it.
   virtual void attach(int /*port*/, std::function<std::uint64_t()> /*written*/) {}
 
+  /// Whether bytes that were written may be thrown away before they arrive.
+  virtual bool may_discard() const { return true; }
+
   /// While one of these lives, a clock that is not this computer's stands still: the host works, it does not
   /// wait.
   class Hold {

@@ -104,7 +104,7 @@ void Link::State::cool_down() noexcept {
 void Link::State::emergency_stop() noexcept {
   try {
     const int descriptor = port.native_handle();
-    ::tcflush(descriptor, TCOFLUSH);
+    if (options.clock->may_discard()) ::tcflush(descriptor, TCOFLUSH);
     constexpr std::string_view stop = "\nM112\n";  // the newline ends what may be half written
     const auto written = ::write(descriptor, stop.data(), stop.size());
     statistics.bytes += static_cast<std::uint64_t>(std::max<ssize_t>(written, 0));

@@ -6,26 +6,27 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <asio/post.hpp>
-#include <asio/redirect_error.hpp>
-#include <asio/steady_timer.hpp>
-#include <asio/this_coro.hpp>
-#include <asio/use_awaitable.hpp>
+#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <condition_variable>
-#include <ctime>
 #include <deque>
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <numeric>
 #include <thread>
+
+#include "host/lookahead/pacer.hpp"
+#include "host/lookahead/timeline.hpp"
 
 namespace unicursal::host {
 namespace {
 
 /// Added to the niceness of planning threads, so that the link is served first on a busy machine.
 constexpr int planner_niceness = 10;
+
+constexpr double margin = 1;  ///< s before a layer is needed, for what nobody can foretell
 
 /// Best effort: where it is refused, planning just competes on equal terms.
 void lower_priority() {
@@ -43,16 +44,10 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-double thread_cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-double volume(const core::Layer& layer) {
+double area_of(const core::Layer& layer) {
   double area = 0;
   for (const core::Island& island : layer.islands) area += core::area(island.outline);
-  return area * layer.height;
+  return area;
 }
 
 /// A layer between being sliced and being handed over.
@@ -62,10 +57,27 @@ struct OpenLayer {
   std::size_t begun = 0;     ///< islands
   std::size_t finished = 0;  ///< islands
   std::exception_ptr error;
+  double area = 0;           ///< mm²
   double print_seconds = 0;  ///< as the flow foretells
+  double sliced_at = 0;      ///< s of the printer's clock, in virtual time
+  double planned_cells = 0;  ///< of its islands so far
 
   bool has_work() const { return sliced && !error && begun < result.plans.size(); }
   bool complete() const { return error ? begun == finished : sliced && finished == result.plans.size(); }
+
+  void add_effort(double part, double cells) {
+    const double before = planned_cells;
+    planned_cells += cells;
+    if (planned_cells > 0) result.effort = (result.effort * before + part * cells) / planned_cells;
+  }
+};
+
+/// An island on its way, whose planning asks whether that is enough.
+struct Attempt {
+  double cells = 0;  ///< area ÷ bead width²
+  double begun = 0;  ///< s of the clock
+  double allowed = no_hurry;
+  std::optional<double> cut;  ///< when it was told that it is enough
 };
 
 }  // namespace
@@ -80,8 +92,11 @@ struct Lookahead::State {
   State(const core::Part& source, const LookaheadOptions& chosen) : part(source), options(chosen) {
     if (!options.planner) options.planner = std::make_shared<const core::IslandPlanner>(part.zones());
     if (options.threads == 0) options.threads = std::max(1U, std::thread::hardware_concurrency());
-    if (options.ahead == 0) options.ahead = options.threads + 2;
+    const bool in_seconds = options.horizon > 0 && options.flow > 0;
+    if (options.ahead == 0) options.ahead = in_seconds ? most_ahead : default_ahead(options.threads);
+    if (!in_seconds) options.horizon = no_hurry;
     next_layer = options.first;
+    if (options.pace) pacer = Pacer(options.threads, options.pace->now ? 1 : options.pace->charge);
   }
 
   /// Apart from construction, so that the destructor stops those that did start when one could not.
@@ -95,9 +110,30 @@ struct Lookahead::State {
   }
 
   std::size_t end() const { return options.first + options.count; }
-  bool may_open() const { return open.size() < options.ahead && next_layer < end(); }
   bool front_ready() const { return !open.empty() && open.front()->complete(); }
   bool exhausted() const { return cancelled || (open.empty() && next_layer == end()); }
+
+  bool may_open() const {
+    if (next_layer == end() || open.size() >= options.ahead) return false;
+    return open.size() <= options.threads || seconds_ahead() < options.horizon;
+  }
+
+  double seconds_ahead() const {
+    double sum = 0;
+    for (const auto& layer : open) sum += layer->print_seconds;
+    return sum;
+  }
+
+  /// When the nozzle needs the layer.
+  double need_of(const OpenLayer& layer) const {
+    if (!position) return no_hurry;
+    double need = *position;
+    for (const auto& before : open) {
+      if (before.get() == &layer) break;
+      need = std::max(need, before->result.ready_at) + before->print_seconds;
+    }
+    return need;
+  }
 
   OpenLayer* layer_with_work() const {
     const auto found = std::find_if(open.begin(), open.end(), [](const auto& l) { return l->has_work(); });
@@ -107,56 +143,102 @@ struct Lookahead::State {
   /// Older layers first: islands of open layers come before a new layer is cut.
   void work() {
     lower_priority();
+    Timeline time(options.pace);
     std::unique_lock lock(mutex);
     for (;;) {
       work_available.wait(lock, [&] { return cancelled || layer_with_work() || may_open(); });
       if (cancelled) return;
       if (OpenLayer* layer = layer_with_work())
-        plan_one(lock, *layer);
+        plan_one(lock, *layer, time);
       else
-        slice_one(lock);
+        slice_one(lock, time);
       if (front_ready()) wake_consumer();
     }
   }
 
-  void slice_one(std::unique_lock<std::mutex>& lock) {
+  void slice_one(std::unique_lock<std::mutex>& lock, Timeline& time) {
     OpenLayer& layer = *open.emplace_back(std::make_unique<OpenLayer>());
     most_open = std::max(most_open, open.size());
     const std::size_t index = next_layer++;
-    run(lock, layer, [&] {
+    time.begin(room_since);
+    run(lock, layer, time, [&] {
       layer.result.layer = part.layer(index);
       layer.result.plans.resize(layer.result.layer.islands.size());
-      if (options.flow > 0) layer.print_seconds = volume(layer.result.layer) / options.flow;
     });
+    layer.area = area_of(layer.result.layer);
+    if (options.flow > 0) layer.print_seconds = layer.area * layer.result.layer.height / options.flow;
+    layer.sliced_at = time.ended();
     layer.sliced = true;
     work_available.notify_all();
   }
 
-  void plan_one(std::unique_lock<std::mutex>& lock, OpenLayer& layer) {
-    const std::size_t island = layer.begun++;
-    run(lock, layer, [&] {
-      core::PlanOptions plan = options.plan;
-      plan.seed = island_seed(options.plan.seed, layer.result.layer.index, island);
-      layer.result.plans[island] =
-          options.planner->plan(layer.result.layer.islands[island], layer.result.layer.z, plan);
-    });
+  void plan_one(std::unique_lock<std::mutex>& lock, OpenLayer& layer, Timeline& time) {
+    const std::size_t index = layer.begun++;
+    const core::Island& island = layer.result.layer.islands[index];
+    time.begin(layer.sliced_at);
+    Attempt attempt = attempt_at(layer, island, time);
+    core::PlanOptions plan = options.plan;
+    plan.seed = island_seed(options.plan.seed, layer.result.layer.index, index);
+    plan.threads = threads_for(layer);
+    plan.enough = [&] { return enough(layer, attempt, time); };
+    run(lock, layer, time,
+        [&] { layer.result.plans[index] = options.planner->plan(island, layer.result.layer.z, plan); });
+    learn(layer, attempt, layer.result.plans[index].effort, time.now());
     ++layer.finished;
   }
 
+  /// Somebody waits for the first layer, so that its only island may take all threads. Virtual time, in which
+  /// threads are told apart by what they spend, could not tell.
+  int threads_for(const OpenLayer& layer) const {
+    const bool alone = layer.result.layer.index == options.first && layer.result.plans.size() == 1;
+    return alone && options.pace && options.pace->now ? static_cast<int>(options.threads) : 1;
+  }
+
+  Attempt attempt_at(const OpenLayer& layer, const core::Island& island, const Timeline& time) const {
+    const double area = core::area(island.outline), w = options.plan.bead_width;
+    const double share = layer.area > 0 ? area / layer.area : 1;
+    Attempt attempt{area / (w * w), time.now(), no_hurry, {}};
+    if (options.pace)
+      attempt.allowed = pacer.allowance(need_of(layer) - attempt.begun, layer.print_seconds, share);
+    return attempt;
+  }
+
+  /// Asked unlocked, between the steps of the optimisers.
+  bool enough(const OpenLayer& layer, Attempt& attempt, const Timeline& time) const {
+    if (cancelled || attempt.cut) return true;
+    if (!options.pace) return false;
+    const std::lock_guard lock(mutex);
+    const double now = time.now(), done = now + pacer.tail(attempt.cells);
+    if (done - attempt.begun < attempt.allowed && done + margin < need_of(layer)) return false;
+    attempt.cut = now;
+    return true;
+  }
+
+  /// What this island teaches for the next ones.
+  void learn(OpenLayer& layer, const Attempt& attempt, const core::Effort& effort_taken, double now) {
+    const double steps = std::accumulate(effort_taken.begin(), effort_taken.end(), 0.0);
+    if (attempt.cut)
+      pacer.learn_tail(attempt.cells, now - *attempt.cut);
+    else
+      pacer.learn_full(steps);
+    layer.add_effort(attempt.cut ? pacer.part_of_full(steps) : 1, attempt.cells);
+  }
+
   /// Runs `step` unlocked and keeps the first error for the consumer.
-  void run(std::unique_lock<std::mutex>& lock, OpenLayer& layer, const std::function<void()>& step) {
+  void run(std::unique_lock<std::mutex>& lock, OpenLayer& layer, Timeline& time,
+           const std::function<void()>& step) {
     std::exception_ptr error;
     begin_effort();
     lock.unlock();
-    const double cpu_before = thread_cpu_seconds();
     try {
       step();
     } catch (...) {
       error = std::current_exception();
     }
     lock.lock();
-    const double spent = thread_cpu_seconds() - cpu_before;
+    const double spent = time.end();
     layer.result.cpu_seconds += spent;
+    layer.result.ready_at = std::max(layer.result.ready_at, time.ended());
     end_effort(spent);
     if (error && !layer.error) layer.error = error;
   }
@@ -172,8 +254,7 @@ struct Lookahead::State {
 
   void wake_consumer() {
     consumer.notify_all();
-    if (wake_coroutine) wake_coroutine();
-    wake_coroutine = nullptr;
+    if (listener) listener();
   }
 
   /// Precondition: locked, and front_ready() or exhausted().
@@ -181,6 +262,7 @@ struct Lookahead::State {
     if (cancelled || open.empty()) return {};
     const std::unique_ptr<OpenLayer> layer = std::move(open.front());
     open.pop_front();
+    room_since = now_told;
     work_available.notify_all();
     if (!layer->error) return std::move(layer->result);
     stop();
@@ -195,13 +277,17 @@ struct Lookahead::State {
 
   const core::Part& part;
   LookaheadOptions options;
+  Pacer pacer{1, 1};
   mutable std::mutex mutex;
   std::condition_variable work_available, consumer;
-  std::function<void()> wake_coroutine;
+  std::function<void()> listener;
   std::deque<std::unique_ptr<OpenLayer>> open;  ///< by layer
   std::size_t next_layer = 0;
   std::size_t most_open = 0;
-  bool cancelled = false;
+  std::atomic<bool> cancelled = false;
+  std::optional<double> position;  ///< s of the clock when the printer needs the next layer, once it prints
+  double now_told = 0;             ///< s of the clock, as last told
+  double room_since = 0;           ///< s of the clock at which a layer was last taken
   PlanningEffort effort;
   std::size_t active = 0;  ///< threads that are slicing or planning
   Clock::time_point busy_since;
@@ -222,28 +308,20 @@ std::optional<PlannedLayer> Lookahead::wait() {
   return state_->take();
 }
 
-const PlannedLayer* Lookahead::peek() {
-  std::unique_lock lock(state_->mutex);
-  state_->consumer.wait(lock, [&] { return state_->front_ready() || state_->exhausted(); });
-  if (!state_->front_ready()) return nullptr;
-  if (state_->open.front()->error) state_->take();
-  return &state_->open.front()->result;
+bool Lookahead::ready() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->front_ready() || state_->exhausted();
 }
 
-asio::awaitable<std::optional<PlannedLayer>> Lookahead::next() {
-  using Timer = asio::steady_timer;
-  const auto executor = co_await asio::this_coro::executor;
-  for (;;) {
-    const auto timer = std::make_shared<Timer>(executor, Timer::time_point::max());
-    {
-      const std::lock_guard lock(state_->mutex);
-      if (state_->front_ready() || state_->exhausted()) co_return state_->take();
-      // Posted, so it runs on the loop's thread, after this coroutine has gone to sleep there.
-      state_->wake_coroutine = [executor, timer] { asio::post(executor, [timer] { timer->cancel(); }); };
-    }
-    asio::error_code cancelled;
-    co_await timer->async_wait(asio::redirect_error(asio::use_awaitable, cancelled));
-  }
+void Lookahead::on_ready(std::function<void()> listener) {
+  const std::lock_guard lock(state_->mutex);
+  state_->listener = std::move(listener);
+}
+
+void Lookahead::printed(double now, double left) {
+  const std::lock_guard lock(state_->mutex);
+  state_->now_told = now;
+  state_->position = now + left;
 }
 
 void Lookahead::cancel() {
@@ -269,10 +347,6 @@ Waiting Lookahead::waiting() const {
 
 std::size_t Lookahead::threads() const {
   return state_->options.threads;
-}
-
-std::size_t Lookahead::ahead() const {
-  return state_->options.ahead;
 }
 
 std::size_t Lookahead::most_open() const {

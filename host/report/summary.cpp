@@ -33,6 +33,12 @@ std::string summary(const RunTotals& totals, const PlanningEffort& planning) {
   }
   fmt::format_to(out, "\nplanning:  {} ({} of processor time)\n", duration_words(planning.seconds),
                  duration_words(planning.cpu_seconds));
+  if (totals.hurried_layers > 0) {
+    fmt::format_to(out,
+                   "hurried:   {} planned with less effort, at least {:.0f} %, so that the nozzle did not "
+                   "have to wait\n",
+                   counted(totals.hurried_layers, "layer"), 100 * totals.least_effort);
+  }
   fmt::format_to(out, "printing:  about {} at the asked flow\n", duration_words(totals.print_seconds));
   if (f.self_intersections + f.outside_segments > 0) {
     fmt::format_to(out, "defects:   {} self-intersections, {} segments outside\n", f.self_intersections,

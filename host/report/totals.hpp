@@ -13,9 +13,11 @@ namespace unicursal::host {
 struct RunTotals {
   Figures figures;
   std::size_t layers = 0;
-  double print_seconds = 0;  ///< estimated
-  double volume = 0;         ///< extruded by all chunks
-  std::uint64_t lines = 0;   ///< that the firmware gets: without comments
+  double print_seconds = 0;        ///< estimated
+  double volume = 0;               ///< extruded by all chunks
+  std::uint64_t lines = 0;         ///< that the firmware gets: without comments
+  std::size_t hurried_layers = 0;  ///< planned with less effort, so that the nozzle did not have to wait
+  double least_effort = 1;         ///< of the full effort, that one of them took
   std::vector<MaterialVolume> materials;
 };
 

@@ -197,7 +197,7 @@ TEST_CASE("Ctrl-C parks and cools, and the simulator goes with its host") {
   kill(host.id(), SIGINT);
   const Outcome outcome = host.wait();
   INFO(outcome.err);
-  CHECK(outcome.code == 1);
+  CHECK(outcome.code == 3);
   const json report = read_json(shop.path("r.json"));
   CHECK(report["ended"] == "stopped");
   CHECK(report["simulator"]["temperatures"]["nozzle"]["target"] == 0);
@@ -223,7 +223,7 @@ TEST_CASE("A closed terminal ends a print as Ctrl-C does") {
   }
   kill(host.id(), SIGHUP);
   kill(host.id(), SIGHUP);  // the shell says so as well
-  CHECK(host.wait().code == 1);
+  CHECK(host.wait().code == 3);
   const json report = read_json(shop.path("r.json"));
   CHECK(report["ended"] == "stopped");
   CHECK(report["simulator"]["temperatures"]["nozzle"]["target"] == 0);

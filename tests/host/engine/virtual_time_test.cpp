@@ -71,7 +71,8 @@ TEST_CASE("Another seed gives other faults, and every line is still executed onc
 
 TEST_CASE("Planning that is charged for makes the print wait in printer time") {
   Runs runs;
-  runs.write_profile(std::string(test::sample_profile) + barely_warm);  // or it would be done while that heats
+  runs.write_profile(std::string(test::sample_profile) +
+                     barely_warm);  // or it would be done while that heats
   REQUIRE(runs.run({}).code == 0);
   const json free = runs.seen();
   REQUIRE(runs.run({"--charge-planning", "4000"}).code == 0);

@@ -86,7 +86,7 @@ TEST_CASE("a stop while heating ends the heating and claims no park") {
   const Outcome outcome = host.wait();
   printer.stop();
   INFO(outcome.err << outcome.out);
-  CHECK(outcome.code == 1);
+  CHECK(outcome.code == 3);
   CHECK(job.report()["ended"] == "stopped");
   CHECK(outcome.out.find("parked") == std::string::npos);
   CHECK(holds(printer.executed(), "M104 S0"));

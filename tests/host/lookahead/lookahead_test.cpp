@@ -1,11 +1,12 @@
 #include "host/lookahead/lookahead.hpp"
 
-#include <asio/co_spawn.hpp>
-#include <asio/detached.hpp>
-#include <asio/io_context.hpp>
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
 #include <set>
 #include <thread>
 
@@ -126,7 +127,7 @@ TEST_CASE("An error comes in its turn, and ends the look-ahead") {
   CHECK_FALSE(lookahead.wait());
 }
 
-TEST_CASE("Cancelling wakes a thread that waits and a coroutine that sleeps") {
+TEST_CASE("Cancelling wakes a thread that waits") {
   const Stack part(100000);
   Lookahead lookahead(part, options_for(0, 100000, 1, 1));
   std::thread canceller([&] {
@@ -137,27 +138,104 @@ TEST_CASE("Cancelling wakes a thread that waits and a coroutine that sleeps") {
   while (lookahead.wait()) ++taken;
   canceller.join();
   CHECK(taken < 100000);
-  asio::io_context loop;
-  bool ended = false;
-  asio::co_spawn(
-      loop, [&]() -> asio::awaitable<void> { ended = !co_await lookahead.next(); }, asio::detached);
-  loop.run();
-  CHECK(ended);
+  CHECK(lookahead.ready());
+  CHECK_FALSE(lookahead.wait());
 }
 
-TEST_CASE("A coroutine gets the same layers without blocking its loop") {
+TEST_CASE("Who does not want to block is told when there is something to take") {
   const Stack part(7);
+  std::mutex mutex;
+  std::condition_variable told;
   Lookahead lookahead(part, options_for(0, 7, 2));
-  asio::io_context loop;
+  lookahead.on_ready([&] { told.notify_all(); });
   std::vector<std::size_t> order;
-  asio::co_spawn(
-      loop,
-      [&]() -> asio::awaitable<void> {
-        while (auto layer = co_await lookahead.next()) order.push_back(layer->layer.index);
-      },
-      asio::detached);
-  loop.run();
+  for (;;) {
+    std::unique_lock lock(mutex);
+    // The bound only lets a lost notification fail the test instead of hanging it.
+    REQUIRE(told.wait_for(lock, std::chrono::seconds(60), [&] { return lookahead.ready(); }));
+    const auto layer = lookahead.wait();
+    if (!layer) break;
+    order.push_back(layer->layer.index);
+  }
+  lookahead.on_ready({});
   CHECK(order == std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6});
+}
+
+TEST_CASE("So many seconds of printing are planned ahead, and a layer for each thread and one more") {
+  const double seconds = 75 * 0.2 / 1.5;  // three squares of 25 mm², 0.2 mm high, at 1.5 mm³/s
+  const auto open_at_once = [&](double horizon) {
+    const Stack part(30);
+    LookaheadOptions options = options_for(0, 30, 1);
+    options.flow = 1.5;
+    options.horizon = horizon;
+    Lookahead lookahead(part, options);
+    std::size_t waiting = 0;
+    while (lookahead.wait()) waiting = std::max(waiting, lookahead.waiting().layers);
+    CHECK(lookahead.waiting().seconds == 0);
+    return lookahead.most_open();
+  };
+  CHECK(open_at_once(seconds / 2) <= 2);
+  CHECK(open_at_once(5 * seconds) <= 6);
+}
+
+TEST_CASE("Nobody hurries before the printer needs something, and without a pace never") {
+  const Stack part(3);
+  LookaheadOptions options = options_for(0, 3, 1);
+  options.flow = 1.5;
+  SECTION("not told yet") {
+    options.pace = Pace{{}, 1e6};
+  }
+  SECTION("no pace") {}
+  const auto full = all_of(part, options_for(0, 3, 1));
+  Lookahead lookahead(part, options);
+  if (!options.pace) lookahead.printed(1e9, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto layer = lookahead.wait();
+    CHECK(layer->effort == 1);
+    for (std::size_t k = 0; k < 3; ++k) CHECK(same_beads(layer->plans[k], full[i].plans[k]));
+  }
+}
+
+TEST_CASE("On a computer that is too slow layers take less effort, say so, and are still whole") {
+  const Stack part(12);
+  LookaheadOptions options = options_for(0, 12, 1);
+  options.flow = 1.5;
+  options.horizon = 100;
+  options.pace = Pace{{}, 1e5};
+  Lookahead lookahead(part, options);
+  double now = 0, least = 1, ready = 0;
+  lookahead.printed(now, 0);
+  while (const auto layer = lookahead.wait()) {
+    CHECK(layer->ready_at >= ready);  // in order
+    ready = layer->ready_at;
+    least = std::min(least, layer->effort);
+    CHECK(layer->effort > 0);
+    for (const core::IslandPlan& plan : layer->plans) {
+      REQUIRE(plan.curves.size() == 1);
+      CHECK(plan.curves[0].self_intersections == 0);
+      CHECK(plan.curves[0].outside_segments == 0);
+    }
+    now = std::max(now, ready) + 10;
+    lookahead.printed(now, 0);
+  }
+  CHECK(least < 1);
+}
+
+TEST_CASE("What the effort of a hurried island was gives the same curve again") {
+  const Stack part(1);
+  LookaheadOptions options = options_for(0, 1, 1);
+  options.flow = 1.5;
+  options.pace = Pace{{}, 1e5};
+  Lookahead lookahead(part, options);
+  lookahead.printed(0, 0);
+  const auto layer = lookahead.wait();
+  core::PlanOptions again = options.plan;
+  for (std::size_t k = 0; k < 3; ++k) {
+    again.seed = island_seed(options.plan.seed, 0, k);
+    again.recorded = layer->plans[k].effort;
+    const core::IslandPlan plan = core::IslandPlanner(part.zones()).plan(layer->layer.islands[k], 0, again);
+    CHECK(same_beads(plan, layer->plans[k]));
+  }
 }
 
 TEST_CASE("A look-ahead that nobody listens to ends") {

@@ -1,0 +1,38 @@
+#include "host/lookahead/pacer.hpp"
+
+#include <algorithm>
+
+namespace unicursal::host {
+namespace {
+
+constexpr double enough_ahead = 30;       ///< s of look-ahead, above which no island is cut for its sake
+constexpr double spent_of_surplus = 0.5;  ///< of what is ahead beyond that
+constexpr double caution = 1.3;           ///< on the longest tail seen so far
+constexpr double least_cells = 1;         ///< of which a time for each can be told
+constexpr double memory = 0.8;            ///< of earlier islands, in the mean of full steps
+
+}  // namespace
+
+double Pacer::allowance(double slack, double print, double share) const {
+  if (slack == no_hurry) return no_hurry;
+  const double ahead = std::max(slack, 0.0);
+  const double sustained = print * std::min(1.0, ahead / enough_ahead);
+  const double surplus = spent_of_surplus * std::max(0.0, ahead - enough_ahead);
+  return std::min(ahead, threads_ * share * (sustained + surplus));
+}
+
+void Pacer::learn_tail(double cells, double seconds) {
+  if (cells < least_cells || rate_ <= 0) return;
+  tail_per_cell_ = std::max(tail_per_cell_, caution * seconds / (rate_ * cells));
+}
+
+double Pacer::part_of_full(double steps) const {
+  return full_steps_ > 0 ? std::min(1.0, steps / full_steps_) : 1;
+}
+
+void Pacer::learn_full(double steps) {
+  full_steps_ = full_known_ ? memory * full_steps_ + (1 - memory) * steps : steps;
+  full_known_ = true;
+}
+
+}  // namespace unicursal::host

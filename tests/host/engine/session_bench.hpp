@@ -1,0 +1,120 @@
+// A session in this process, a simulated printer in another, and one clock: virtual time.
+#pragma once
+
+#include <poll.h>
+
+#include <asio/co_spawn.hpp>
+#include <asio/io_context.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "host/engine/lockstep_clock.hpp"
+#include "host/engine/session.hpp"
+#include "host/job/job.hpp"
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal::test {
+
+class SessionBench {
+ public:
+  using Script = std::function<void(host::Session&, const host::SessionEvent&)>;
+
+  /// `profile_more`: lines for the end of the profile. `simulator`: more options.
+  explicit SessionBench(const std::vector<std::string>& simulator = {}, const std::string& profile_more = {})
+      : job_(write_job(profile_more)),
+        prepared_(host::prepare(host::load_job(job_, {}))),
+        printer_(simulate(simulator)),
+        run_(prepared_, "test", {}),
+        clock_(connect()) {}
+
+  host::StreamSettings settings;
+
+  /// Prints; `script` is called at every event. Ends the simulator, whose report is then there.
+  host::StreamResult print(const Script& script = {}) {
+    settings.clock = clock_;
+    host::Lookahead lookahead(*prepared_.part, host::lookahead_options(prepared_));
+    std::optional<host::StreamResult> result;
+    {
+      asio::io_context loop{1};
+      host::Session session(loop.get_executor(), host::open_port(port_, 115200), lookahead, run_, settings);
+      session.on_event([&](const host::SessionEvent& event) {
+        if (script) script(session, event);
+      });
+      asio::co_spawn(loop, session.run(), [&](const std::exception_ptr& error, host::StreamResult ended) {
+        result = error ? session.failed(error) : std::move(ended);
+        last_ = session.status();
+        loop.stop();
+      });
+      try {
+        clock_->run(loop);
+      } catch (...) {
+        if (!result) result = session.failed(std::current_exception());
+      }
+    }
+    clock_.reset();
+    settings.clock.reset();  // hangs up, which the simulator waits for
+    const Outcome printer = printer_.wait();
+    if (printer.code != 0) {
+      throw std::runtime_error("the simulator ended with " + std::to_string(printer.code) + ": " +
+                               printer.err);
+    }
+    return *result;
+  }
+
+  nlohmann::json seen() const { return nlohmann::json::parse(read_text(folder_ / "seen.json")); }
+  const host::SessionStatus& last() const { return last_; }
+  bool cold() const {
+    const nlohmann::json heat = seen()["temperatures"];
+    return heat["nozzle"]["target"] == 0 && heat["bed"]["target"] == 0;
+  }
+  std::vector<std::string> executed() const {
+    std::istringstream stream(read_text(folder_ / "executed"));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  }
+
+ private:
+  std::string write_job(const std::string& profile_more) {
+    folder_.write("bench.toml", sample_profile + profile_more);
+    folder_.write("plate.svg", sample_drawing);
+    return folder_.write("job.toml", sample_job).string();
+  }
+
+  std::vector<std::string> simulate(const std::vector<std::string>& more) const {
+    std::vector<std::string> all{"simulate",     "--once",
+                                 "--profile",    (folder_ / "bench.toml").string(),
+                                 "--control",    (folder_ / "clock").string(),
+                                 "--report",     (folder_ / "seen.json").string(),
+                                 "--transcript", (folder_ / "executed").string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  std::shared_ptr<host::LockstepClock> connect() {
+    while (port_.find('\n') == std::string::npos) {
+      if (!printer_.running()) throw std::runtime_error("no simulator: " + printer_.err());
+      poll(nullptr, 0, 5);
+      port_ = printer_.out();
+    }
+    port_.resize(port_.find('\n'));
+    return std::make_shared<host::LockstepClock>(folder_ / "clock");
+  }
+
+  TempFolder folder_;
+  std::string job_;
+  host::PreparedJob prepared_;
+  Child printer_;
+  std::string port_;
+  host::Run run_;
+  std::shared_ptr<host::LockstepClock> clock_;
+  host::SessionStatus last_;
+};
+
+}  // namespace unicursal::test

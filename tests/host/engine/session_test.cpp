@@ -1,0 +1,300 @@
+// A print that is steered while it runs, in virtual time on a simulated printer.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "host/engine/session_json.hpp"
+#include "session_bench.hpp"
+
+using namespace unicursal::host;
+using unicursal::test::SessionBench;
+using Kind = SessionEvent::Kind;
+using Lines = std::vector<std::string>;
+
+namespace {
+
+/// Does something once, when so much has been printed.
+SessionBench::Script at(double percent, const std::function<void(Session&)>& act) {
+  return [percent, act, done = false](Session& session, const SessionEvent& event) mutable {
+    if (done || event.kind != Kind::progress || session.status().percent < percent) return;
+    done = true;
+    act(session);
+  };
+}
+
+/// And resumes when it is held.
+SessionBench::Script held_at(double percent) {
+  return [inner = at(percent, [](Session& s) { CHECK_FALSE(s.pause()); })](
+             Session& session, const SessionEvent& event) mutable {
+    inner(session, event);
+    if (event.kind == Kind::state && session.status().state == SessionState::paused)
+      CHECK_FALSE(session.resume());
+  };
+}
+
+Lines undisturbed() {
+  SessionBench bench;
+  REQUIRE(bench.print().ending == Ending::completed);
+  return bench.executed();
+}
+
+/// What `more` has beyond `lines`, which must be all there, in order, in at most two pieces.
+Lines inserted(const Lines& lines, const Lines& more) {
+  REQUIRE(more.size() >= lines.size());
+  const auto [a, b] = std::mismatch(lines.begin(), lines.end(), more.begin());
+  const auto rest = lines.end() - a;
+  REQUIRE(std::equal(a, lines.end(), more.end() - rest));
+  return {b, more.end() - rest};
+}
+
+bool holds(const Lines& lines, const std::string& line) {
+  return std::find(lines.begin(), lines.end(), line) != lines.end();
+}
+
+std::size_t index_of(const Lines& lines, const std::string& line) {
+  return static_cast<std::size_t>(std::find(lines.begin(), lines.end(), line) - lines.begin());
+}
+
+}  // namespace
+
+TEST_CASE("A print that is held and goes on runs every line once, in order") {
+  const Lines plain = undisturbed();
+  SessionBench bench;
+  const StreamResult result = bench.print(held_at(40));
+  CHECK(result.ending == Ending::completed);
+  CHECK(result.pauses == 1);
+  const Lines pause = inserted(plain, bench.executed());
+  CHECK(holds(pause, "M400"));
+  CHECK(holds(pause, "G1 E-4 F1500"));
+  CHECK_FALSE(holds(pause, "M104 S0"));
+  CHECK(bench.cold());
+}
+
+TEST_CASE("A held printer stands aside, above the part, and returns to where it was") {
+  SessionBench bench;
+  REQUIRE(bench.print(held_at(40)).ending == Ending::completed);
+  const Lines lines = bench.executed();
+  const std::size_t still = index_of(lines, "M400");
+  REQUIRE(still < lines.size());
+  // The part lies at 50…70 × 42…58 mm on a bed of 120 × 100.
+  CHECK(lines[still - 1].rfind("G0 X5 Y5", 0) == 0);
+  const auto is_travel = [](const std::string& line) { return line.rfind("G0 X", 0) == 0; };
+  const auto there = std::find_if(lines.begin() + static_cast<std::ptrdiff_t>(still), lines.end(), is_travel);
+  REQUIRE(there != lines.end());
+  const std::string back = there->substr(3, there->find(" F") - 3);
+  const auto came_from = [&](const std::string& line) { return line.find(back + " ") != std::string::npos; };
+  CHECK(std::any_of(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(still), came_from));
+}
+
+TEST_CASE("Lowered heat comes back before the print goes on") {
+  SessionBench bench;
+  bench.settings.pause_heat = PauseHeat::lower;
+  REQUIRE(bench.print(held_at(40)).ending == Ending::completed);
+  const Lines lines = bench.executed();
+  const std::size_t lower = index_of(lines, "M104 S150"), still = index_of(lines, "M400");
+  REQUIRE(lower < still);
+  const auto hot = std::find(lines.begin() + static_cast<std::ptrdiff_t>(still), lines.end(), "M109 S210");
+  REQUIRE(hot != lines.end());
+  CHECK(std::any_of(hot, lines.end(), [](const auto& l) { return l.rfind("G1 X", 0) == 0; }));
+}
+
+TEST_CASE("A long pause keeps the firmware's watch on this program fresh") {
+  SessionBench bench;
+  bench.settings.longest_pause = 4000;  // s; M85 lets an idle printer live for 1800
+  REQUIRE(bench.print(at(40, [](Session& s) { CHECK_FALSE(s.pause()); })).ending == Ending::completed);
+  CHECK(bench.seen()["killed"] == false);
+  CHECK(bench.seen()["printer_seconds"].get<double>() > 4000);
+}
+
+TEST_CASE("A pause may be asked for at any time before the end, while heating as well") {
+  const Lines plain = undisturbed();
+  const SessionState when = GENERATE(SessionState::connecting, SessionState::heating);
+  SessionBench bench;
+  const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
+    const SessionState state = session.status().state;
+    if (event.kind == Kind::state && state == when) CHECK_FALSE(session.pause());
+    if (event.kind == Kind::heat && when == SessionState::connecting && state == when) session.pause();
+    if (event.kind == Kind::state && state == SessionState::paused) CHECK_FALSE(session.resume());
+  });
+  CHECK(result.ending == Ending::completed);
+  const Lines more = bench.executed();
+  CHECK(more.size() >= plain.size());
+  CHECK(bench.seen()["executed_lines_in_order"] == true);
+}
+
+TEST_CASE("The firmware's own wishes are obeyed like the user's") {
+  const Lines plain = undisturbed();
+  SECTION("pause and resume") {
+    SessionBench bench(
+        {"--fault", "say://action:pause@line=200", "--fault", "say://action:resume@command=M105"});
+    CHECK(bench.print().pauses == 1);
+    CHECK(holds(inserted(plain, bench.executed()), "M400"));
+  }
+  SECTION("filament runs out: the firmware parks by itself, and gets nothing meanwhile") {
+    SessionBench bench({"--fault", "runout@line=200"});
+    bench.settings.longest_pause = 300;
+    const StreamResult result = bench.print();
+    CHECK(result.ending == Ending::completed);
+    CHECK(result.pauses == 1);
+    CHECK(bench.executed() == plain);
+    CHECK(bench.seen()["printer_seconds"].get<double>() > 300);
+  }
+  SECTION("cancel") {
+    SessionBench bench({"--fault", "say://action:cancel@line=200"});
+    const StreamResult result = bench.print();
+    CHECK(result.ending == Ending::stopped);
+    CHECK(result.parked);
+    CHECK(bench.cold());
+    CHECK(bench.last().reason.find("printer") != std::string::npos);
+  }
+}
+
+TEST_CASE("A cancelled print is parked and cold, from wherever it is") {
+  const SessionState when = GENERATE(SessionState::heating, SessionState::printing, SessionState::pausing,
+                                     SessionState::paused, SessionState::resuming);
+  CAPTURE(name(when));
+  SessionBench bench;
+  const auto pause = at(40, [](Session& s) { s.pause(); });
+  const StreamResult result = bench.print([&, pause](Session& session, const SessionEvent& event) mutable {
+    const SessionState state = session.status().state;
+    if (when != SessionState::printing) pause(session, event);
+    if (when == SessionState::printing && session.status().percent > 40 && state == when) session.cancel();
+    if (event.kind != Kind::state) return;
+    if (state == when && when != SessionState::printing) CHECK_FALSE(session.cancel());
+    if (state == SessionState::paused && when == SessionState::resuming) session.resume();
+  });
+  CHECK(result.ending == Ending::stopped);
+  CHECK(bench.last().state == SessionState::stopped);
+  CHECK(bench.cold());
+  CHECK(result.parked == (when != SessionState::heating));
+}
+
+TEST_CASE("An emergency stop ends everything at once, and is confirmed") {
+  SessionBench bench;
+  const StreamResult result = bench.print(at(40, [](Session& s) { CHECK_FALSE(s.emergency_stop()); }));
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.reason.find("stopped at once; reset the printer") != std::string::npos);
+  CHECK(bench.seen()["killed"] == true);
+  CHECK(bench.cold());
+}
+
+TEST_CASE("Speed, flow and heat change while it prints, and nothing else does") {
+  const Lines plain = undisturbed();
+  SessionBench bench;
+  bool refused = false;
+  const StreamResult result = bench.print(at(40, [&](Session& session) {
+    CHECK_FALSE(session.set_speed(80));
+    CHECK_FALSE(session.set_flow(95));
+    CHECK_FALSE(session.set_nozzle(205));
+    CHECK_FALSE(session.set_bed(55));
+    refused = session.set_speed(5) && session.set_flow(1e9) && session.set_nozzle(900) &&
+              session.set_bed(-1) && session.set_speed(std::nan(""));
+  }));
+  CHECK(refused);
+  CHECK(result.ending == Ending::completed);
+  CHECK(inserted(plain, bench.executed()) == Lines{"M220 S80", "M221 S95", "M104 S205", "M140 S55"});
+  CHECK(bench.last().speed_percent == 80);
+  CHECK(bench.last().flow_percent == 95);
+  CHECK(bench.cold());
+}
+
+TEST_CASE("Heat that was changed is what a pause comes back to") {
+  SessionBench bench;
+  bench.settings.pause_heat = PauseHeat::lower;
+  const auto hold = held_at(50);
+  const auto change = at(30, [](Session& s) { s.set_nozzle(195); });
+  REQUIRE(bench
+              .print([hold, change](Session& session, const SessionEvent& event) mutable {
+                change(session, event);
+                hold(session, event);
+              })
+              .ending == Ending::completed);
+  CHECK(holds(bench.executed(), "M104 S135"));
+  CHECK(holds(bench.executed(), "M109 S195"));
+}
+
+TEST_CASE("Commands that make no sense are refused with a reason") {
+  SessionBench bench;
+  bool seen = false;
+  bench.print([&](Session& session, const SessionEvent& event) {
+    if (event.kind != Kind::state) return;
+    switch (session.status().state) {
+      case SessionState::printing:
+        seen = true;
+        CHECK(session.resume().value() == "it is not paused");
+        break;
+      case SessionState::finishing:
+        CHECK(session.pause());
+        CHECK(session.cancel());
+        CHECK(session.set_speed(90));
+        break;
+      case SessionState::done:
+        CHECK(session.pause());
+        CHECK(session.resume());
+        CHECK(session.cancel());
+        CHECK(session.emergency_stop());
+        break;
+      default:
+        break;
+    }
+  });
+  CHECK(seen);
+}
+
+TEST_CASE("What it tells of itself holds together") {
+  SessionBench bench;
+  std::set<std::string> mixtures;
+  std::vector<SessionState> states;
+  double percent = 0, left = 1e9;
+  std::size_t layer = 0;
+  bench.print([&](Session& session, const SessionEvent& event) {
+    const SessionStatus status = session.status();
+    if (event.kind == Kind::state) states.push_back(status.state);
+    CHECK(status.layers == 2);
+    CHECK(status.layer <= 2);
+    CHECK(status.layer >= layer);
+    layer = status.layer;
+    if (!status.mixture.empty()) mixtures.insert(status.mixture);
+    if (status.state != SessionState::printing || !status.left) return;
+    CHECK(status.percent >= percent - 1e-9);
+    CHECK(*status.left <= left * 1.2);  // the second layer may be a little longer than the first foretold
+    percent = status.percent;
+    left = *status.left;
+    CHECK(status.temperatures.nozzle.value() > 180);
+    CHECK(to_json(status)["state"] == "printing");
+  });
+  CHECK(mixtures.count("sea") == 1);
+  CHECK(mixtures.count("sun") == 1);
+  CHECK(percent > 95);
+  CHECK(states == std::vector<SessionState>{SessionState::heating, SessionState::printing,
+                                            SessionState::finishing, SessionState::done});
+  CHECK(bench.last().left == 0);
+}
+
+TEST_CASE("Heaters are cold or the firmware has killed itself, however a print ends") {
+  const std::string fault =
+      GENERATE("", "reset@line=300", "thermistor@line=300", "fatal:Something broke@line=300",
+               "silence@line=300", "runaway@t=60", "stall:20@line=300");
+  CAPTURE(fault);
+  SessionBench bench(fault.empty() ? Lines{} : Lines{"--fault", fault});
+  const StreamResult result = bench.print();
+  CHECK((result.ending == Ending::completed) == (fault.empty() || fault == "stall:20@line=300"));
+  if (result.ending == Ending::failed) CHECK(result.reason.size() > 20);
+  CHECK((bench.cold() || bench.seen()["killed"] == true || fault == "silence@line=300"));
+}
+
+TEST_CASE("A user's start lines cannot switch M85 off, and are told so") {
+  SessionBench bench({}, "\n[gcode]\nstart = \"M85 S0\"\n");
+  REQUIRE(bench.print().ending == Ending::completed);
+  const Lines lines = bench.executed();
+  const auto last =
+      std::find_if(lines.begin(), lines.end(), [](const auto& l) { return l.rfind("G1 X", 0) == 0; });
+  const auto watch = std::find_if(std::make_reverse_iterator(last), lines.rend(),
+                                  [](const auto& l) { return l.rfind("M85", 0) == 0; });
+  REQUIRE(watch != lines.rend());
+  CHECK(*watch == "M85 S1800");
+  const auto& told = bench.last().warnings;
+  CHECK(std::any_of(told.begin(), told.end(),
+                    [](const auto& w) { return w.find("M85") != std::string::npos; }));
+}
