@@ -12,6 +12,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/show.hpp"
 #include "host/cli/version.hpp"
+#include "host/daemon/state_folder.hpp"
 #include "host/link/link.hpp"
 
 namespace unicursal::host {
@@ -228,6 +229,8 @@ class CommandLine {
     declare_simulate();
     declare_doctor();
     declare_tune();
+    declare_serve();
+    declare_remote();
     command("ports", "list the serial ports that a printer may hang on", "unicursal ports");
   }
 
@@ -239,6 +242,14 @@ class CommandLine {
     if (name == "plan") return plan({job_.options(), output_});
     if (name == "print") {
       return print({job_.options(), text_if(port_), path_if(spool_), path_if(log_), {json_}, pause_heat()});
+    }
+    if (name == "serve") return serve(serve_options());
+    if (name == "queue") return queue(queue_command());
+    if (name == "status" || name == "start" || name == "pause" || name == "cancel" || name == "stop") {
+      return remote(remote_command(name));
+    }
+    if (name == "resume" && means_daemon() && daemon_prints(remote_command(name))) {
+      return remote(remote_command(name));
     }
     if (name == "resume") {
       return resume({text_if(print_),
@@ -327,11 +338,15 @@ class CommandLine {
     app.add_flag("--json", json_, "events on standard output, one JSON object on each line");
   }
 
-  void declare_control(CLI::App& app) {
-    declare_json(app);
+  void declare_pause_heat(CLI::App& app) {
     app.add_option("--pause-heat", pause_heat_,
                    "what becomes of the nozzle's heat in a pause: keep (the default) or lower")
         ->check(CLI::IsMember({"keep", "lower"}));
+  }
+
+  void declare_control(CLI::App& app) {
+    declare_json(app);
+    declare_pause_heat(app);
     app.footer(
         app.get_footer() +
         "\n\nIn a terminal, a word and Enter steers the print: pause, resume, cancel (parks and cools), "
@@ -368,6 +383,7 @@ class CommandLine {
     app->add_option("print", print_, "which one: its name or the beginning of it; the default is the newest")
         ->type_name("PRINT");
     declare_spool(*app);
+    declare_state(*app);
     app->add_option("--port", port_, "serial port, or auto; the default is the one that it was begun on")
         ->type_name("PORT");
     declare_log(*app);
@@ -375,12 +391,101 @@ class CommandLine {
     app->add_flag("--list", list_, "only list the prints that are kept");
     app->footer(
         app->get_footer() +
-        "\n\nIf the printer is still on and hot, it goes on with the next line: none is lost, none is "
+        "\n\nWhen a daemon (`unicursal serve`) holds a print, that one goes on. Otherwise it is for a print "
+        "that\nwas broken off. If the printer is still on and hot, it goes on with the next line: none is "
+        "lost, none is "
         "run\ntwice. If it was reset or cooled, you are told where the print stopped, and asked: the "
         "nozzle\nheats where it stands, rises, homes x and y only, squeezes out plastic beside the "
         "part, and\ngoes on at the last place that is certain. z cannot be homed on the part, so it "
         "must not have\nbeen moved. The profile's own start lines are not run again.");
     declare_control(*app);
+  }
+
+  void declare_state(CLI::App& app) {
+    app.add_option("--state", state_,
+                   "folder of the daemon; the default is unicursal/daemon in $XDG_STATE_HOME or "
+                   "~/.local/state")
+        ->type_name("DIR");
+  }
+
+  void declare_serve() {
+    CLI::App* app = command("serve", "own the printer, keep a queue of jobs, and be steered over HTTP",
+                            "unicursal serve --port /dev/ttyUSB0 --profile diamond.toml --jobs ~/jobs");
+    app->add_option("--port", port_, "serial port, or auto; the default is the profile's")->type_name("PORT");
+    app->add_option("--profile", job_.profile, "the printer's profile, instead of those that jobs name")
+        ->type_name("FILE");
+    app->add_option("--jobs", job_folders_, "folder whose jobs may be queued; may be given several times")
+        ->type_name("DIR")
+        ->take_all()
+        ->expected(1);
+    app->add_option("--listen", serve_.listen, "address and port; 127.0.0.1:8377 is the default")
+        ->type_name("ADDRESS");
+    app->add_option("--name", serve_.names, "another name of this computer by which clients come")
+        ->type_name("HOST")
+        ->take_all()
+        ->expected(1);
+    app->add_flag("--no-token", serve_.no_token, "let everyone on this computer steer; only on loopback");
+    declare_state(*app);
+    declare_spool(*app);
+    declare_pause_heat(*app);
+    app->footer(
+        app->get_footer() +
+        "\n\nA print is begun by `unicursal start`, never by itself: the last part may still lie on the "
+        "bed.\nSIGTERM or Ctrl-C parks and cools a print that is going on, and waits for that; once more "
+        "stops the\nprinter at once. The API is described in API.md.");
+  }
+
+  void declare_remote() {
+    const std::pair<const char*, const char*> words[] = {
+        {"status", "what the daemon does"},
+        {"start", "let the daemon print the job that waits first, or the one of this number"},
+        {"pause", "hold the daemon's print: it parks, and waits for resume"},
+        {"cancel", "end the daemon's print: it parks and cools"},
+        {"stop", "stop the daemon's printer at once (M112); it needs a reset afterwards"}};
+    for (const auto& [word, what] : words) {
+      CLI::App* app = command(word, what, std::string("unicursal ") + word);
+      declare_state(*app);
+      app->add_flag("--json", json_, "the daemon's own answer");
+      if (std::string(word) == "start")
+        app->add_option("job", job_number_, "its number")->type_name("NUMBER");
+    }
+    CLI::App* app = command("queue", "the daemon's jobs", "unicursal queue --add leaf.toml");
+    declare_state(*app);
+    app->add_flag("--json", json_, "the daemon's own answer");
+    app->add_flag("--jobs", list_, "list the jobs that can be added");
+    CLI::Option* add =
+        app->add_option("--add", queue_add_, "a job in the daemon's folders")->type_name("JOB");
+    app->add_option("--upload", queue_upload_, "a job of your own, sent with the files that it names")
+        ->type_name("FILE")
+        ->excludes(add);
+    app->add_option("--layers", job_.layers, "of it, these only: first:last counted from 0")
+        ->type_name("A:B");
+    app->add_option("--remove", queue_remove_, "take the job of this number away")->type_name("NUMBER");
+  }
+
+  /// Whoever names a kept print, or where prints are kept, does not mean the daemon's.
+  bool means_daemon() const { return !list_ && print_.empty() && (spool_.empty() || !state_.empty()); }
+
+  RemoteCommand remote_command(const std::string& word) const {
+    return {word, path_if(state_), json_, job_number_};
+  }
+
+  QueueCommand queue_command() const {
+    QueueCommand command{remote_command("queue"), text_if(queue_add_), path_if(queue_upload_), {}, {}, list_};
+    if (!job_.layers.empty()) command.layers = parse_layers(job_.layers);
+    command.remove = queue_remove_;
+    return command;
+  }
+
+  ServeOptions serve_options() const {
+    ServeOptions options = serve_;
+    options.daemon.state = state_.empty() ? default_state_folder() : std::filesystem::path(state_);
+    options.daemon.jobs.assign(job_folders_.begin(), job_folders_.end());
+    options.daemon.port = text_if(port_);
+    options.daemon.profile = path_if(job_.profile);
+    options.daemon.spool = path_if(spool_);
+    options.daemon.pause_heat = pause_heat();
+    return options;
   }
 
   void declare_curve() {
@@ -518,6 +623,10 @@ class CommandLine {
   double pixel_ = 0.05;
   std::size_t layer_ = 0, island_ = 0;
   bool yes_ = false, list_ = false;
+  std::string state_, queue_add_, queue_upload_;
+  std::vector<std::string> job_folders_;
+  std::optional<std::uint64_t> job_number_, queue_remove_;
+  ServeOptions serve_;
   std::string pause_heat_ = "keep";
   std::string spool_, print_;
   std::string output_, port_, link_, rasters_, control_, transcript_;

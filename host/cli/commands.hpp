@@ -10,6 +10,7 @@
 
 #include "core/planner/plan_island.hpp"
 #include "host/cli/cli.hpp"
+#include "host/daemon/serve.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
 #include "host/engine/session.hpp"
@@ -75,6 +76,23 @@ struct DoctorCommand {
   bool json = false;
 };
 
+/// One that a daemon is asked to do: status, start, pause, resume, cancel, stop.
+struct RemoteCommand {
+  std::string word;
+  std::optional<std::filesystem::path> state;  ///< the daemon's folder
+  bool json = false;
+  std::optional<std::uint64_t> id;  ///< of the job to start
+};
+
+struct QueueCommand {
+  RemoteCommand remote;
+  std::optional<std::string> add;               ///< by its name in the daemon's folders
+  std::optional<std::filesystem::path> upload;  ///< a job of this user's, with what it needs
+  std::optional<LayerRange> layers;             ///< of the one that is added
+  std::optional<std::uint64_t> remove;          ///< its number
+  bool list_jobs = false;                       ///< those that can be added
+};
+
 struct CurveCommand {
   std::filesystem::path job;
   std::optional<std::filesystem::path> profile;
@@ -116,6 +134,11 @@ Exit plan(const PlanCommand& command);
 Exit dry_run(const DryRunCommand& command);
 Exit print(const PrintCommand& command);
 Exit resume(const ResumeCommand& command);
+Exit serve(const ServeOptions& options);
+Exit remote(const RemoteCommand& command);
+Exit queue(const QueueCommand& command);
+/// Whether a daemon is there and at a print: `resume` is for that one then.
+bool daemon_prints(const RemoteCommand& command);
 Exit curve(const CurveCommand& command);
 Exit simulate(SimulateCommand command);
 Exit tune(const TuneCommand& command);

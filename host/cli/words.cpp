@@ -10,7 +10,6 @@
 #include "host/cli/display.hpp"
 #include "host/cli/show.hpp"
 #include "host/engine/session_json.hpp"
-#include "host/link/serial_log.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -24,8 +23,6 @@ std::size_t parse_index(std::string_view text, const std::string& whole) {
 }
 
 namespace fs = std::filesystem;
-
-constexpr double look_ahead = 300;  ///< s of printing that are planned before they are needed
 
 /// Whether two names mean the same file, be it there or not. Devices take any number of outputs.
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -46,12 +43,6 @@ std::vector<fs::path> inputs_of(const Job& job) {
     if (!zone.pattern.field.empty()) inputs.push_back(zone.pattern.field);
   }
   return inputs;
-}
-
-bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
-  const core::PlanOptions plan = lookahead_options(prepared).plan;
-  return std::any_of(layer.islands.begin(), layer.islands.end(),
-                     [&](const core::Island& island) { return prepared.planner->fits(island, plan); });
 }
 
 }  // namespace
@@ -94,30 +85,6 @@ PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::pa
   for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
   for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
   return prepared;
-}
-
-void check_beginning(const PreparedJob& prepared) {
-  const std::size_t end = prepared.first + prepared.count;
-  for (std::size_t index = prepared.first; index < end; ++index) {
-    const core::Layer layer = prepared.part->layer(index);
-    if (!has_curve(prepared, layer)) continue;
-    if (index == prepared.first) return;
-    throw core::DataError(
-        prepared.job.file.string(), "part",
-        fmt::format("the first {} layers hold nothing that can be printed; printing would "
-                    "begin in the air at z = {:.2f} mm",
-                    index - prepared.first, layer.top - layer.height - prepared.lowered),
-        fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", layer.index));
-  }
-  throw core::DataError(
-      prepared.job.file.string(), "part", "is nowhere wide enough for a closed curve",
-      fmt::format("choose a bead_width below {:g} mm, or scale the part", prepared.job.bead_width));
-}
-
-LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock) {
-  options.horizon = look_ahead;
-  options.pace = pace_by(clock);
-  return options;
 }
 
 void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra) {
@@ -165,14 +132,6 @@ Exit tell_ending(const StreamResult& result, const DisplayOptions& display) {
 
 std::FILE* words_of(const DisplayOptions& display) {
   return display.json ? stderr : stdout;
-}
-
-LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log) {
-  LinkOptions options;
-  options.receive_buffer = profile.receive_buffer - 1;  // in a ring, one place always stays free
-  options.temperatures = std::chrono::seconds(2);
-  if (log) options.log = std::make_shared<SerialLog>(*log);
-  return options;
 }
 
 nlohmann::json planning_json(const Lookahead& lookahead) {

@@ -18,13 +18,6 @@ void check_outputs(std::vector<std::filesystem::path> inputs,
 /// and `more`, that are one of the job's own files or one another.
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<std::filesystem::path>& more = {});
 
-/// Throws core::DataError if the first layer is nowhere wide enough for a curve: the print would begin in the
-/// air, or there would be none.
-void check_beginning(const PreparedJob& prepared);
-
-/// With the time that the printing leaves, by the clock of a session.
-LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock);
-
 /// The report of a print that has come to an end, whichever; a failure to write it is none of the input's.
 /// Throws PrintError, also when the print has failed.
 void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra);
@@ -37,9 +30,6 @@ Exit tell_ending(const StreamResult& result, const DisplayOptions& display);
 
 /// Where words for people go: events have the standard output for themselves.
 std::FILE* words_of(const DisplayOptions& display);
-
-/// How the printer of a profile is talked to.
-LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log);
 
 /// The report's "planning": seconds, cpu_seconds, threads.
 nlohmann::json planning_json(const Lookahead& lookahead);

@@ -137,6 +137,12 @@ void thin(core::BeadPath& path, double width) {
   for (std::size_t i = 0; i < path.size(); ++i) path.beads[i].area = width * path.length(i);
 }
 
+bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
+  const core::PlanOptions plan = lookahead_options(prepared).plan;
+  return std::any_of(layer.islands.begin(), layer.islands.end(),
+                     [&](const core::Island& island) { return prepared.planner->fits(island, plan); });
+}
+
 }  // namespace
 
 PreparedJob prepare(Job job, const std::optional<LayerRange>& layers) {
@@ -221,6 +227,24 @@ gcode::PlacedLayer placed(const PreparedJob& prepared, const PlannedLayer& plann
     }
   }
   return layer;
+}
+
+void check_beginning(const PreparedJob& prepared) {
+  const std::size_t end = prepared.first + prepared.count;
+  for (std::size_t index = prepared.first; index < end; ++index) {
+    const core::Layer layer = prepared.part->layer(index);
+    if (!has_curve(prepared, layer)) continue;
+    if (index == prepared.first) return;
+    throw core::DataError(
+        prepared.job.file.string(), "part",
+        fmt::format("the first {} layers hold nothing that can be printed; printing would "
+                    "begin in the air at z = {:.2f} mm",
+                    index - prepared.first, layer.top - layer.height - prepared.lowered),
+        fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", layer.index));
+  }
+  throw core::DataError(
+      prepared.job.file.string(), "part", "is nowhere wide enough for a closed curve",
+      fmt::format("choose a bead_width below {:g} mm, or scale the part", prepared.job.bead_width));
 }
 
 }  // namespace unicursal::host

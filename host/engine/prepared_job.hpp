@@ -35,6 +35,10 @@ struct PreparedJob {
 /// fit on the bed or the range names no layer.
 PreparedJob prepare(Job job, const std::optional<LayerRange>& layers = {});
 
+/// Throws core::DataError if the first layer is nowhere wide enough for a curve: the print would begin in the
+/// air, or there would be none.
+void check_beginning(const PreparedJob& prepared);
+
 gcode::PrintSettings print_settings(const PreparedJob& prepared);
 LookaheadOptions lookahead_options(const PreparedJob& prepared);
 

@@ -9,10 +9,13 @@
 
 #include "host/engine/rejoining.hpp"
 #include "host/engine/session_impl.hpp"
+#include "host/link/serial_log.hpp"
 #include "host/spool/chunk_reader.hpp"
 
 namespace unicursal::host {
 namespace {
+
+constexpr double look_ahead = 300;  ///< s of printing that are planned before they are needed
 
 /// Lines handed to the link at once: few, so that a command takes effect soon.
 constexpr std::size_t batch = 16;
@@ -51,7 +54,7 @@ std::size_t whole_layers(const gcode::Chunk& chunk) {
                                                 [](const gcode::LayerShare& share) { return share.last; }));
 }
 
-LinkOptions link_options(const StreamSettings& settings) {
+LinkOptions on_clock(const StreamSettings& settings) {
   LinkOptions options = settings.link;
   options.clock = settings.clock;
   return options;
@@ -88,7 +91,7 @@ Session::State::State(asio::any_io_executor on, int descriptor, Source& of, Stre
       clock(settings.clock),
       wake(on, clock),
       self(std::make_shared<State*>(this)),
-      link(on, descriptor, link_options(settings)) {
+      link(on, descriptor, on_clock(settings)) {
   link.on_message([this](const std::string& line) { hear(line); });
   source.on_ready([on, weak = std::weak_ptr(self)] {
     asio::post(on, [weak] {
@@ -377,6 +380,20 @@ StreamResult Session::State::result(const std::exception_ptr& error) {
 
 Pace pace_by(std::shared_ptr<Clock> clock) {
   return {[clock = std::move(clock)] { return seconds(clock->now().time_since_epoch()); }, 1};
+}
+
+LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock) {
+  options.horizon = look_ahead;
+  options.pace = pace_by(clock);
+  return options;
+}
+
+LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log) {
+  LinkOptions options;
+  options.receive_buffer = profile.receive_buffer - 1;  // in a ring, one place always stays free
+  options.temperatures = std::chrono::seconds(2);
+  if (log) options.log = std::make_shared<SerialLog>(*log);
+  return options;
 }
 
 Session::Session(asio::any_io_executor executor, int port, Source& source, StreamSettings settings)

@@ -31,6 +31,7 @@
 
 #include "firmware_gcode/reply/reply.hpp"
 #include "host/engine/source.hpp"
+#include "host/job/profile.hpp"
 #include "host/link/link.hpp"
 #include "host/spool/spool.hpp"
 
@@ -145,6 +146,11 @@ const char* name(SessionEvent::Kind kind);
 
 /// For a look-ahead that plans by the real clock of a session.
 Pace pace_by(std::shared_ptr<Clock> clock);
+/// The same, with the time that the printing leaves.
+LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock);
+
+/// How the printer of a profile is talked to. `log`: of the serial line.
+LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log);
 
 /// Why a command is not obeyed, a sentence; nothing when it is.
 using Refusal = std::optional<std::string>;

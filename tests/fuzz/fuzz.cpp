@@ -28,6 +28,7 @@
 #include "tests/core/support/plan_faults.hpp"
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"
+#include "tests/fuzz/http_target.hpp"
 #include "tests/fuzz/replies.hpp"
 #include "tests/fuzz/simulator.hpp"
 #include "tests/fuzz/spool.hpp"
@@ -146,7 +147,8 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"journal", test::journal},
     {"chunks", test::chunks},
     {"replies", test::read_replies},
-    {"conversation", test::converse}};
+    {"conversation", test::converse},
+    {"http", test::http}};
 
 /// True for a file that was read, false for one that was refused as it should be.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -189,7 +191,7 @@ int main(int count, char** words) {
     std::fprintf(
         stderr,
         "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|"
-        "replies|conversation "
+        "replies|conversation|http "
         "SECONDS [FIRST]\n");
     return 2;
   }

@@ -1,0 +1,99 @@
+#include "host/daemon/access.hpp"
+
+#include <fmt/format.h>
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+namespace unicursal::host {
+namespace {
+
+constexpr std::string_view bearer = "Bearer ";
+constexpr std::string_view token_protocol = "token.";
+
+/// In a time that does not tell how many signs were right.
+bool same(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  unsigned different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    different |= static_cast<unsigned>(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
+  return different == 0;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+/// A page's script cannot set headers of a WebSocket, but it can offer protocols.
+std::optional<std::string> offered_token(const RequestHead& head) {
+  const std::string offered = head.header("sec-websocket-protocol").value_or("");
+  const std::size_t at = offered.find(token_protocol);
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t begin = at + token_protocol.size();
+  return offered.substr(begin, offered.find_first_of(", ", begin) - begin);
+}
+
+std::optional<std::string> token_of(const RequestHead& head) {
+  const auto given = head.header("authorization");
+  if (given && given->starts_with(bearer)) return given->substr(bearer.size());
+  return offered_token(head);
+}
+
+void check_host(const RequestHead& head, const AccessRules& rules) {
+  const auto host = head.header("host");
+  if (!host) throw HttpError(400, "the request does not say which host it is for");
+  if (std::find(rules.hosts.begin(), rules.hosts.end(), lower(*host)) == rules.hosts.end())
+    throw HttpError(421, "this computer does not go by that name; allow it with --name");
+}
+
+void check_origin(const RequestHead& head, const AccessRules& rules) {
+  const std::string site = head.header("sec-fetch-site").value_or("none");
+  const bool own_site = site == "none" || site == "same-origin";
+  const auto origin = head.header("origin");
+  const auto own = [&](const std::string& host) {
+    return lower(*origin) == "http://" + host || lower(*origin) == "https://" + host;
+  };
+  if (!own_site || (origin && std::none_of(rules.hosts.begin(), rules.hosts.end(), own)))
+    throw HttpError(403, "requests of other sites' pages are not obeyed");
+}
+
+}  // namespace
+
+void check_access(const RequestHead& head, const AccessRules& rules) {
+  check_host(head, rules);
+  check_origin(head, rules);
+  if (!rules.token) return;
+  const auto given = token_of(head);
+  if (given && same(*given, *rules.token)) return;
+  if (given && rules.metrics_token && head.path == "/metrics" && same(*given, *rules.metrics_token)) return;
+  throw HttpError(401, "the token is missing or wrong: it is in the daemon's state folder");
+}
+
+std::vector<std::string> hosts_for(const std::string& address, unsigned port,
+                                   const std::vector<std::string>& names) {
+  std::vector<std::string> hosts = {"localhost", "127.0.0.1", "[::1]",
+                                    address.find(':') == std::string::npos ? address : "[" + address + "]"};
+  for (const std::string& name : names) hosts.push_back(lower(name));
+  std::vector<std::string> all;
+  for (const std::string& host : hosts) {
+    all.push_back(fmt::format("{}:{}", host, port));
+    if (port == 80) all.push_back(host);
+  }
+  return all;
+}
+
+std::string random_token() {
+  std::array<unsigned char, 32> bytes{};
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::system_error(errno, std::generic_category(), "no random numbers");
+  std::string text;
+  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+}  // namespace unicursal::host

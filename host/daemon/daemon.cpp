@@ -1,0 +1,327 @@
+#include "host/daemon/daemon.hpp"
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/post.hpp>
+#include <asio/use_awaitable.hpp>
+#include <utility>
+
+#include "firmware_gcode/reply/reply.hpp"
+#include "host/daemon/service_notify.hpp"
+#include "host/daemon/state_folder.hpp"
+#include "host/engine/session_json.hpp"
+#include "host/job/profile.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+constexpr auto progress_interval = 250ms;  ///< between two events of progress; more is more than eyes see
+
+/// In another thread; what it throws is thrown here.
+template <typename Work>
+asio::awaitable<std::invoke_result_t<Work>> at_work(Work work) {
+  co_return work();
+}
+
+template <typename Work>
+auto elsewhere(asio::thread_pool& pool, Work work) {
+  return asio::co_spawn(pool.get_executor(), at_work(std::move(work)), asio::use_awaitable);
+}
+
+std::string told_by(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::exception& known) {
+    return known.what();
+  } catch (...) {
+    return "something unknown went wrong";
+  }
+}
+
+QueuedJob::State state_after(Ending ending) {
+  switch (ending) {
+    case Ending::completed:
+      return QueuedJob::State::done;
+    case Ending::stopped:
+      return QueuedJob::State::stopped;
+    case Ending::failed:
+      break;
+  }
+  return QueuedJob::State::failed;
+}
+
+}  // namespace
+
+Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
+    : loop_(loop),
+      options_(options),
+      files_(options.jobs, options.state / "files"),
+      queue_(options.state / "queue.json"),
+      progress_(loop) {
+  if (options.profile) profile_ = load_profile(*options.profile);
+  replace_file(options_.state / "queue.json", queue_.text());
+}
+
+Daemon::~Daemon() {
+  disk_.join();
+  preparing_.join();
+}
+
+// ---- what is known
+
+json Daemon::job_and_print() const {
+  json now = json::object();
+  if (!current_) return now;
+  if (const QueuedJob* job = queue_.find(current_->id)) now["job"] = to_json(*job);
+  if (current_->print && current_->print->session())
+    now["print"] = to_json(current_->print->session()->status());
+  return now;
+}
+
+json Daemon::status() const {
+  json status = {{"version", 1}, {"state", "idle"}, {"waiting", queue_.waiting()}};
+  if (current_) status["state"] = current_->print ? "printing" : "preparing";
+  status.update(job_and_print());
+  if (!last_.is_null()) status["last"] = last_;
+  if (!problem_.empty()) status["problem"] = problem_;
+  return status;
+}
+
+json Daemon::printer() const {
+  json printer = {{"version", 1}, {"busy", busy()}};
+  if (options_.port) printer["port"] = *options_.port;
+  if (!firmware_.empty()) printer["firmware"] = gcode::printable(firmware_);
+  const Profile* profile = profile_ ? &*profile_ : nullptr;
+  if (current_ && current_->print) profile = &current_->print->prepared().job.profile;
+  if (!profile) return printer;
+  printer["name"] = profile->printer.name;
+  printer["baud"] = profile->baud;
+  printer["bed_mm"] = profile->printer.bed;
+  printer["nozzle_mm"] = profile->printer.nozzle;
+  if (!options_.port) printer["port"] = profile->port;
+  return printer;
+}
+
+Session& Daemon::session() {
+  if (!current_) throw HttpError(409, "nothing is being printed");
+  if (!current_->print || !current_->print->session())
+    throw HttpError(409, "the print is still being prepared");
+  return *current_->print->session();
+}
+
+// ---- the queue
+
+asio::awaitable<void> Daemon::save() {
+  const auto write = [file = options_.state / "queue.json", text = queue_.text()] {
+    replace_file(file, text);
+    return true;
+  };
+  co_await elsewhere(disk_, write);
+}
+
+asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<LayerRange> layers) {
+  if (queue_.waiting() >= Queue::most_waiting) throw HttpError(409, "the queue is full");
+  const auto check = [this, name] {
+    const std::filesystem::path file = files_.find(name);
+    try {
+      load_job(file, options_.profile);
+    } catch (const core::DataError& error) {
+      throw HttpError(422, error.what());
+    }
+    return true;
+  };
+  co_await elsewhere(disk_, check);
+  const std::uint64_t id = queue_.add(std::move(name), layers);
+  co_await save();
+  broadcast({{"event", "queue"}, {"job", to_json(*queue_.find(id))}});
+  co_return id;
+}
+
+asio::awaitable<void> Daemon::remove(std::uint64_t id) {
+  if (!queue_.find(id)) throw HttpError(404, "there is no job of that number");
+  if (current_ && current_->id == id) throw HttpError(409, "that job is being printed; cancel it instead");
+  queue_.remove(id);
+  co_await save();
+  broadcast({{"event", "queue"}, {"removed", id}});
+}
+
+asio::awaitable<void> Daemon::keep_upload(std::string upload, std::string file, std::string bytes) {
+  const auto keep = [this, upload, file, bytes = std::move(bytes)] {
+    files_.keep(upload, file, bytes);
+    return true;
+  };
+  co_await elsewhere(disk_, keep);
+}
+
+asio::awaitable<void> Daemon::remove_upload(std::string upload) {
+  const auto remove = [this, upload] {
+    files_.remove(upload);
+    return true;
+  };
+  co_await elsewhere(disk_, remove);
+}
+
+asio::awaitable<std::vector<std::string>> Daemon::job_names() {
+  const auto list = [this] { return files_.list(); };
+  co_return co_await elsewhere(disk_, list);
+}
+
+// ---- printing
+
+std::uint64_t Daemon::start(std::optional<std::uint64_t> id) {
+  if (when_idle_) throw HttpError(409, "the daemon is ending");
+  if (current_) throw HttpError(409, "a print is going on");
+  const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
+  if (!job) throw HttpError(id ? 404 : 409, id ? "there is no job of that number" : "no job is waiting");
+  const std::uint64_t chosen = job->id;
+  current_.emplace();
+  current_->id = chosen;
+  asio::co_spawn(
+      loop_, [this, chosen]() -> asio::awaitable<void> { co_await print(chosen); }, asio::detached);
+  return chosen;
+}
+
+PrintPlan Daemon::plan_of(const QueuedJob& job) const {
+  PrintPlan plan;
+  plan.job = files_.find(job.name);
+  plan.profile = options_.profile;
+  plan.layers = job.layers;
+  plan.port = options_.port;
+  if (!plan.port && profile_) plan.port = profile_->port;
+  plan.own_port = JobFiles::is_upload(job.name);
+  plan.spool = options_.spool;
+  plan.pause_heat = options_.pause_heat;
+  return plan;
+}
+
+asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {
+  queue_.enter(id, state, reason);
+  std::string trouble;
+  try {
+    co_await save();
+  } catch (const std::exception& error) {
+    trouble = error.what();
+  }
+  problem_ = trouble;
+  if (const QueuedJob* job = queue_.find(id)) broadcast({{"event", "queue"}, {"job", to_json(*job)}});
+}
+
+asio::awaitable<void> Daemon::print(std::uint64_t id) {
+  auto ending = QueuedJob::State::failed;
+  std::string reason;
+  std::exception_ptr error;
+  try {
+    reason = co_await print_prepared(id, ending);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  if (error) reason = told_by(error);
+  if (current_->print) {
+    if (current_->print->session()) last_ = job_and_print();
+    current_->print->end();
+    // The planning threads end when they come to it: not on this loop's time.
+    asio::post(preparing_,
+               [gone = std::shared_ptr<Print>(std::move(current_->print))]() mutable { gone.reset(); });
+  }
+  current_.reset();
+  notify_service("STATUS=idle");
+  co_await enter(id, ending, reason);
+  if (when_idle_) when_idle_();
+}
+
+/// The reason why it ended as it did; empty after a good end.
+asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob::State& ending) {
+  co_await enter(id, QueuedJob::State::preparing, {});
+  const QueuedJob job = *queue_.find(id);
+  const auto prepare = [this, job] { return std::make_unique<Print>(plan_of(job)); };
+  std::unique_ptr<Print> prepared = co_await elsewhere(preparing_, prepare);
+  if (current_->cancelled) {
+    ending = QueuedJob::State::stopped;
+    co_return *current_->cancelled;
+  }
+  current_->print = std::move(prepared);
+  Session& session = current_->print->begin(loop_.get_executor());
+  session.on_event([this](const SessionEvent& event) { told(event); });
+  co_await enter(id, QueuedJob::State::printing, {});
+  notify_service("STATUS=printing " + gcode::printable(job.name));
+  const StreamResult result = co_await session.run();
+  firmware_ = result.firmware;
+  ending = state_after(result.ending);
+  std::string reason = result.ending == Ending::stopped ? session.status().reason : result.reason;
+  if (result.ending != Ending::completed)
+    reason += "; to go on with it: unicursal resume " + current_->print->kept_as();
+  co_return reason;
+}
+
+void Daemon::cancel(const std::string& reason) {
+  if (!current_) throw HttpError(409, "nothing is being printed");
+  if (!current_->print || !current_->print->session()) {
+    current_->cancelled = reason;
+    return;
+  }
+  if (const Refusal no = session().cancel(reason)) throw HttpError(409, *no);
+}
+
+void Daemon::stop_at_once() {
+  if (!current_) throw HttpError(409, "nothing is being printed");
+  if (!current_->print || !current_->print->session()) return cancel("the user has stopped it");
+  if (const Refusal no = session().emergency_stop()) throw HttpError(409, *no);
+}
+
+void Daemon::shut_down(std::function<void()> done) {
+  const bool again = static_cast<bool>(when_idle_);
+  when_idle_ = std::move(done);
+  if (!current_) return when_idle_();
+  try {
+    if (again)
+      stop_at_once();
+    else
+      cancel("the daemon was told to end");
+  } catch (const HttpError&) {
+    // It is ending already.
+  }
+}
+
+// ---- events
+
+void Daemon::join(std::shared_ptr<EventStream> client) {
+  std::erase_if(clients_, [](const auto& one) { return !one->open(); });
+  client->send(
+      json({{"event", "hello"}, {"status", status()}}).dump(-1, ' ', false, json::error_handler_t::replace));
+  clients_.push_back(std::move(client));
+}
+
+void Daemon::broadcast(const json& event) {
+  std::erase_if(clients_, [](const auto& client) { return !client->open(); });
+  if (clients_.empty()) return;
+  const std::string text = event.dump(-1, ' ', false, json::error_handler_t::replace);
+  for (const auto& client : clients_) client->send(text);
+}
+
+void Daemon::told(const SessionEvent& event) {
+  if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
+    return show_progress_soon();
+  const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
+  if (!session || clients_.empty()) return;
+  SessionEvent shown = event;
+  shown.text = event.kind == SessionEvent::Kind::printer ? gcode::printable(event.text) : event.text;
+  broadcast(to_json(shown, session->status()));
+}
+
+/// Of many events, one a quarter of a second; the last one is never lost.
+void Daemon::show_progress_soon() {
+  if (progress_waits_ || clients_.empty()) return;
+  progress_waits_ = true;
+  progress_.expires_after(progress_interval);
+  progress_.async_wait([this](const asio::error_code& cut) {
+    progress_waits_ = false;
+    const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
+    if (!cut && session)
+      broadcast(to_json(SessionEvent{SessionEvent::Kind::progress, {}}, session->status()));
+  });
+}
+
+}  // namespace unicursal::host

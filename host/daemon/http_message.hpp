@@ -1,0 +1,73 @@
+// HTTP/1.1 messages as far as this daemon needs them, read strictly: whatever is odd is refused, since what
+// two readers understand differently is how requests are smuggled. No chunked bodies, no folded headers, no
+// percent signs in paths (no name that the API knows needs them).
+//
+// Not by RESTinio, though it is in Debian: 0.6.16 closes the connection without a word on a malformed, too
+// large or too slow request (tried: all five kinds), and shows a request only when its whole body has
+// arrived, so that a stranger's would be kept in memory before the token is asked for. A client is owed a
+// 4xx, before its body.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace unicursal::host {
+
+/// Bytes from the first to the blank line; more is refused with 431.
+inline constexpr std::size_t longest_head = 16 * 1024;
+inline constexpr std::size_t longest_target = 2048;  ///< bytes; more is refused with 414
+inline constexpr std::size_t most_headers = 64;
+
+/// A request that is not obeyed: the status to answer with, and a sentence.
+class HttpError : public std::runtime_error {
+ public:
+  HttpError(int status, const std::string& sentence) : std::runtime_error(sentence), status_(status) {}
+  int status() const { return status_; }
+
+ private:
+  int status_;
+};
+
+struct RequestHead {
+  std::string method;  ///< "GET"
+  std::string path;    ///< "/api/status": begins with a slash, without ".", ".." and empty segments
+  std::string query;   ///< behind the question mark
+  std::vector<std::pair<std::string, std::string>> headers;  ///< names in lower case
+  std::uint64_t content_length = 0;                          ///< bytes
+  bool keep_alive = true;
+
+  /// `name` in lower case; absent when there is none or several.
+  std::optional<std::string> header(std::string_view name) const;
+  /// Whether a list such as "keep-alive, Upgrade" has this word, in lower case.
+  bool lists(std::string_view name, std::string_view word) const;
+};
+
+struct Request : RequestHead {
+  std::string body;
+};
+
+struct Response {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+/// Everything before the blank line. Throws HttpError 400, 411, 414, 431, 501 or 505.
+RequestHead parse_request(std::string_view head);
+
+/// {"version": 1, "error": "…"}
+Response error_response(int status, const std::string& sentence);
+
+/// As bytes on the wire.
+std::string to_text(const Response& response, bool keep_alive);
+
+const char* status_words(int status);
+
+}  // namespace unicursal::host

@@ -1,0 +1,170 @@
+#include "host/daemon/job_files.hpp"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+
+#include "firmware_gcode/reply/reply.hpp"
+#include "host/daemon/state_folder.hpp"
+
+namespace unicursal::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view upload_prefix = "upload:";
+constexpr std::size_t longest_name = 64, longest_job_name = 512;
+constexpr int deepest_folder = 4;
+constexpr std::uintmax_t largest_job = 1024 * 1024;  ///< bytes of a job's own text
+
+HttpError no_such(const std::string& name) {
+  return {404, "there is no job \"" + gcode::printable(name) + "\"; see `unicursal queue --jobs`"};
+}
+
+bool is_job(const fs::path& path) {
+  return path.extension() == ".toml";
+}
+
+/// Whether `path` is below `folder`; both canonical.
+bool within(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+/// Relative, and without a step up: what is left is to follow links.
+void check_name(const std::string& name) {
+  const fs::path path(name);
+  bool sound = !name.empty() && name.size() <= longest_job_name && path.is_relative() && is_job(path);
+  sound = sound && name.find('\0') == std::string::npos && name.find('\\') == std::string::npos;
+  for (const fs::path& part : path) sound = sound && part != ".." && part != "." && !part.empty();
+  if (!sound)
+    throw HttpError(400, "a job is named by its file in one of the daemon's folders, such as leaf.toml");
+}
+
+void check_texts(const toml::node& node) {
+  if (const auto* text = node.as_string()) {
+    if (text->get().find_first_of("/\\") != std::string::npos || text->get() == "..")
+      throw HttpError(422, "in an uploaded job no text may hold a slash: \"" + gcode::printable(text->get()) +
+                               "\"; upload the file and name it alone");
+  } else if (const auto* list = node.as_array()) {
+    for (const toml::node& item : *list) check_texts(item);
+  } else if (const auto* table = node.as_table()) {
+    for (const auto& entry : *table) check_texts(entry.second);
+  }
+}
+
+void check_uploaded_job(const fs::path& file) {
+  std::error_code error;
+  if (fs::file_size(file, error) > largest_job || error)
+    throw HttpError(422, "the job's text is too long to be one");
+  try {
+    check_texts(toml::parse_file(file.string()));
+  } catch (const toml::parse_error& wrong) {
+    throw HttpError(422, fmt::format("{}: line {}: is no TOML: {}", file.filename().string(),
+                                     wrong.source().begin.line, wrong.description()));
+  }
+}
+
+/// In `folder`, as find() wants them named; links are not followed.
+void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std::string>& names) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator item(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && item != end && names.size() < most_listed_jobs; item.increment(error)) {
+    if (item.depth() >= deepest_folder) item.disable_recursion_pending();
+    std::error_code gone;
+    if (is_job(item->path()) && item->is_regular_file(gone))
+      names.push_back(prefix + item->path().lexically_relative(folder).generic_string());
+  }
+}
+
+}  // namespace
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  };
+  return !name.empty() && name.size() <= longest_name && name.front() != '.' && name.front() != '-' &&
+         std::all_of(name.begin(), name.end(), plain);
+}
+
+JobFiles::JobFiles(std::vector<fs::path> folders, fs::path uploads)
+    : folders_(std::move(folders)), uploads_(std::move(uploads)) {
+  for (fs::path& folder : folders_) {
+    std::error_code error;
+    const fs::path real = fs::canonical(folder, error);
+    if (error || !fs::is_directory(real, error)) {
+      throw DaemonError(folder.string(), "", "is no folder that can be read",
+                        "name the folders of the jobs with --jobs");
+    }
+    folder = real;
+  }
+}
+
+bool JobFiles::is_upload(const std::string& name) {
+  return name.starts_with(upload_prefix);
+}
+
+fs::path JobFiles::find_upload(const std::string& name) const {
+  const std::string inside = name.substr(upload_prefix.size());
+  const std::size_t slash = inside.find('/');
+  const std::string upload = inside.substr(0, slash);
+  const std::string file = slash == std::string::npos ? "" : inside.substr(slash + 1);
+  if (!is_plain_name(upload) || !is_plain_name(file) || !is_job(file))
+    throw HttpError(400, "an uploaded job is named as in upload:leaf/job.toml");
+  const fs::path path = uploads_ / upload / file;
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(path, error))) throw no_such(name);
+  check_uploaded_job(path);
+  return path;
+}
+
+fs::path JobFiles::find(const std::string& name) const {
+  if (is_upload(name)) return find_upload(name);
+  check_name(name);
+  for (const fs::path& folder : folders_) {
+    std::error_code error;
+    const fs::path real = fs::canonical(folder / name, error);
+    if (error || !within(real, folder) || !fs::is_regular_file(real, error)) continue;
+    return real;
+  }
+  throw no_such(name);
+}
+
+std::vector<std::string> JobFiles::list() const {
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders_) add_jobs(folder, "", names);
+  add_jobs(uploads_, std::string(upload_prefix), names);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+void JobFiles::keep(const std::string& upload, const std::string& file, const std::string& bytes) const {
+  if (!is_plain_name(upload) || !is_plain_name(file))
+    throw HttpError(400, "names of uploads hold letters, digits, dots, dashes and underscores only");
+  std::uint64_t kept = bytes.size();
+  std::size_t files = 1;
+  std::error_code error;
+  for (fs::recursive_directory_iterator item(uploads_, error), end; !error && item != end;
+       item.increment(error)) {
+    std::error_code gone;
+    if (!item->is_regular_file(gone)) continue;
+    kept += item->file_size(gone);
+    ++files;
+  }
+  if (kept > most_uploaded || files > most_uploaded_files)
+    throw HttpError(507, "there is no room for more uploads; remove some first");
+  fs::create_directories(uploads_ / upload, error);
+  replace_file(uploads_ / upload / file, bytes);
+}
+
+void JobFiles::remove(const std::string& upload) const {
+  if (!is_plain_name(upload)) throw HttpError(400, "that is no name of an upload");
+  std::error_code error;
+  if (fs::remove_all(uploads_ / upload, error) == 0 || error)
+    throw HttpError(404, "there is no upload \"" + upload + "\"");
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,150 @@
+#include "host/daemon/queue.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/daemon/state_folder.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using nlohmann::json;
+using State = QueuedJob::State;
+
+constexpr State all_states[] = {State::queued,  State::preparing, State::printing,   State::done,
+                                State::stopped, State::failed,    State::interrupted};
+
+bool has_ended(const QueuedJob& job) {
+  return job.state != State::queued && job.state != State::preparing && job.state != State::printing;
+}
+
+std::int64_t now() {
+  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+QueuedJob job_from(const json& entry) {
+  QueuedJob job;
+  job.id = entry.at("id").get<std::uint64_t>();
+  job.name = entry.at("job").get<std::string>();
+  const std::string word = entry.at("state").get<std::string>();
+  for (const State state : all_states) {
+    if (word == name(state)) job.state = state;
+  }
+  job.reason = entry.value("reason", "");
+  job.added = entry.value("added", std::int64_t{0});
+  job.began = entry.value("began", std::int64_t{0});
+  job.ended = entry.value("ended", std::int64_t{0});
+  if (const auto layers = entry.find("layers"); layers != entry.end())
+    job.layers = LayerRange{layers->at(0).get<std::size_t>(), layers->at(1).get<std::size_t>()};
+  return job;
+}
+
+}  // namespace
+
+const char* name(State state) {
+  switch (state) {
+    case State::queued:
+      return "queued";
+    case State::preparing:
+      return "preparing";
+    case State::printing:
+      return "printing";
+    case State::done:
+      return "done";
+    case State::stopped:
+      return "stopped";
+    case State::failed:
+      return "failed";
+    case State::interrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+json to_json(const QueuedJob& job) {
+  json entry = {{"id", job.id}, {"job", job.name}, {"state", name(job.state)}, {"added", job.added}};
+  if (job.layers) entry["layers"] = {job.layers->first, job.layers->last};
+  if (!job.reason.empty()) entry["reason"] = job.reason;
+  if (job.began != 0) entry["began"] = job.began;
+  if (job.ended != 0) entry["ended"] = job.ended;
+  return entry;
+}
+
+Queue::Queue(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) return;
+  try {
+    const json stored = json::parse(stream);
+    next_id_ = stored.at("next_id").get<std::uint64_t>();
+    for (const json& entry : stored.at("jobs")) jobs_.push_back(job_from(entry));
+  } catch (const json::exception&) {
+    throw DaemonError(file.string(), "", "is no queue of this program's",
+                      "move it away; the jobs in it have to be queued again");
+  }
+  for (QueuedJob& job : jobs_) {
+    if (job.state != State::preparing && job.state != State::printing) continue;
+    const bool printed = job.state == State::printing;
+    job.state = State::interrupted;
+    job.ended = now();
+    job.reason = printed ? "the daemon ended while it was printed; `unicursal resume` goes on with it"
+                         : "the daemon ended before it was begun";
+  }
+}
+
+const QueuedJob* Queue::find(std::uint64_t id) const {
+  const auto job = std::find_if(jobs_.begin(), jobs_.end(), [id](const QueuedJob& j) { return j.id == id; });
+  return job == jobs_.end() ? nullptr : &*job;
+}
+
+const QueuedJob* Queue::next() const {
+  const auto waits = [](const QueuedJob& job) { return job.state == State::queued; };
+  const auto job = std::find_if(jobs_.begin(), jobs_.end(), waits);
+  return job == jobs_.end() ? nullptr : &*job;
+}
+
+std::size_t Queue::waiting() const {
+  return static_cast<std::size_t>(std::count_if(
+      jobs_.begin(), jobs_.end(), [](const QueuedJob& job) { return job.state == State::queued; }));
+}
+
+std::uint64_t Queue::add(std::string name, std::optional<LayerRange> layers) {
+  QueuedJob job;
+  job.id = next_id_++;
+  job.name = std::move(name);
+  job.layers = layers;
+  job.added = now();
+  jobs_.push_back(std::move(job));
+  return jobs_.back().id;
+}
+
+void Queue::remove(std::uint64_t id) {
+  std::erase_if(jobs_, [id](const QueuedJob& job) { return job.id == id; });
+}
+
+void Queue::enter(std::uint64_t id, State state, const std::string& reason) {
+  const auto job = std::find_if(jobs_.begin(), jobs_.end(), [id](const QueuedJob& j) { return j.id == id; });
+  assert(job != jobs_.end());
+  job->state = state;
+  job->reason = reason;
+  if (state == State::preparing) job->began = now();
+  if (has_ended(*job)) job->ended = now();
+  forget_oldest();
+}
+
+void Queue::forget_oldest() {
+  std::size_t ended = static_cast<std::size_t>(std::count_if(jobs_.begin(), jobs_.end(), has_ended));
+  std::erase_if(jobs_, [&](const QueuedJob& job) { return has_ended(job) && ended-- > most_kept; });
+}
+
+std::string Queue::text() const {
+  json entries = json::array();
+  for (const QueuedJob& job : jobs_) entries.push_back(to_json(job));
+  const json all = {{"version", 1}, {"next_id", next_id_}, {"jobs", entries}};
+  return all.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace unicursal::host

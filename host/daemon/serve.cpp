@@ -1,0 +1,115 @@
+#include "host/daemon/serve.hpp"
+
+#include <fmt/format.h>
+
+#include <asio/io_context.hpp>
+#include <asio/signal_set.hpp>
+#include <csignal>
+
+#include "host/daemon/api.hpp"
+#include "host/daemon/http_server.hpp"
+#include "host/daemon/service_notify.hpp"
+#include "host/daemon/state_folder.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How long systemd is asked to wait on, again and again while the printer parks and cools.
+constexpr std::chrono::microseconds parking_time = 60s;
+
+asio::ip::tcp::endpoint checked_endpoint(const ServeOptions& options) {
+  const auto at = parse_endpoint(options.listen);
+  if (options.no_token && !at.address().is_loopback()) {
+    throw core::DataError("", "--no-token", "is refused for " + options.listen + ", which others can reach",
+                          "leave out --no-token, or listen on 127.0.0.1");
+  }
+  return at;
+}
+
+std::string words(const asio::ip::tcp::endpoint& at) {
+  const std::string address = at.address().to_string();
+  return at.address().is_v6() ? fmt::format("[{}]:{}", address, at.port())
+                              : fmt::format("{}:{}", address, at.port());
+}
+
+class Service {
+ public:
+  explicit Service(const ServeOptions& options)
+      : state_(options.daemon.state),
+        daemon_(loop_, options.daemon),
+        api_(daemon_),
+        server_(loop_, checked_endpoint(options), api_),
+        signals_(loop_, SIGINT, SIGTERM),
+        watchdog_(loop_) {
+    const auto at = server_.endpoint();
+    AccessRules rules;
+    if (!options.no_token) {
+      rules.token = state_.secret("token");
+      rules.metrics_token = state_.secret("metrics-token");
+    }
+    rules.hosts = hosts_for(at.address().to_string(), at.port(), options.names);
+    api_.set_rules(std::move(rules));
+    address_ = words(at);
+    state_.tell_address(address_);
+  }
+
+  void run(const std::function<void(const std::string&)>& ready) {
+    await_signal();
+    show_life();
+    notify_service("READY=1\nSTATUS=idle");
+    ready(address_);
+    loop_.run();
+  }
+
+ private:
+  void await_signal() {
+    signals_.async_wait([this](const asio::error_code& error, int) {
+      if (error) return;
+      notify_service(fmt::format("STOPPING=1\nSTATUS=parking and cooling\nEXTEND_TIMEOUT_USEC={}",
+                                 parking_time.count()));
+      stopping_ = true;
+      await_signal();
+      daemon_.shut_down([this] { end(); });
+    });
+  }
+
+  void end() {
+    signals_.cancel();
+    watchdog_.cancel();
+    server_.stop();
+    loop_.stop();
+  }
+
+  /// From the loop itself: when that hangs, systemd finds out.
+  void show_life() {
+    const auto watched = watchdog_interval();
+    watchdog_.expires_after(watched.value_or(parking_time / 4));
+    watchdog_.async_wait([this, watched](const asio::error_code& cut) {
+      if (cut) return;
+      if (watched) notify_service("WATCHDOG=1");
+      if (stopping_) notify_service(fmt::format("EXTEND_TIMEOUT_USEC={}", parking_time.count()));
+      show_life();
+    });
+  }
+
+  StateFolder state_;
+  asio::io_context loop_{1};
+  Daemon daemon_;
+  Api api_;
+  HttpServer server_;
+  asio::signal_set signals_;
+  asio::steady_timer watchdog_;
+  std::string address_;
+  bool stopping_ = false;
+};
+
+}  // namespace
+
+void serve(const ServeOptions& options, const std::function<void(const std::string&)>& ready) {
+  checked_endpoint(options);
+  Service(options).run(ready);
+}
+
+}  // namespace unicursal::host

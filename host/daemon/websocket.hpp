@@ -1,0 +1,51 @@
+// WebSocket frames (RFC 6455) as a server sends and takes them: events go out as text, and what comes in is
+// control frames only; a client that says more is heard, bounded, and not listened to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace unicursal::host {
+
+/// The answer to a client's Sec-WebSocket-Key.
+std::string accept_key(const std::string& key);
+/// Whether it is sixteen bytes in base 64.
+bool is_websocket_key(const std::string& key);
+
+struct Frame {
+  enum class Kind { continuation = 0, text = 1, binary = 2, close = 8, ping = 9, pong = 10 };
+  Kind kind = Kind::text;
+  std::string payload;
+};
+
+/// Unmasked and whole, as a server sends it.
+std::string encode(const Frame& frame);
+std::string close_frame(std::uint16_t code);
+
+/// The client has broken the protocol; the code to close with.
+class WebSocketError : public std::runtime_error {
+ public:
+  WebSocketError(std::uint16_t code, const char* what) : std::runtime_error(what), code_(code) {}
+  std::uint16_t code() const { return code_; }
+
+ private:
+  std::uint16_t code_;
+};
+
+class FrameReader {
+ public:
+  static constexpr std::size_t longest_payload = 1024;  ///< bytes; no client has more to say
+
+  void add(std::string_view bytes) { buffer_ += bytes; }
+  /// The next whole frame. Throws WebSocketError.
+  std::optional<Frame> next();
+
+ private:
+  std::string buffer_;
+};
+
+}  // namespace unicursal::host

@@ -1,0 +1,127 @@
+// Requests that mean no good, over real sockets, to a real daemon: each gets a 4xx, and nothing is opened.
+#include <catch2/catch.hpp>
+
+#include "tests/host/support/daemon_process.hpp"
+
+using namespace unicursal;
+using test::DaemonBench;
+using test::RawConnection;
+using test::status_of;
+
+TEST_CASE("hostile requests are refused, and the daemon serves on") {
+  DaemonBench bench;
+  bench.serve();
+  REQUIRE(bench.status(bench.request("GET", "/api/status")) == 200);
+  const std::string host = "Host: " + bench.host() + "\r\n";
+
+  SECTION("without the token, or with another") {
+    CHECK(bench.status("GET /api/status HTTP/1.1\r\n" + host + "\r\n") == 401);
+    CHECK(bench.status("GET /api/status HTTP/1.1\r\n" + host + "Authorization: Bearer x\r\n\r\n") == 401);
+    CHECK(bench.status("GET /metrics HTTP/1.1\r\n" + host + "\r\n") == 401);
+    CHECK(bench.status("GET /api/events HTTP/1.1\r\n" + host +
+                       "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n") == 401);
+  }
+  SECTION("a stranger's body is not waited for") {
+    RawConnection stranger(bench.port());
+    stranger.send("PUT /api/files/a/b HTTP/1.1\r\n" + host + "Content-Length: 1000000\r\n\r\n");
+    CHECK(status_of(stranger.read_until("\r\n\r\n")) == 401);
+  }
+  SECTION("from other sites") {
+    CHECK(bench.status(bench.request("POST", "/api/print/start", "", "Origin: http://evil.example\r\n")) ==
+          403);
+    CHECK(bench.status(bench.request("GET", "/api/status", "", "Sec-Fetch-Site: cross-site\r\n")) == 403);
+    CHECK(bench.status("GET /api/status HTTP/1.1\r\nHost: evil.example\r\nAuthorization: Bearer " +
+                       bench.token() + "\r\n\r\n") == 421);
+    const std::string form = test::replaced(bench.request("POST", "/api/jobs", "{\"job\": \"plate.toml\"}"),
+                                            "application/json", "text/plain");
+    CHECK(bench.status(form) == 415);
+  }
+  SECTION("for files that are nobody's business") {
+    for (const char* target : {"/../../etc/passwd", "/api/files/../../secret.toml", "/api/%2e%2e/x"})
+      CHECK(bench.status(bench.request("GET", target)) == 400);
+    CHECK(bench.status(bench.request("PUT", "/api/files/a/..", "x")) == 400);
+    CHECK(bench.status(bench.request("PUT", "/api/files/a/.hidden", "x")) == 400);
+    CHECK(bench.status(bench.request("PUT", "/api/files/a/b/c", "x")) == 400);
+    for (const char* job : {"../secret.toml", "/etc/passwd", "/etc/passwd.toml", "plate.svg"})
+      CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"" + std::string(job) + "\"}")) ==
+            400);
+    CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"secret.toml\"}")) == 404);
+    CHECK_FALSE(std::filesystem::exists(bench.path("state/files")));
+  }
+  SECTION("too large") {
+    CHECK(bench.status("POST /api/jobs HTTP/1.1\r\n" + host + "Authorization: Bearer " + bench.token() +
+                       "\r\nContent-Length: 99999999999\r\n\r\n") == 413);
+    CHECK(bench.status(bench.request("POST", "/api/jobs", std::string(1000000, ' '))) == 413);
+    CHECK(bench.status("GET /" + std::string(5000, 'a') + " HTTP/1.1\r\n" + host + "\r\n") == 414);
+    CHECK(bench.status("GET / HTTP/1.1\r\nX: " + std::string(100000, 'a') + "\r\n\r\n") == 431);
+    CHECK(bench.status(std::string(1000000, 'a')) == 431);
+  }
+  SECTION("that are none") {
+    CHECK(bench.status("\r\n\r\n") == 400);
+    CHECK(bench.status(std::string("\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", 11)) == 400);
+    CHECK(bench.status("GET / HTTP/3.0\r\n\r\n") == 505);
+    CHECK(bench.status(bench.request("BREW", "/api/status")) == 405);
+    CHECK(bench.status(bench.request("POST", "/api/status")) == 405);
+    CHECK(bench.status(bench.request("GET", "/api/nothing")) == 404);
+    CHECK(bench.status(bench.request("GET", "/api/events")) == 426);
+    for (const char* body : {"{", "[]", "7", "{\"job\": 7}", "{\"jobb\": \"plate.toml\"}", "\xff\xfe",
+                             "{\"job\": \"plate.toml\", \"layers\": [-1, 2]}"})
+      CHECK(bench.status(bench.request("POST", "/api/jobs", body)) == 400);
+    CHECK(bench.status(bench.request("POST", "/api/jobs", std::string(60000, '['))) == 400);
+    CHECK(bench.status(bench.request("DELETE", "/api/jobs/x")) == 404);
+    CHECK(bench.status(bench.request("DELETE", "/api/jobs/99999999999999999999")) == 404);
+  }
+  SECTION("at the wrong time") {
+    for (const char* word : {"pause", "resume", "cancel", "stop"})
+      CHECK(bench.status(bench.request("POST", "/api/print/" + std::string(word))) == 409);
+    CHECK(bench.status(bench.request("POST", "/api/print/start")) == 409);
+    CHECK(bench.status(bench.request("POST", "/api/temperature", "{\"nozzle_c\": 200}")) == 409);
+  }
+  SECTION("cut in the middle") {
+    RawConnection half(bench.port());
+    half.send("POST /api/jobs HTTP/1.1\r\n" + host + "Authorization: Bearer " + bench.token() +
+              "\r\nContent-Length: 100\r\n\r\n{");
+    half.finish_sending();
+    CHECK(status_of(half.read_all()) == 400);
+  }
+  SECTION("listeners that leave, or say what they must not, are let go") {
+    const std::string upgrade =
+        test::replaced(bench.request("GET", "/api/events"), "Connection: close",
+                       "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==");
+    RawConnection leaves(bench.port()), breaks(bench.port());
+    leaves.send(upgrade);
+    CHECK(leaves.read_until("\"hello\"").find(" 101 ") != std::string::npos);
+    leaves.finish_sending();
+    leaves.read_all();                   // ends, or the test fails
+    breaks.send(upgrade + "\x81\x01z");  // not masked
+    breaks.read_until("\x88\x02\x03\xea");
+    breaks.finish_sending();
+    breaks.read_all();
+  }
+  CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
+  CHECK(bench.ask("GET", "/api/jobs")["jobs"].empty());
+}
+
+TEST_CASE("bodies and heads that never end are given up, others are served meanwhile", "[long]") {
+  DaemonBench bench;
+  bench.serve();
+  RawConnection head(bench.port()), body(bench.port());
+  head.send("GET /api/status HTTP/1.1\r\nX: ");
+  body.send("POST /api/jobs HTTP/1.1\r\nHost: " + bench.host() + "\r\nAuthorization: Bearer " +
+            bench.token() + "\r\nContent-Length: 100\r\n\r\n{");
+  CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
+  CHECK(status_of(head.read_all()) == 408);
+  CHECK(status_of(body.read_all()) == 408);
+}
+
+TEST_CASE("without a token others than this computer are not listened to") {
+  DaemonBench bench;
+  const auto outcome = bench.command({"serve", "--listen", "0.0.0.0:0", "--no-token"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("--no-token") != std::string::npos);
+  bench.serve({"--no-token"});
+  CHECK(bench.status("GET /api/status HTTP/1.0\r\nHost: " + bench.host() + "\r\n\r\n") == 200);
+  CHECK(bench.status("GET /api/status HTTP/1.0\r\nHost: evil.example\r\n\r\n") == 421);
+}

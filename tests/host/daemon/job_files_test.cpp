@@ -1,0 +1,130 @@
+// Names from outside become files only where they may, and the queue outlives its daemon.
+#include "host/daemon/job_files.hpp"
+
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+
+#include "host/daemon/queue.hpp"
+#include "host/daemon/state_folder.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+using namespace unicursal;
+using namespace unicursal::host;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Folders {
+ public:
+  Folders() {
+    fs::create_directories(folder / "jobs/animals");
+    folder.write("jobs/leaf.toml", test::sample_job);
+    folder.write("jobs/animals/fish.toml", test::sample_job);
+    folder.write("jobs/notes.txt", "no job");
+    folder.write("secret.toml", "secret = 1");
+  }
+  JobFiles files() const { return JobFiles({folder / "jobs"}, folder / "uploads"); }
+
+  test::TempFolder folder;
+};
+
+int found(const JobFiles& files, const std::string& name) {
+  try {
+    files.find(name);
+  } catch (const HttpError& error) {
+    return error.status();
+  }
+  return 200;
+}
+
+}  // namespace
+
+TEST_CASE("jobs are found by their names in the folders, and nothing else is") {
+  const Folders folders;
+  fs::create_symlink(folders.folder / "secret.toml", folders.folder / "jobs/link.toml");
+  fs::create_directory_symlink(folders.folder.path(), folders.folder / "jobs/up");
+  const JobFiles files = folders.files();
+  CHECK(files.find("leaf.toml") == fs::canonical(folders.folder / "jobs/leaf.toml"));
+  CHECK(found(files, "animals/fish.toml") == 200);
+  CHECK(found(files, "notes.txt") == 400);
+  CHECK(found(files, "missing.toml") == 404);
+  CHECK(found(files, "../secret.toml") == 400);
+  CHECK(found(files, "animals/../../secret.toml") == 400);
+  CHECK(found(files, (folders.folder / "secret.toml").string()) == 400);
+  CHECK(found(files, "link.toml") == 404);
+  CHECK(found(files, "up/secret.toml") == 404);
+  CHECK(found(files, std::string("leaf.toml\0.toml", 15)) == 400);
+  CHECK(found(files, "") == 400);
+  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml", "link.toml"});
+}
+
+TEST_CASE("an upload holds files beside one another, and its job names no others") {
+  const Folders folders;
+  const JobFiles files = folders.files();
+  files.keep("leaf", "job.toml", test::sample_job);
+  CHECK(files.find("upload:leaf/job.toml") == folders.folder / "uploads/leaf/job.toml");
+  CHECK(test::read_text(files.find("upload:leaf/job.toml")) == test::sample_job);
+  CHECK(files.list().back() == "upload:leaf/job.toml");
+  for (const char* name : {"upload:leaf", "upload:../job.toml", "upload:leaf/../../secret.toml",
+                           "upload:/leaf/job.toml", "upload:.leaf/job.toml", "upload:leaf/job.txt"})
+    CHECK(found(files, name) == 400);
+  for (const char* name : {"", ".", "..", "a/b", "-x", "a b", "ä"}) {
+    CHECK_THROWS_AS(files.keep(name, "job.toml", ""), HttpError);
+    CHECK_THROWS_AS(files.keep("leaf", name, ""), HttpError);
+    CHECK_THROWS_AS(files.remove(name), HttpError);
+  }
+  files.keep("bad", "a.toml", test::replaced(test::sample_job, "plate.svg", "../../secret.toml"));
+  files.keep("bad", "b.toml", test::replaced(test::sample_job, "\"bench.toml\"", "\"/etc/hostname\""));
+  files.keep("bad", "c.toml", "this is no TOML");
+  for (const char* name : {"upload:bad/a.toml", "upload:bad/b.toml", "upload:bad/c.toml"})
+    CHECK(found(files, name) == 422);
+  files.remove("leaf");
+  CHECK(found(files, "upload:leaf/job.toml") == 404);
+}
+
+TEST_CASE("the queue is found again, and what was being printed is told to be broken off") {
+  const test::TempFolder folder;
+  const fs::path file = folder / "queue.json";
+  Queue queue(file);
+  const auto first = queue.add("a.toml", LayerRange{1, 3});
+  const auto second = queue.add("b.toml", {}), third = queue.add("c.toml", {});
+  queue.enter(first, QueuedJob::State::printing);
+  queue.remove(third);
+  replace_file(file, queue.text());
+  Queue again(file);
+  REQUIRE(again.jobs().size() == 2);
+  CHECK(again.find(first)->state == QueuedJob::State::interrupted);
+  CHECK(again.find(first)->layers->last == 3);
+  CHECK(again.next()->id == second);
+  CHECK(again.add("d.toml", {}) == third + 1);  // numbers are never given twice
+  folder.write("queue.json", "{\"jobs\": 7}");
+  CHECK_THROWS_AS(Queue(file), DaemonError);
+}
+
+TEST_CASE("of jobs that have ended the last ones are kept") {
+  const test::TempFolder folder;
+  Queue queue(folder / "queue.json");
+  const auto waiting = queue.add("waits.toml", {});
+  for (std::size_t i = 0; i < Queue::most_kept + 5; ++i)
+    queue.enter(queue.add("a.toml", {}), QueuedJob::State::done);
+  CHECK(queue.jobs().size() == Queue::most_kept + 1);
+  CHECK(queue.find(waiting));
+  CHECK_FALSE(queue.find(waiting + 1));
+  CHECK(queue.jobs().back().id == waiting + Queue::most_kept + 5);
+}
+
+TEST_CASE("a state folder belongs to one daemon, and its secrets to their owner") {
+  const test::TempFolder folder;
+  const StateFolder state(folder / "state");
+  CHECK_THROWS_AS(StateFolder(folder / "state"), DaemonError);
+  const std::string token = state.secret("token");
+  CHECK(state.secret("token") == token);
+  CHECK(state.secret("metrics-token") != token);
+  struct stat found {};
+  REQUIRE(stat((folder / "state/token").c_str(), &found) == 0);
+  CHECK((found.st_mode & 0777) == 0600);
+  REQUIRE(chmod((folder / "state/token").c_str(), 0644) == 0);
+  CHECK_THROWS_AS(state.secret("token"), DaemonError);
+}

@@ -1,0 +1,225 @@
+// The daemon with a simulated printer, its clients and its ends: real processes, real sockets.
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <catch2/catch.hpp>
+
+#include "tests/host/support/daemon_process.hpp"
+
+using namespace unicursal;
+using nlohmann::json;
+using test::DaemonBench;
+using test::Outcome;
+using test::RawConnection;
+
+namespace {
+
+int add(const DaemonBench& bench, const std::string& layers = "0:0") {
+  const Outcome added = bench.command({"queue", "--add", "plate.toml", "--layers", layers});
+  INFO(added.err);
+  REQUIRE(added.code == 0);
+  return std::stoi(added.out);
+}
+
+json job(const DaemonBench& bench, int id) {
+  return bench.ask("GET", "/api/jobs/" + std::to_string(id));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// Where it comes last.
+std::size_t last(const std::string& text, const std::string& part) {
+  INFO(part);
+  REQUIRE(text.find(part) != std::string::npos);
+  return text.rfind(part);
+}
+
+RawConnection& listen_to_events(RawConnection& connection, const DaemonBench& bench) {
+  connection.send("GET /api/events HTTP/1.1\r\nHost: " + bench.host() + "\r\nAuthorization: Bearer " +
+                  bench.token() +
+                  "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                  "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+  return connection;
+}
+
+}  // namespace
+
+TEST_CASE("two jobs are printed one after the other, each when it is told to") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve();
+  const int first = add(bench, "0:1"), second = add(bench);
+  REQUIRE(bench.command({"start"}).code == 0);
+  CHECK(bench.status(bench.request("POST", "/api/print/start")) == 409);  // one at a time
+  CHECK(bench.status(bench.request("DELETE", "/api/jobs/" + std::to_string(first))) == 409);
+  bench.await_job(first, "done");
+  CHECK(job(bench, second)["state"] == "queued");  // never by itself
+  REQUIRE(bench.command({"start", std::to_string(second)}).code == 0);
+  bench.await_job(second, "done");
+  const std::string lines = bench.transcript();
+  CHECK(count(lines, "G28") >= 2);
+  CHECK(lines.find("M104 S0") != std::string::npos);
+  const Outcome status = bench.command({"status"});
+  CHECK(status.out.find("idle; 0 waiting") == 0);
+}
+
+TEST_CASE("a print is held and steered by the daemon's commands") {
+  DaemonBench bench;
+  bench.start_printer("100");
+  bench.serve();
+  const int id = add(bench, "0:99");
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_print("printing");
+  REQUIRE(bench.command({"pause"}).code == 0);
+  bench.await_print("paused");
+  CHECK(bench.command({"pause"}).code != 0);
+  CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 5}")) == 409);
+  CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 150}")) == 202);
+  CHECK(bench.status(bench.request("POST", "/api/temperature", "{\"nozzle_c\": 205, \"bed_c\": 55}")) == 202);
+  CHECK(bench.send(bench.request("GET", "/metrics")).find("\nunicursal_paused 1\n") != std::string::npos);
+  REQUIRE(bench.command({"resume"}).code == 0);  // the daemon's print, not a kept one
+  bench.await_print("printing");
+  REQUIRE(bench.command({"cancel"}).code == 0);
+  bench.await_job(id, "stopped");
+  const std::string lines = bench.transcript();
+  for (const char* line : {"M220 S150", "M104 S205", "M140 S55"})
+    CHECK(lines.find(line) != std::string::npos);
+  CHECK(last(lines, "M104 S0") > last(lines, "M104 S205"));  // cold in the end
+  CHECK(last(lines, "M140 S0") > last(lines, "M140 S55"));
+}
+
+TEST_CASE("clients come and go, and the print does not care") {
+  DaemonBench bench;
+  bench.start_printer("100");
+  bench.serve();
+  const int id = add(bench, "0:4");
+  RawConnection stays(bench.port());
+  CHECK(listen_to_events(stays, bench).read_until("\r\n\r\n").find(" 101 ") != std::string::npos);
+  {
+    RawConnection goes(bench.port());
+    listen_to_events(goes, bench).read_until("\"hello\"");
+    REQUIRE(bench.command({"start"}).code == 0);
+    goes.read_until("\"progress\"");
+  }
+  RawConnection mute(bench.port());  // upgrades, and never reads
+  listen_to_events(mute, bench);
+  bench.await_job(id, "done");
+  const std::string heard = stays.read_until("\"done\"");
+  for (const char* word :
+       {"\"hello\"", "\"preparing\"", "\"heating\"", "\"printing\"", "\"progress\"", "\"percent\""})
+    CHECK(heard.find(word) != std::string::npos);
+}
+
+TEST_CASE("a daemon that is killed finds its queue again") {
+  DaemonBench bench;
+  bench.start_printer("100");
+  bench.serve();
+  const int first = add(bench, "0:99"), second = add(bench);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_print("printing");
+  kill(bench.daemon().id(), SIGKILL);
+  bench.daemon().wait();
+  CHECK(bench.command({"status"}).code == 2);  // the address it has left behind answers no more
+  bench.serve();
+  CHECK(job(bench, first)["state"] == "interrupted");
+  CHECK(job(bench, first)["reason"].get<std::string>().find("unicursal resume") != std::string::npos);
+  CHECK(job(bench, second)["state"] == "queued");
+  CHECK(add(bench) == second + 1);
+}
+
+TEST_CASE("SIGTERM parks and cools the print before the daemon ends") {
+  DaemonBench bench;
+  bench.start_printer("100");
+  bench.serve();
+  const int id = add(bench, "0:99");
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_print("printing");
+  kill(bench.daemon().id(), SIGTERM);
+  CHECK(bench.daemon().wait().code == 0);
+  const std::string lines = bench.transcript();
+  CHECK(last(lines, "M104 S0") > last(lines, "G1 "));
+  CHECK(last(lines, "M140 S0") > last(lines, "G1 "));
+  bench.serve();
+  CHECK(job(bench, id)["state"] == "stopped");
+  CHECK(job(bench, id)["reason"].get<std::string>().find("the daemon was told to end") == 0);
+}
+
+TEST_CASE("stop is M112, and the job has failed") {
+  DaemonBench bench;
+  bench.start_printer("100");
+  bench.serve();
+  const int id = add(bench, "0:99");
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_print("printing");
+  REQUIRE(bench.command({"stop"}).code == 0);
+  bench.await_job(id, "failed");
+  CHECK(job(bench, id)["reason"].get<std::string>().find("stopped at once") == 0);
+  CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
+}
+
+TEST_CASE("a job that cannot be printed says why, and the next can") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve();
+  std::filesystem::remove(bench.path("jobs/plate.svg"));
+  const int broken = add(bench);
+  const Outcome started = bench.command({"start"});
+  CHECK(started.code == 1);
+  CHECK(started.out.find("plate.svg") != std::string::npos);
+  CHECK(job(bench, broken)["state"] == "failed");
+  bench.folder().write("jobs/plate.svg", test::sample_drawing);
+  const int sound = add(bench);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_job(sound, "done");
+}
+
+TEST_CASE("a user's own job is sent along with its files") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve();
+  bench.folder().write("plate.svg", test::sample_drawing);
+  bench.folder().write("bench.toml", test::sample_profile);
+  const Outcome sent = bench.command({"queue", "--upload", bench.path("secret.toml"), "--layers", "0:0"});
+  INFO(sent.err);
+  REQUIRE(sent.code == 0);
+  CHECK(sent.out == "1 upload:secret/secret.toml\n");
+  CHECK(test::read_text(bench.path("state/files/secret/plate.svg")) == test::sample_drawing);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_job(1, "done");
+  bench.folder().write("far.toml", test::replaced(test::sample_job, "plate.svg", "jobs/plate.svg"));
+  CHECK(bench.command({"queue", "--upload", bench.path("far.toml")}).code == 2);
+}
+
+TEST_CASE("systemd hears that it is ready, alive, and stopping") {
+  DaemonBench bench;
+  const std::string path = bench.path("notify");
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const int heard = socket(AF_UNIX, SOCK_DGRAM, 0);
+  REQUIRE(bind(heard, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  const timeval patience{60, 0};
+  setsockopt(heard, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const auto next = [heard] {
+    char text[512];
+    const ssize_t size = recv(heard, text, sizeof text, 0);
+    return std::string(text, static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  };
+  setenv("NOTIFY_SOCKET", path.c_str(), 1);
+  setenv("WATCHDOG_USEC", "200000", 1);
+  bench.serve();
+  unsetenv("NOTIFY_SOCKET");
+  unsetenv("WATCHDOG_USEC");
+  CHECK(next().find("READY=1") == 0);
+  CHECK(next() == "WATCHDOG=1");
+  kill(bench.daemon().id(), SIGTERM);
+  std::string last = next();
+  while (last == "WATCHDOG=1") last = next();
+  CHECK(last.find("STOPPING=1") == 0);
+  CHECK(bench.daemon().wait().code == 0);
+  close(heard);
+}
