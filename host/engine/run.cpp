@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "firmware_gcode/toolpath/prime_line.hpp"
+#include "firmware_gcode/toolpath/skirt.hpp"
+
 namespace unicursal::host {
 namespace {
 
@@ -213,6 +216,28 @@ double peak_memory() {
   return 0;
 }
 
+namespace {
+
+/// Where the skirt and the prime line are to lie.
+void add_aside(TargetLayer& target, const PreparedJob& prepared, const PlannedLayer& planned) {
+  const gcode::Printer& printer = prepared.job.profile.printer;
+  const gcode::PrintSettings settings = print_settings(prepared);
+  core::Box kept_clear = settings.extent;
+  const double reach = gcode::skirt_reach(settings.skirt, printer);
+  kept_clear.min -= core::Vec2(reach, reach);
+  kept_clear.max += core::Vec2(reach, reach);
+  if (const auto line = gcode::prime_line(printer, kept_clear, target.height)) {
+    target.prime.push_back({line->from, line->to, line->width});
+  }
+  for (const core::BeadPath& ring : gcode::skirt(placed(prepared, planned), settings.skirt, printer)) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      target.skirt.push_back({ring.start(i), ring.end(i), ring.width(i)});
+    }
+  }
+}
+
+}  // namespace
+
 TargetLayer target_of(const PreparedJob& prepared, const PlannedLayer& planned) {
   TargetLayer target;
   target.index = planned.layer.index;
@@ -227,6 +252,8 @@ TargetLayer target_of(const PreparedJob& prepared, const PlannedLayer& planned) 
       }
     }
   }
+  target.bead_width = prepared.job.bead_width;
+  if (planned.layer.index == prepared.first) add_aside(target, prepared, planned);
   return target;
 }
 

@@ -20,6 +20,17 @@ void remove_old_pictures(const std::filesystem::path& folder) {
   for (const auto& file : old) std::filesystem::remove(file);
 }
 
+/// mm³
+double laid_at_all(const sim::RasterFrame& frame, const RowSource& rows) {
+  double fill = 0;
+  std::vector<sim::RasterPixel> row(frame.columns);
+  for (std::uint64_t r = 0; r < frame.rows; ++r) {
+    rows(row);
+    for (const sim::RasterPixel& pixel : row) fill += pixel.fill;
+  }
+  return fill * frame.pixel_area() * frame.height;
+}
+
 }  // namespace
 
 DepositCheck::DepositCheck(std::vector<IntendedMaterial> materials,
@@ -59,8 +70,7 @@ void DepositCheck::take(const sim::RasterFrame& frame, sim::RasterReader& reader
   const auto rows = [&reader](std::span<sim::RasterPixel> pixels) { reader.read_row(pixels); };
   const std::optional<TargetLayer> target = target_at(frame.z);
   if (!target || target->zones.empty()) {
-    std::vector<sim::RasterPixel> row(frame.columns);
-    for (std::uint64_t r = 0; r < frame.rows; ++r) rows(row);
+    total_.outside += laid_at_all(frame, rows);
     return;
   }
   JudgedLayer layer = judge(*target, frame, rows, materials_, pictures_.has_value());

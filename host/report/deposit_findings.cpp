@@ -40,6 +40,9 @@ DepositFindings& DepositFindings::operator+=(const DepositFindings& more) {
   gaps += more.gaps;
   overfill += more.overfill;
   spilled += more.spilled;
+  outside += more.outside;
+  prime += more.prime;
+  skirt += more.skirt;
   fill += more.fill;
   fill_moment += more.fill_moment;
   fill_squares += more.fill_squares;
@@ -57,6 +60,9 @@ nlohmann::json to_json(const DepositFindings& f) {
           {"overfill_mm2", f.overfill},
           {"overfill_fraction", f.overfill_fraction()},
           {"spilled_mm2", f.spilled},
+          {"outside_mm3", f.outside},
+          {"prime_mm3", f.prime},
+          {"skirt_mm3", f.skirt},
           {"height",
            {{"deviation", f.fill_deviation()},
             {"p05", f.fill.percentile(0.05)},

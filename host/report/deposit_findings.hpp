@@ -1,5 +1,9 @@
 // What was laid on the bed against what the job wanted: of one layer, and added up over a print. Areas in
-// mm², distances in mm; fills in layer heights.
+// mm², volumes in mm³, distances in mm; fills in layer heights.
+//
+// Outside is what lies farther from the outline than half the job's bead width: a bead whose middle runs on
+// the outline reaches as far, and none should run beyond it. What is nearer than that is the rim of beads
+// that belong there, which are as wide here and there as the curve has it.
 #pragma once
 
 #include <array>
@@ -27,10 +31,12 @@ class AreaHistogram {
 };
 
 struct DepositFindings {
-  double area = 0;      ///< that was to be filled
-  double gaps = 0;      ///< of it, uncovered: the integral of what is missing to a full layer
-  double overfill = 0;  ///< the integral of what stands above it
-  double spilled = 0;   ///< laid beside the part, within a millimetre
+  double area = 0;              ///< that was to be filled
+  double gaps = 0;              ///< of it, uncovered: the integral of what is missing to a full layer
+  double overfill = 0;          ///< the integral of what stands above it
+  double spilled = 0;           ///< laid beside the part, within a millimetre
+  double outside = 0;           ///< mm³, laid anywhere outside, other than skirt and prime line
+  double prime = 0, skirt = 0;  ///< mm³, where these are to be
   AreaHistogram fill{0.01};
   double fill_moment = 0, fill_squares = 0;  ///< ∫ fill, ∫ fill²
 

@@ -13,6 +13,7 @@ namespace {
 using Shares = std::array<double, gcode::max_feeders>;
 
 constexpr double margin = 1;     // mm around the part that counts as beside it
+constexpr double widest = 1.5;   // of a stroke's width: how far its plastic gives way to its neighbours
 constexpr double hardly = 0.05;  // fill below which no mixture has arrived
 constexpr double amiss = 0.1;    // of the plastic, misplaced: a gradient's shade is wrong
 
@@ -32,19 +33,94 @@ PixelGrid grid_around(const TargetLayer& target, const sim::RasterFrame& frame) 
           static_cast<std::size_t>(std::ceil(count.y())) + 1};
 }
 
+/// What lies farther from the part than its rim, by what it is.
+class Outside {
+ public:
+  Outside(const TargetLayer& target, const sim::RasterFrame& frame)
+      : target_(target), volume_(frame.pixel * frame.pixel * frame.height), pixel_(frame.pixel) {}
+
+  /// Of a place beyond the rim.
+  void beyond(const core::Vec2& place, double fill) {
+    if (fill <= 0) return;
+    double& of = lies_on(target_.prime, place) ? prime : lies_on(target_.skirt, place) ? skirt : elsewhere;
+    of += fill * volume_;
+  }
+
+  double prime = 0, skirt = 0, elsewhere = 0;  ///< mm³
+
+ private:
+  bool lies_on(const std::vector<Stroke>& strokes, const core::Vec2& place) const {
+    return std::any_of(strokes.begin(), strokes.end(), [&](const Stroke& stroke) {
+      return core::distance_to_segment(place, stroke.from, stroke.to) <= widest * stroke.width / 2 + pixel_;
+    });
+  }
+
+  const TargetLayer& target_;
+  double volume_;  ///< of a full pixel
+  double pixel_;
+};
+
+/// The part's rim on the grid: what is within `width` of a place of it, the nearest place first.
+class Rim {
+ public:
+  Rim(const std::vector<RegionLabel>& labels, const PixelGrid& grid, double width)
+      : labels_(labels), grid_(grid) {
+    const double reach = width / grid.pixel + 0.5;  // to the border of the last pixel within
+    const auto whole = static_cast<long>(reach);
+    for (long dy = -whole; dy <= whole; ++dy) {
+      for (long dx = -whole; dx <= whole; ++dx) {
+        if (static_cast<double>(dx * dx + dy * dy) <= reach * reach) steps_.push_back({dx, dy});
+      }
+    }
+    std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) {
+      return a.dx * a.dx + a.dy * a.dy < b.dx * b.dx + b.dy * b.dy;
+    });
+  }
+
+  bool holds(std::size_t index) const {
+    const auto x = static_cast<long>(index % grid_.columns), y = static_cast<long>(index / grid_.columns);
+    return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) {
+      const long cx = x + step.dx, cy = y + step.dy;
+      if (cx < 0 || cy < 0 || cx >= static_cast<long>(grid_.columns) || cy >= static_cast<long>(grid_.rows))
+        return false;
+      const std::size_t at = static_cast<std::size_t>(cy) * grid_.columns + static_cast<std::size_t>(cx);
+      return labels_[at] != outside_all;
+    });
+  }
+
+ private:
+  struct Step {
+    long dx, dy;
+  };
+
+  const std::vector<RegionLabel>& labels_;
+  const PixelGrid& grid_;
+  std::vector<Step> steps_;
+};
+
 /// The raster cut or padded to the grid.
 std::vector<sim::RasterPixel> read(const sim::RasterFrame& frame, const RowSource& rows,
-                                   const PixelGrid& grid) {
+                                   const PixelGrid& grid, Outside& outside) {
   const auto shift = [&](double from, double to) { return std::llround((to - from) / grid.pixel); };
   const auto left = shift(grid.origin.x(), frame.left), bottom = shift(grid.origin.y(), frame.bottom);
+  const auto place = [&](std::uint64_t column, std::uint64_t at_row) {
+    const core::Vec2 steps(static_cast<double>(column) + 0.5, static_cast<double>(at_row) + 0.5);
+    return core::Vec2(core::Vec2(frame.left, frame.bottom) + steps * frame.pixel);
+  };
   std::vector<sim::RasterPixel> pixels(grid.size()), row(frame.columns);
   for (std::uint64_t r = 0; r < frame.rows; ++r) {
     rows(row);
     const auto y = static_cast<long long>(r) + bottom;
-    if (y < 0 || y >= static_cast<long long>(grid.rows)) continue;
+    if (y < 0 || y >= static_cast<long long>(grid.rows)) {
+      for (std::uint64_t c = 0; c < frame.columns; ++c) outside.beyond(place(c, r), row[c].fill);
+      continue;
+    }
     for (std::uint64_t c = 0; c < frame.columns; ++c) {
       const auto x = static_cast<long long>(c) + left;
-      if (x < 0 || x >= static_cast<long long>(grid.columns)) continue;
+      if (x < 0 || x >= static_cast<long long>(grid.columns)) {
+        outside.beyond(place(c, r), row[c].fill);
+        continue;
+      }
       pixels[static_cast<std::size_t>(y) * grid.columns + static_cast<std::size_t>(x)] = row[c];
     }
   }
@@ -80,9 +156,10 @@ class Judge {
         middle_(target.top - target.height / 2),
         materials_(materials_of(target)),
         grid_(grid),
-        labels_(scan(target.zones, grid)) {}
+        labels_(scan(target.zones, grid)),
+        rim_(labels_, grid, std::min(target.bead_width / 2, margin)) {}
 
-  DepositFindings findings(const std::vector<sim::RasterPixel>& pixels) {
+  DepositFindings findings(const std::vector<sim::RasterPixel>& pixels, Outside& outside) {
     wrong_.assign(pixels.size(), false);
     const double place = grid_.pixel * grid_.pixel;
     DepositFindings f;
@@ -90,6 +167,7 @@ class Judge {
       const double fill = pixels[i].fill;
       if (labels_[i] == outside_all) {
         f.spilled += fill * place;
+        if (fill > 0 && !rim_.holds(i)) outside.beyond(grid_.middle(i), fill);
         continue;
       }
       f.area += place;
@@ -101,6 +179,7 @@ class Judge {
       if (fill >= hardly) judge_mixture(i, shares_of(pixels[i]), f);
     }
     measure_distances(f);
+    f.outside = outside.elsewhere, f.prime = outside.prime, f.skirt = outside.skirt;
     return f;
   }
 
@@ -141,6 +220,7 @@ class Judge {
   std::vector<RegionLabel> materials_;
   const PixelGrid& grid_;
   std::vector<RegionLabel> labels_;
+  Rim rim_;
   std::vector<bool> wrong_;
 };
 
@@ -157,10 +237,11 @@ Shares IntendedMaterial::at(const core::Vec2& place, double z) const {
 JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, const RowSource& rows,
                   const std::vector<IntendedMaterial>& materials, bool draw) {
   const PixelGrid grid = grid_around(target, frame);
-  const std::vector<sim::RasterPixel> pixels = read(frame, rows, grid);
+  Outside outside(target, frame);
+  const std::vector<sim::RasterPixel> pixels = read(frame, rows, grid, outside);
   Judge judge(target, materials, grid);
   JudgedLayer result;
-  result.findings = judge.findings(pixels);
+  result.findings = judge.findings(pixels, outside);
   if (draw) {
     const DepositView view{grid, judge.labels(), pixels, judge.wrong()};
     result.gaps = draw_gaps(view);

@@ -28,12 +28,20 @@ struct IntendedMaterial {
   std::array<double, gcode::max_feeders> at(const core::Vec2& place, double z) const;
 };
 
+/// A straight piece of bead.
+struct Stroke {
+  core::Vec2 from{0, 0}, to{0, 0};
+  double width = 0;
+};
+
 /// What a layer was to be, in the bed's frame.
 struct TargetLayer {
   std::size_t index = 0;
   double top = 0;  ///< where the nozzle runs
   double height = 0;
-  std::vector<LabelledPolygon> zones;  ///< labelled by material
+  std::vector<LabelledPolygon> zones;          ///< labelled by material
+  double bead_width = 0;                       ///< of the job; the rim of the part is half as wide
+  std::vector<Stroke> prime = {}, skirt = {};  ///< that are to lie beside the part
 };
 
 /// Gives the simulator's rows from the lowest up.

@@ -9,7 +9,6 @@ namespace unicursal::host {
 namespace {
 
 /// What fed_volumes() calls mixtures that no material has.
-constexpr const char* mixtures_between = "between";
 
 std::string counted(std::uint64_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -76,7 +75,7 @@ std::string summary(const Comparison& comparison) {
   Comparison::Mixture shades;
   std::size_t count = 0;
   for (const Comparison::Mixture& mixture : comparison.mixtures) {
-    if (mixture.name != mixtures_between) {
+    if (mixture.name != mixed_between) {
       tell(mixture);
       continue;
     }
@@ -100,6 +99,9 @@ std::string summary(const DepositFindings& d) {
                  "laid:      gaps {:.2f} %, overfill {:.2f} % of {:.0f} mm²; height {:.0f} to {:.0f} %\n",
                  100 * d.gap_fraction(), 100 * d.overfill_fraction(), d.area, 100 * d.fill.percentile(0.05),
                  100 * d.fill.percentile(0.95));
+  fmt::format_to(out,
+                 "outside:   {:.2f} mm³, other than the prime line ({:.1f} mm³) and the skirt ({:.1f} mm³)\n",
+                 d.outside, d.prime, d.skirt);
   if (d.wrong > 0) {
     fmt::format_to(
         out,

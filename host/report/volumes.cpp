@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 
 namespace unicursal::host {
 namespace {
@@ -88,6 +89,20 @@ double worst_of(const Comparison::Mixture& mixture) {
   return worst;
 }
 
+double worst_in_between(const std::vector<Row>& rows) {
+  double intended = 0;
+  Shares lacks{};  // mm³
+  for (const Row& row : rows) {
+    if (row.mixture.name != mixed_between) continue;
+    intended += row.mixture.intended;
+    for (std::size_t f = 0; f < lacks.size(); ++f)
+      lacks[f] += row.shares[f] * row.mixture.intended - row.fed[f];
+  }
+  double worst = std::abs(std::accumulate(lacks.begin(), lacks.end(), 0.0));
+  for (const double lack : lacks) worst = std::max(worst, std::abs(lack));
+  return intended > 0 ? worst / intended : 0;
+}
+
 /// JSON knows no infinity.
 nlohmann::json finite(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
@@ -111,7 +126,7 @@ std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>&
     const auto material = std::find_if(materials.begin(), materials.end(), [&](const MaterialVolume& m) {
       return difference(m.intended.shares(), mixture.shares()) < same_mixture;
     });
-    const std::string name = material == materials.end() ? "between" : material->name;
+    const std::string name = material == materials.end() ? mixed_between : material->name;
     volumes.push_back({name, mixture, mixture, volume, 0});
   }
   return volumes;
@@ -151,8 +166,10 @@ Comparison compare(const std::vector<MaterialVolume>& volumes, const nlohmann::j
   Comparison comparison;
   for (const Row& row : rows) {
     comparison.mixtures.push_back(judged(row));
+    if (row.mixture.name == mixed_between) continue;
     comparison.worst_error = std::max(comparison.worst_error, worst_of(comparison.mixtures.back()));
   }
+  comparison.worst_error = std::max(comparison.worst_error, worst_in_between(rows));
   const nlohmann::json lines = simulator.value("lines", nlohmann::json::object());
   // Lines are numbered from 1 behind an M110 numbered 0; a number that is accepted twice counts twice.
   const std::int64_t last = count(simulator, "last_line");

@@ -26,8 +26,11 @@ struct MaterialVolume {
 void add_layer(std::vector<MaterialVolume>& volumes, const gcode::PlacedLayer& layer,
                const std::vector<std::size_t>& zone_materials);
 
+/// Of gradients, and of changes that are hurried on.
+inline constexpr const char* mixed_between = "between";
+
 /// What the feeders were told, by mixture: the schedule's volumes, which are the zones' but for the changes.
-/// Those that no material has are called `between`.
+/// Those that no material has are called `mixed_between`.
 std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>& fed,
                                         const std::vector<MaterialVolume>& materials);
 
@@ -55,7 +58,10 @@ struct Comparison {
         feeder_error{};  ///< of each feeder, relative to its intended volume
   };
   std::vector<Mixture> mixtures;
-  double worst_error = 0;  ///< greatest magnitude of the mixtures' relative errors, feeders included
+  /// Greatest magnitude of the mixtures' relative errors, feeders included. Those in between are fed for so
+  /// short a while that single steps of a feeder with a small share would count: they are judged together,
+  /// and each feeder against them all.
+  double worst_error = 0;
   std::int64_t lines_lost = 0;
   std::int64_t lines_twice = 0;
   bool in_order = false;

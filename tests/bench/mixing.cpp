@@ -215,6 +215,8 @@ void measure(const char* file, const Options& options) {
   }
   fmt::print("  travels: {} in layers ({} islands more than layers), {} between layers, {:.0f} mm in all\n",
              ahead.travels_within, ahead.islands_left, ahead.travels_between, ahead.travel);
+  fmt::print("  outside the part: {:.3f} mm³; prime line {:.1f} mm³, skirt {:.1f} mm³\n",
+             ahead.findings.outside, ahead.findings.prime, ahead.findings.skirt);
   fmt::print("  encoding: {:.3f} s of processor time for each layer\n",
              ahead.encoding / static_cast<double>(std::max<std::size_t>(1, layers.size())));
 }

@@ -119,6 +119,47 @@ TEST_CASE(
   CHECK(f.wrong_distance.percentile(1) == Approx(3).margin(0.1));
 }
 
+TEST_CASE("A bead that runs beside the part is outside; the rim, the prime line and the skirt are not") {
+  TargetLayer target = two_zones();
+  target.bead_width = 0.8;
+  target.prime = {{{8, 7}, {28, 7}, 1.0}};
+  target.skirt = {{{7.0, 9}, {7.0, 21}, 0.4}};
+  const auto within = [](double x, double y, double x0, double y0, double x1, double y1) {
+    return x > x0 && x < x1 && y > y0 && y < y1;
+  };
+  const auto as_it_should = [&](double x, double y) {
+    if (within(x, y, 8, 6.5, 28, 7.5) || within(x, y, 6.8, 9, 7.2, 21)) return plastic(1, red);
+    if (within(x, y, 10, 19, 30, 20.38)) return plastic(1, x < 20 ? red : blue);  // a rim of 0.38 mm
+    return perfect(x, y);
+  };
+  const auto found = [&](const Laid::Function& at) {
+    const Laid laid(frame, at);
+    std::uint64_t row = 0;
+    const auto rows = [&](std::span<sim::RasterPixel> pixels) { laid.read_row(row++, pixels); };
+    return judge(target, frame, rows, red_and_blue, false).findings;
+  };
+  const DepositFindings good = found(as_it_should);
+  CHECK(good.outside == 0);
+  CHECK(good.prime == Approx(20 * 1 * 0.2).epsilon(0.02));
+  CHECK(good.skirt == Approx(12 * 0.4 * 0.2).epsilon(0.02));
+
+  // The topmost bead, 0.8 mm wide, is displaced by 1 mm: 0.6 of its 0.8 mm lie beyond the rim.
+  const DepositFindings displaced = found([&](double x, double y) {
+    if (within(x, y, 12, 20.2, 22, 21)) return plastic(1, red);
+    return as_it_should(x, y);
+  });
+  CHECK(displaced.outside == Approx(10 * 0.6 * 0.2).epsilon(0.05));
+  // Far from the part, where the other figures do not look; and a skirt that is nowhere near its place.
+  const DepositFindings far = found([&](double x, double y) {
+    if (within(x, y, 33, 10, 34, 12)) return plastic(1.5, red);
+    return as_it_should(x, y);
+  });
+  CHECK(far.outside == Approx(2 * 1.5 * 0.2).epsilon(0.05));
+  CHECK(far.spilled == good.spilled);
+  target.skirt = {{{7.0, 5}, {28.0, 5}, 0.4}};
+  CHECK(found(as_it_should).outside == Approx(good.skirt).epsilon(0.01));
+}
+
 TEST_CASE("Where the raster does not reach, nothing was laid") {
   const sim::RasterFrame half{0.8, 0.2, 5.03, 4.98, 0.05, 600, 200};  // up to y = 14.98
   CHECK(judged(perfect, half).findings.gaps == Approx(200 * 5.02 / 10).epsilon(0.01));
@@ -201,11 +242,13 @@ TEST_CASE("Layers are judged as they come out of the stream, each against its ow
   const auto file = folder / "rasters";
   {
     sim::RasterWriter writer(file);
-    for (const double z : {0.4, 0.6, 0.8}) {
+    for (const double z : {0.4, 0.6, 0.8, 2.0}) {  // nothing is to lie at the last one's height
       sim::RasterFrame here = frame;
       here.z = z;
       writer.layer(Laid(here, [z](double x, double y) {
-        return z < 0.5 ? plastic(inside(x, y) ? 1 : 0, blue) : z < 0.7 ? perfect(x, y) : sim::RasterPixel{};
+        return z < 0.5            ? plastic(inside(x, y) ? 1 : 0, blue)
+               : z < 0.7 || z > 1 ? perfect(x, y)
+                                  : sim::RasterPixel{};
       }));
     }
   }
@@ -232,6 +275,7 @@ TEST_CASE("Layers are judged as they come out of the stream, each against its ow
   CHECK(std::filesystem::exists(folder / "gaps-0001.png"));
   CHECK(std::filesystem::exists(folder / "mixtures-0003.png"));
   CHECK(summary(check.total()).find("gaps 33") != std::string::npos);
+  CHECK(check.total().outside == Approx(200 * 0.2).epsilon(0.01));
 }
 
 TEST_CASE("A stream that breaks off is told, and the layers before it are kept") {

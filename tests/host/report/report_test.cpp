@@ -124,6 +124,21 @@ TEST_CASE("Feeder steps are judged against the intended volume of each mixture")
   CHECK(more.worst_error == Approx(0.02));
 }
 
+TEST_CASE("What is mixed in between is judged together, since single steps count in so little") {
+  const auto volumes = fed_volumes(
+      {{gcode::Mixture({0.5, 0.48, 0.02}), 50}, {gcode::Mixture({0.02, 0.48, 0.5}), 50}}, two_materials());
+  REQUIRE(volumes[0].name == mixed_between);
+  const auto report = [](double floor, double main) {
+    return nlohmann::json{{"mixtures",
+                           {{{"shares", {0.5, 0.48, 0.02}}, {"feeder_steps", {main, 24, floor}}},
+                            {{"shares", {0.02, 0.48, 0.5}}, {"feeder_steps", {floor, 24, 25}}}}}};
+  };
+  CHECK(compare(volumes, report(1, 25), unit_steps()).worst_error == Approx(0).margin(1e-9));
+  // One step more of a feeder that has one: twice its share, but a hundredth of what is fed.
+  CHECK(compare(volumes, report(1, 26), unit_steps()).worst_error == Approx(0.01));
+  CHECK(compare(volumes, report(2, 25), unit_steps()).worst_error == Approx(0.02));
+}
+
 TEST_CASE("A feeder that ran where it should not is seen though the sum is right") {
   auto volumes = two_materials();
   volumes[0].part = 200;
