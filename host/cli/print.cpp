@@ -29,6 +29,7 @@ Exit print(const PrintCommand& command) {
   check_beginning(prepared);
   StreamSettings settings;
   settings.pause_heat = command.pause_heat;
+  settings.profile = prepared.job.profile.file;
   Lookahead lookahead(*prepared.part, paced(lookahead_options(prepared), settings.clock));
   const int port = open_port(order.port, prepared.job.profile.baud);
   Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);

@@ -24,6 +24,7 @@ Print::Print(const PrintPlan& plan)
       lookahead_(*prepared_.part, paced(lookahead_options(prepared_), settings_.clock)),
       source_(lookahead_, run_) {
   settings_.pause_heat = plan.pause_heat;
+  settings_.profile = prepared_.job.profile.file;
   settings_.link = link_options(prepared_.job.profile, {});
   PrintOrder order;
   order.job_name = prepared_.job.file.stem().string();

@@ -1,5 +1,7 @@
 #include "host/engine/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <asio/bind_executor.hpp>
 #include <asio/co_spawn.hpp>
@@ -7,6 +9,7 @@
 #include <exception>
 #include <new>
 
+#include "host/engine/printer_check.hpp"
 #include "host/engine/rejoining.hpp"
 #include "host/engine/session_impl.hpp"
 #include "host/link/serial_log.hpp"
@@ -19,6 +22,8 @@ constexpr double look_ahead = 300;  ///< s of printing that are planned before t
 
 /// Lines handed to the link at once: few, so that a command takes effect soon.
 constexpr std::size_t batch = 16;
+
+constexpr auto late_answer = std::chrono::seconds(1);  ///< of a printer that says ok first
 
 constexpr double no_time = 0;
 
@@ -140,7 +145,35 @@ asio::awaitable<void> Session::State::begin() {
   if (continuation && !continuation->leg) co_return co_await rejoin();
   if (continuation) spool->journal().begin_leg(*continuation->leg);
   co_await link.connect();
+  check_firmware();
+  co_await check_mixing();
   if (spool) spool->supersede_others();
+}
+
+void Session::State::check_firmware() {
+  const gcode::Identity& printer = link.identity();
+  if (const auto why = mismatch(printer, source.printer().firmware)) {
+    unfit = true;
+    const std::string remedy = settings.continuation
+                                   ? "go on where the print was begun, or print the job anew"
+                                   : correction(printer, settings.profile);
+    throw LinkError(fmt::format("this printer cannot be used: {}; {}", *why, remedy));
+  }
+  if (const auto strange = strangeness(printer)) warn(*strange);
+}
+
+/// Some firmwares say ok when a line has come, and answer when it is run; what they answer to the second
+/// question comes behind what they say to the first.
+asio::awaitable<void> Session::State::check_mixing() {
+  std::vector<std::string> questions{mixing_question, "M105"};
+  temperatures = {};
+  co_await interpose(std::move(questions));
+  co_await link.drain();
+  const std::function<bool()> answered = [this] { return !mixes || temperatures.nozzle || temperatures.bed; };
+  co_await wake.wait(clock->now() + late_answer, answered);
+  if (mixes) co_return;
+  unfit = true;
+  throw LinkError(fmt::format("this printer cannot be used: {}", does_not_mix));
 }
 
 asio::awaitable<void> Session::State::rejoin() {
@@ -152,6 +185,7 @@ asio::awaitable<void> Session::State::rejoin() {
     lost = Lost{error.what(), std::nullopt};
     co_return;
   }
+  check_firmware();
   lost = lost_since(before, found, spool->chunks(), spool->extent());
   if (lost) co_return;
   spool->journal().begin_session();
@@ -356,8 +390,8 @@ asio::awaitable<void> Session::State::hand(std::vector<std::string> lines) {
 }
 
 StreamResult Session::State::result(const std::exception_ptr& error) {
-  StreamResult result{Ending::completed, {},     parked, link.statistics(),
-                      link.firmware(),   waited, lost,   pauses};
+  StreamResult result{
+      Ending::completed, {}, parked, link.statistics(), link.firmware(), waited, lost, pauses, unfit};
   if (stopped) result.ending = Ending::stopped;
   if (error) result.reason = sentence(error);
   if (aborted) result.reason = reason;
@@ -372,7 +406,10 @@ StreamResult Session::State::result(const std::exception_ptr& error) {
     case Ending::failed:
       enter(SessionState::failed, result.reason);
   }
-  if (spool && !lost) end_journal(result);
+  if (spool && unfit && !settings.continuation)
+    spool->discard();
+  else if (spool && !lost)
+    end_journal(result);
   return result;
 }
 

@@ -26,6 +26,8 @@ struct Session::State {
   asio::awaitable<void> print();
   asio::awaitable<void> begin();
   asio::awaitable<void> rejoin();
+  void check_firmware();
+  asio::awaitable<void> check_mixing();
   asio::awaitable<void> send_spooled();
   void begin_to_catch_up();
   asio::awaitable<void> catch_up();
@@ -107,6 +109,8 @@ struct Session::State {
   std::exception_ptr catching_up_failed;
   bool parking = false;  ///< what is sent is not of the spool
   bool parked = false;
+  bool unfit = false;   ///< the printer is another one than the print was made for
+  bool mixes = true;    ///< as far as the printer has told
   bool halted = false;  ///< the firmware has said that it has stopped itself
   std::optional<Lost> lost;
   double waited = 0;  ///< s for pieces

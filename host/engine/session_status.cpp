@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/engine/printer_check.hpp"
 #include "host/engine/session_impl.hpp"
 
 namespace unicursal::host {
@@ -86,6 +87,7 @@ void Session::State::hear(const std::string& line) {
   const Reply reply = parse_reply(line);
   const auto heard = [&](const Temperatures& told) {
     update(temperatures, told);
+    wake.notify();
     tell(SessionEvent::Kind::heat);
   };
   if (const auto* ok = std::get_if<reply::Ok>(&reply)) return heard(ok->temperatures);
@@ -93,6 +95,10 @@ void Session::State::hear(const std::string& line) {
   if (const auto* error = std::get_if<reply::Error>(&reply); error && error->halted) halted = true;
   tell(SessionEvent::Kind::printer, line);
   if (const auto* echo = std::get_if<reply::Echo>(&reply); echo && echo->unknown_command) {
+    if (denies_mixing(line)) {
+      mixes = false;
+      wake.notify();
+    }
     if (echo->text.find("M85") != std::string::npos)
       warn("this firmware does not know M85: if this computer fails in mid-print, nothing cools the printer");
   }
