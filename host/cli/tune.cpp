@@ -82,7 +82,8 @@ void print_on(const std::string& port, const Profile& profile, const FinishedPri
   StreamSettings settings;
   settings.profile = profile.file;
   settings.link = link_options(profile, {});
-  expect_whole(stream_with_progress(open_port(port, profile.baud), source, {}, settings));
+  const int open = open_port(port, profile.baud, settings.link);
+  expect_whole(stream_with_progress(open, source, {}, settings));
 }
 
 std::vector<std::string> simulator_arguments(const TuneCommand& command, const Profile& profile,

@@ -31,7 +31,7 @@ Print::Print(const PrintPlan& plan)
   order.port = plan.port.value_or(plan.own_port ? "auto" : prepared_.job.profile.port);
   order.layer_count = prepared_.count;
   if (plan.layers) order.layers = std::pair(plan.layers->first, plan.layers->last);
-  port_ = open_port(order.port, prepared_.job.profile.baud);
+  port_ = open_port(order.port, prepared_.job.profile.baud, settings_.link);
   try {
     spool_.emplace(Spool::create(plan.spool ? *plan.spool : default_spool_root(), prepared_.job, order));
   } catch (...) {

@@ -25,8 +25,6 @@ constexpr std::size_t batch = 16;
 
 constexpr auto late_answer = std::chrono::seconds(1);  ///< of a printer that says ok first
 
-constexpr double no_time = 0;
-
 bool moves_away(const std::string& line) {
   const bool move = line.starts_with("G0 ") || line.starts_with("G1 ");
   return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
@@ -272,6 +270,7 @@ asio::awaitable<void> Session::State::send_pieces() {
     const gcode::Chunk& chunk = piece->chunk;
     chunk_seconds = chunk.seconds;
     whole = whole_layers(chunk);
+    time_layers(chunk);
     layers_begun = layer_at(chunk, 0).value_or(pieces);
     co_await send(chunk);
     if (stopped) break;
@@ -279,6 +278,16 @@ asio::awaitable<void> Session::State::send_pieces() {
     layers_sent += std::exchange(whole, 0U);
     layer_fraction = 0;
     ++pieces;
+  }
+}
+
+/// The first layer is no measure for the others: it has its own speed, and a skirt.
+void Session::State::time_layers(const gcode::Chunk& chunk) {
+  for (const gcode::LayerShare& share : chunk.layers) {
+    unfinished_seconds += share.seconds;
+    if (!share.last) continue;
+    if (share.layer > 0) later_seconds += unfinished_seconds;
+    unfinished_seconds = 0;
   }
 }
 

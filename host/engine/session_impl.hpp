@@ -34,6 +34,7 @@ struct Session::State {
   asio::awaitable<void> start();
   asio::awaitable<void> get_hot();
   asio::awaitable<void> send_pieces();
+  void time_layers(const gcode::Chunk& chunk);
   asio::awaitable<std::optional<Piece>> next_piece();
   asio::awaitable<void> until_ready();
   void tell_position();
@@ -130,9 +131,13 @@ struct Session::State {
   std::size_t layers_begun = 0;
   double layer_fraction = 0;                   ///< of the chunk that is being sent
   double seconds_sent = 0, chunk_seconds = 0;  ///< of the chunks before, of the one that is being sent
+  double unfinished_seconds = 0;               ///< of these, a layer's that ends in a later chunk
+  double later_seconds = 0;                    ///< and those of whole layers, but for the print's first
   std::size_t layers_sent = 0;                 ///< whose seconds are in `seconds_sent`
   std::size_t whole = 0;                       ///< layers that end in the chunk that is being sent
 };
+
+constexpr double no_time = 0;
 
 /// Whatever was thrown, as a sentence for a person.
 std::string sentence(const std::exception_ptr& error);
