@@ -77,6 +77,7 @@ LayerRange parse_layers(const std::string& text) {
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more) {
   Job job = load_job(options.job, options.profile);
   job.look_ahead = options.look_ahead;
+  job.full_quality = options.full_quality;
   PreparedJob prepared = prepare(std::move(job), options.layers);
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more;
@@ -97,6 +98,7 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
   } catch (const std::exception& error) {
     problem = error.what();
   }
+  if (result.unfit) throw PrinterUnfit(result.reason);
   if (result.ending == Ending::failed) throw PrintError(result.reason);
   if (!problem.empty()) {
     throw PrintError(
@@ -106,7 +108,7 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
 
 void tell_about_spool(Spool& spool, const StreamResult& result) {
   if (const auto problem = spool.journal().problem()) show(stderr, "warning: {}\n", *problem);
-  if (result.ending == Ending::completed) return;
+  if (result.ending == Ending::completed || result.unfit) return;
   show(stderr, "to go on with this print: unicursal resume {}\n", spool.folder().filename().string());
 }
 

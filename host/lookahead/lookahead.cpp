@@ -1,10 +1,5 @@
 #include "host/lookahead/lookahead.hpp"
 
-#include <pthread.h>
-#include <sched.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -17,24 +12,15 @@
 #include <numeric>
 #include <thread>
 
+#include "host/lookahead/foretold_times.hpp"
+#include "host/lookahead/low_priority.hpp"
 #include "host/lookahead/pacer.hpp"
 #include "host/lookahead/timeline.hpp"
 
 namespace unicursal::host {
 namespace {
 
-/// Added to the niceness of planning threads, so that the link is served first on a busy machine.
-constexpr int planner_niceness = 10;
-
 constexpr double margin = 1;  ///< s before a layer is needed, for what nobody can foretell
-
-/// Best effort: where it is refused, planning just competes on equal terms.
-void lower_priority() {
-  const sched_param parameters{};
-  pthread_setschedparam(pthread_self(), SCHED_BATCH, &parameters);
-  const auto thread = static_cast<id_t>(gettid());
-  setpriority(PRIO_PROCESS, thread, planner_niceness);
-}
 
 /// Steele, Lea, Flood 2014: the finaliser of SplitMix64, which spreads every bit over all.
 std::uint64_t mixed(std::uint64_t x) {
@@ -166,7 +152,7 @@ struct Lookahead::State {
       layer.result.plans.resize(layer.result.layer.islands.size());
     });
     layer.area = area_of(layer.result.layer);
-    if (options.flow > 0) layer.print_seconds = layer.area * layer.result.layer.height / options.flow;
+    layer.print_seconds = foretold_seconds(layer.result.layer, options.flow);
     layer.sliced_at = time.ended();
     layer.sliced = true;
     work_available.notify_all();
@@ -198,7 +184,7 @@ struct Lookahead::State {
     const double area = core::area(island.outline), w = options.plan.bead_width;
     const double share = layer.area > 0 ? area / layer.area : 1;
     Attempt attempt{area / (w * w), time.now(), no_hurry, {}};
-    if (options.pace)
+    if (options.pace && !options.patient)
       attempt.allowed = pacer.allowance(need_of(layer) - attempt.begun, layer.print_seconds, share);
     return attempt;
   }
@@ -206,7 +192,7 @@ struct Lookahead::State {
   /// Asked unlocked, between the steps of the optimisers.
   bool enough(const OpenLayer& layer, Attempt& attempt, const Timeline& time) const {
     if (cancelled || attempt.cut) return true;
-    if (!options.pace) return false;
+    if (!options.pace || options.patient) return false;
     const std::lock_guard lock(mutex);
     const double now = time.now(), done = now + pacer.tail(attempt.cells);
     if (done - attempt.begun < attempt.allowed && done + margin < need_of(layer)) return false;

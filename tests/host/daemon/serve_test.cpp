@@ -137,7 +137,8 @@ TEST_CASE("SIGTERM parks and cools the print before the daemon ends") {
   bench.serve();
   const int id = add(bench, "0:99");
   REQUIRE(bench.command({"start"}).code == 0);
-  bench.await_print("printing");
+  const auto extrudes = [&] { return count(test::read_text(bench.path("lines.txt")), "G1 ") > 0; };
+  test::await(extrudes, bench.daemon());
   kill(bench.daemon().id(), SIGTERM);
   CHECK(bench.daemon().wait().code == 0);
   const std::string lines = bench.transcript();

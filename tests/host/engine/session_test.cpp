@@ -5,7 +5,7 @@
 #include <set>
 
 #include "host/engine/session_json.hpp"
-#include "session_bench.hpp"
+#include "tests/host/support/session_bench.hpp"
 
 using namespace unicursal::host;
 using unicursal::test::SessionBench;

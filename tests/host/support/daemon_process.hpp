@@ -42,10 +42,12 @@ class DaemonBench {
   const TempFolder& folder() const { return folder_; }
 
   /// `speed`: printer seconds per second; 0: as fast as lines come.
-  void start_printer(const std::string& speed) {
-    printer_ = std::make_unique<Child>(
-        std::vector<std::string>{"simulate", "--profile", path("jobs/bench.toml.profile"), "--link",
-                                 path("port"), "--speed", speed, "--transcript", path("lines.txt")});
+  void start_printer(const std::string& speed, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"simulate", "--profile",    path("jobs/bench.toml.profile"),
+                                       "--link",   path("port"),   "--speed",
+                                       speed,      "--transcript", path("lines.txt")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    printer_ = std::make_unique<Child>(arguments);
     await([this] { return std::filesystem::exists(path("port")); }, *printer_);
   }
 
