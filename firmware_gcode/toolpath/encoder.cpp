@@ -20,6 +20,7 @@
 #include "firmware_gcode/mixing/tool_table.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
 #include "firmware_gcode/toolpath/detour.hpp"
+#include "firmware_gcode/toolpath/held_flow.hpp"
 #include "firmware_gcode/toolpath/job_frame.hpp"
 #include "firmware_gcode/toolpath/move_writer.hpp"
 #include "firmware_gcode/toolpath/pace.hpp"
@@ -49,6 +50,7 @@ void append(Lines& lines, Lines more) {
 struct BeginLayer {
   std::size_t index;
   double top, height;
+  double flow;  ///< mm³/s
 };
 struct EndLayer {};
 struct Remark {
@@ -107,6 +109,7 @@ struct Encoder::State {
 
   void plan_decided();
   void plan(const RoutedLayer& routed);
+  double flow_for(const RoutedLayer& routed);
   void plan_prime(const RoutedLayer& routed);
   void plan_skirt(const RoutedLayer& routed);
   void plan_path(const PlacedLayer& layer, const core::BeadPath& path, const Rivals& rivals);
@@ -155,6 +158,7 @@ struct Encoder::State {
   bool begun = false;  ///< something has been printed or accepted for it
   bool primed = false;
   bool warned_of_crossings = false;
+  bool warned_of_flow = false;
   double told_width = 0;  ///< mm, of the last ;WIDTH: comment
 };
 
@@ -227,7 +231,7 @@ void Encoder::State::plan_decided() {
 
 void Encoder::State::plan(const RoutedLayer& routed) {
   const PlacedLayer& of = routed.layer;
-  steps.push_back(BeginLayer{of.index, of.top, of.height});
+  steps.push_back(BeginLayer{of.index, of.top, of.height, flow_for(routed)});
   std::vector<std::size_t> materials;
   for (const Leg& leg : routed.legs) {
     const core::BeadPath& path = of.paths[leg.path];
@@ -238,7 +242,6 @@ void Encoder::State::plan(const RoutedLayer& routed) {
   const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(materials));
   if (!routed.legs.empty()) {
     if (!std::exchange(primed, true)) {
-      if (pace.open()) pace.settle({simplified(of)});
       plan_prime(routed);
       plan_skirt(routed);
     }
@@ -246,6 +249,26 @@ void Encoder::State::plan(const RoutedLayer& routed) {
   }
   for (const Leg& leg : routed.legs) plan_path(of, turned(of.paths[leg.path], leg), rivals);
   steps.push_back(EndLayer{});
+}
+
+/// An automatic one is chosen when the first layer that prints comes, together with those that wait behind
+/// it.
+double Encoder::State::flow_for(const RoutedLayer& routed) {
+  if (!settings.automatic_flow || settings.speed || routed.legs.empty()) return pace.flow();
+  const PlacedLayer fill = simplified(routed.layer);
+  if (pace.open()) {
+    std::vector<PlacedLayer> window{fill};
+    for (const PlacedLayer* next : route.waiting()) window.push_back(simplified(*next));
+    pace.settle(window);
+  }
+  const double flow = pace.flow_of(fill);
+  if (flow < (1 - flow_tolerance) * pace.flow() && !std::exchange(warned_of_flow, true)) {
+    steps.push_back(Warning{fmt::format(
+        "layer {}: its hairpins let {:.2f} mm³/s stay constant and not {:.2f}; it is laid with that, as are "
+        "others that need it",
+        routed.layer.index, flow, pace.flow())});
+  }
+  return flow;
 }
 
 /// What is primed with is what is needed next.
@@ -369,6 +392,7 @@ void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
 
 void Encoder::State::write(Chunk& chunk, const BeginLayer& step) {
   layer_height = step.height;
+  pace.run_at(step.flow);
   append(chunk.lines,
          {";LAYER_CHANGE", ";Z:" + short_number(step.top, 3), ";HEIGHT:" + short_number(step.height, 3)});
   append(chunk.lines, layer_events(step.index, settings));

@@ -46,7 +46,8 @@ struct Skirt {
 
 struct PrintSettings {
   double flow = 2;  ///< mm³/s, held constant; with `automatic_flow` only a first guess
-  /// Hold the highest flow that the first layers' hairpins let stay constant (held_flow.hpp).
+  /// Hold the highest flow that the first layers' hairpins let stay constant, and less in layers that need it
+  /// (pace.hpp, held_flow.hpp).
   bool automatic_flow = false;
   std::optional<double> speed;   ///< mm/s, held constant instead of the flow
   double first_layer_speed = 1;  ///< of the flow or speed of the others, 0…1

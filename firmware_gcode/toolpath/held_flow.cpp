@@ -10,10 +10,11 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr std::size_t most_beads = 20000;  ///< that are looked at; more would tell the same
-constexpr int halvings = 12;               ///< of the range of flows, which leaves steps of 0.2 %
-constexpr double least_part = 0.005;       ///< of max_flow: less is not tried
-constexpr double flow_steps = 100;         ///< of which 1 mm³/s is told
+/// That are looked at, of every path its part; more would tell the same.
+constexpr std::size_t most_beads = 20000;
+constexpr int halvings = 12;          ///< of the range of flows, which leaves steps of 0.2 %
+constexpr double least_part = 0.005;  ///< of max_flow: less is not tried
+constexpr double flow_steps = 100;    ///< of which 1 mm³/s is told
 /// Part of the flow that is kept of the tolerance for what is not reckoned: moves of a few tenths of a mm end
 /// on whole motor steps. Without it 89 % of the seconds held where 95 % should have (folds 0.45 mm apart).
 constexpr double reserve = 0.005;
@@ -62,12 +63,15 @@ double share_held(const std::vector<PlacedLayer>& layers, PrintSettings settings
   const Pace pace(printer, settings);
   Seconds seconds;
   TimeEstimate estimate(printer, [&](double taken, double asked) { seconds.add(taken, asked); });
-  std::size_t left = most_beads;
+  std::size_t beads = 0;
+  for (const PlacedLayer& layer : layers) {
+    for (const core::BeadPath& path : layer.paths) beads += path.size();
+  }
+  const double part = std::min(1.0, static_cast<double>(most_beads) / static_cast<double>(beads + 1));
   for (const PlacedLayer& layer : layers) {
     for (const core::BeadPath& path : layer.paths) {
-      const std::size_t count = std::min(left, path.size());
+      const auto count = static_cast<std::size_t>(std::ceil(part * static_cast<double>(path.size())));
       lay(path, count, settings.layer_height, pace, printer, estimate);
-      left -= count;
     }
   }
   return seconds.share();

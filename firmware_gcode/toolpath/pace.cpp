@@ -11,11 +11,20 @@ Pace::Pace(const Printer& printer, const PrintSettings& settings)
     : printer_(printer),
       settings_(settings),
       flow_(settings.flow),
-      open_(settings.automatic_flow && !settings.speed) {}
+      layer_flow_(settings.flow),
+      automatic_(settings.automatic_flow && !settings.speed),
+      open_(automatic_) {}
 
 void Pace::settle(const std::vector<PlacedLayer>& layers) {
-  flow_ = held_flow(layers, settings_, printer_);
+  flow_ = printer_.max_flow;
+  for (const PlacedLayer& layer : layers) flow_ = flow_of(layer);
+  layer_flow_ = flow_;
   open_ = false;
+}
+
+double Pace::flow_of(const PlacedLayer& layer) const {
+  if (!automatic_ || share_held({layer}, settings_, printer_, flow_) >= held_share) return flow_;
+  return std::min(flow_, held_flow({layer}, settings_, printer_));
 }
 
 double Pace::speed(const core::Vec2& displacement, double volume, std::size_t layer,
@@ -28,7 +37,7 @@ double Pace::speed(const core::Vec2& displacement, double volume, std::size_t la
     return volume > 0 ? std::min(speed, printer_.max_flow * length / volume) : speed;
   }
   const double thinnest = printer_.bead_width_range[0] * layer_height;  // mm², cross-section
-  return std::min(speed, factor * flow_ / std::max(thinnest, volume / length));
+  return std::min(speed, factor * layer_flow_ / std::max(thinnest, volume / length));
 }
 
 }  // namespace unicursal::gcode

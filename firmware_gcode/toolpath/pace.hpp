@@ -6,6 +6,10 @@
 // A segment thinner than the nozzle can lay runs no faster than the thinnest bead would, at less flow. (One
 // that is wider than the nozzle can lay keeps the flow: to slow down is no way out, to speed up is none
 // either.)
+//
+// An automatic flow is the highest that every layer of the route's window holds when the print begins. A
+// layer that comes later and holds less, since its hairpins are tighter or closer together, is laid with what
+// it holds; the next one goes back to the flow of the print.
 #pragma once
 
 #include <vector>
@@ -20,10 +24,15 @@ class Pace {
 
   /// The flow is still to be chosen: settle() comes before the first speed().
   bool open() const { return open_; }
-  /// Chooses the flow by the layers that are known.
+  /// Chooses the flow by the layers that are known: the least of what they hold.
   void settle(const std::vector<PlacedLayer>& layers);
 
+  /// Of the print.
   double flow() const { return flow_; }
+  /// Of one layer: less where it cannot hold that of the print, if it is automatic.
+  double flow_of(const PlacedLayer& layer) const;
+  /// What follows is laid with this flow.
+  void run_at(double flow) { layer_flow_ = flow; }
   /// Of a bead of `volume`. Precondition: the displacement is not zero.
   double speed(const core::Vec2& displacement, double volume, std::size_t layer, double layer_height) const;
 
@@ -31,6 +40,8 @@ class Pace {
   Printer printer_;
   PrintSettings settings_;
   double flow_;
+  double layer_flow_;
+  bool automatic_;
   bool open_;
 };
 

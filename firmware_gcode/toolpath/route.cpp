@@ -401,6 +401,12 @@ void Route::end() {
   state_->ended = true;
 }
 
+std::vector<const PlacedLayer*> Route::waiting() const {
+  std::vector<const PlacedLayer*> layers;
+  for (const State::Waiting& each : state_->waiting) layers.push_back(&each.layer);
+  return layers;
+}
+
 std::optional<RoutedLayer> Route::take() {
   const std::size_t enough = std::max<std::size_t>(1, state_->options.horizon);
   if (state_->waiting.empty() || (!state_->ended && state_->waiting.size() < enough)) return std::nullopt;

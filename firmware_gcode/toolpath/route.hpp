@@ -57,6 +57,8 @@ class Route {
   void add(PlacedLayer layer);
   /// No layer will follow.
   void end();
+  /// What has been added and not yet taken; valid until the next call.
+  std::vector<const PlacedLayer*> waiting() const;
   /// The next layer that is decided, if there is one.
   std::optional<RoutedLayer> take();
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "firmware_gcode/toolpath/held_flow.hpp"
 #include "firmware_gcode/toolpath/pace.hpp"
@@ -74,6 +75,75 @@ TEST_CASE("the held flow is never above what the extruder melts, nor asked of no
   printer.max_flow = 0.7;
   CHECK(held_flow({folds(20)}, one_colour(), printer) == 0.7);
   CHECK(held_flow({}, one_colour(), printer) == 0.7);
+}
+
+namespace {
+
+/// mm³/s, the greatest that the lines of a layer of the part ask for.
+double flow_asked(const Chunk& chunk, std::size_t layer) {
+  double x = 0, y = 0, speed = 0, greatest = 0;
+  std::size_t at = 0;
+  for (const std::string& line : chunk.lines) {
+    if (line == ";LAYER_CHANGE") ++at;
+    if (!line.starts_with("G1 ") && !line.starts_with("G0 ")) continue;
+    double filament = 0;
+    const double x0 = x, y0 = y;
+    std::istringstream words(line.substr(3));
+    for (std::string word; words >> word;) {
+      const double value = std::stod(word.substr(1));
+      if (word[0] == 'X') x = value;
+      if (word[0] == 'Y') y = value;
+      if (word[0] == 'F') speed = value / 60;
+      if (word[0] == 'E') filament = value;
+    }
+    const double way = std::hypot(x - x0, y - y0);
+    const bool long_enough = way > 0.1;                                 // E is rounded
+    const bool in_part = std::min(x0, x) > 48 && std::min(y0, y) > 48;  // the prime line is not
+    if (at != layer + 1 || !long_enough || filament <= 0 || !in_part) continue;
+    greatest = std::max(greatest, filament * std::numbers::pi / 4 * 1.75 * 1.75 / (way / speed));
+  }
+  return greatest;
+}
+
+Chunk printed(const std::vector<double>& lengths, const PrintSettings& settings, double& flow) {
+  Encoder encoder({}, settings);
+  Chunk all;
+  const auto keep = [&all](const Chunk& chunk) {
+    all.lines.insert(all.lines.end(), chunk.lines.begin(), chunk.lines.end());
+    all.warnings.insert(all.warnings.end(), chunk.warnings.begin(), chunk.warnings.end());
+  };
+  encoder.start();
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    PlacedLayer layer = folds(lengths[i]);
+    layer.index = i, layer.top = 0.2 * static_cast<double>(i + 1);
+    keep(encoder.layer(layer));
+  }
+  keep(encoder.rest());
+  flow = encoder.flow();
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("an automatic flow is one that the layers hold, those that nobody knew of at the beginning, too") {
+  PrintSettings settings = one_colour();
+  settings.automatic_flow = true;
+  settings.extent = {{45, 45}, {95, 70}};
+  const auto held = [&](double length) { return held_flow({simplified(folds(length))}, settings, {}); };
+  REQUIRE(held(3) < 0.9 * held(20));
+  double flow = 0;
+  // The second layer has short lines: it is in the window that the flow is chosen by.
+  const Chunk early = printed({20, 3, 20, 20, 20, 20}, settings, flow);
+  CHECK(flow == held(3));
+  CHECK(early.warnings.empty());
+  // The seventh is not.
+  const Chunk late = printed({20, 20, 20, 20, 20, 20, 3, 20}, settings, flow);
+  CHECK(flow == held(20));
+  CHECK(flow_asked(late, 5) == Approx(held(20)).epsilon(0.03));
+  CHECK(flow_asked(late, 6) == Approx(held(3)).epsilon(0.03));
+  CHECK(flow_asked(late, 7) == Approx(held(20)).epsilon(0.03));
+  REQUIRE(late.warnings.size() == 1);
+  CHECK(late.warnings.front().find("layer 6") != std::string::npos);
 }
 
 TEST_CASE("an automatic flow is chosen by the first layer that prints, and then kept") {
