@@ -160,8 +160,9 @@ class Search {
   Found at(Pulses pulses) const {
     for (Pulse& pulse : pulses) {
       pulse.cells = std::clamp(pulse.cells, 1, longest);
-      pulse.shares[0] = std::clamp(pulse.shares[0], floor_, 1 - 2 * floor_);
-      pulse.shares[1] = std::clamp(pulse.shares[1], floor_, 1 - floor_ - pulse.shares[0]);
+      pulse.shares[0] = std::clamp(pulse.shares[0], floor_, std::max(floor_, 1 - 2 * floor_));
+      const double rest = 1 - floor_ - pulse.shares[0];
+      pulse.shares[1] = std::clamp(pulse.shares[1], floor_, std::max(floor_, rest));
     }
     const Change::Cost cost = change_.of(pulses);
     return {std::move(pulses), cost};

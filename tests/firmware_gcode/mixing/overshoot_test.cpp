@@ -153,6 +153,9 @@ TEST_CASE("there are pulses as far as tools go, and none beside gradients or wit
   CHECK(added(three, nozzle, 9) > 0);
   CHECK(added(three, nozzle, 9) <= 6);
   CHECK(added(three, {2.1, 0, 2}, 15) == 0);
+  Palette of_one = palette_of(three);
+  const Overshoots equal(of_one, {nozzle, 0.5, 1.0 / 3, 15});  // a floor that leaves one mixture only
+  CHECK_FALSE(of_one.added() > 1);
   CHECK(added({three[0]}, nozzle, 15) == 0);
   std::vector<Material> with_gradient = tints;
   with_gradient.push_back({"fade", Mixture({1, 0, 0}), Gradient{Mixture({0, 1, 0}), {1, 0, 0}, 0, 100}});
