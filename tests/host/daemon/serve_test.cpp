@@ -80,16 +80,20 @@ TEST_CASE("a print is held and steered by the daemon's commands") {
   CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 5}")) == 409);
   CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 150}")) == 202);
   CHECK(bench.status(bench.request("POST", "/api/temperature", "{\"nozzle_c\": 205, \"bed_c\": 55}")) == 202);
+  const Outcome changed = bench.command({"set", "--flow", "95", "--nozzle", "207", "--bed", "57"});
+  CHECK(changed.out.find("flow 95 %") != std::string::npos);
+  CHECK(bench.command({"set", "--flow", "5"}).code == 2);
+  CHECK(bench.command({"set"}).code == 2);
   CHECK(bench.send(bench.request("GET", "/metrics")).find("\nunicursal_paused 1\n") != std::string::npos);
   REQUIRE(bench.command({"resume"}).code == 0);  // the daemon's print, not a kept one
   bench.await_print("printing");
   REQUIRE(bench.command({"cancel"}).code == 0);
   bench.await_job(id, "stopped");
   const std::string lines = bench.transcript();
-  for (const char* line : {"M220 S150", "M104 S205", "M140 S55"})
+  for (const char* line : {"M220 S150", "M104 S205", "M140 S55", "M221 S95", "M104 S207", "M140 S57"})
     CHECK(lines.find(line) != std::string::npos);
-  CHECK(last(lines, "M104 S0") > last(lines, "M104 S205"));  // cold in the end
-  CHECK(last(lines, "M140 S0") > last(lines, "M140 S55"));
+  CHECK(last(lines, "M104 S0") > last(lines, "M104 S207"));  // cold in the end
+  CHECK(last(lines, "M140 S0") > last(lines, "M140 S57"));
 }
 
 TEST_CASE("clients come and go, and the print does not care") {
