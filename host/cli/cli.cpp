@@ -44,7 +44,7 @@ constexpr double most_threads = 256;
 
 struct JobArguments {
   std::string job, profile, layers, report, pictures;
-  bool no_look_ahead = false;
+  bool no_look_ahead = false, full_quality = false;
   std::size_t threads = 0;
 
   void declare(CLI::App& app) {
@@ -63,9 +63,16 @@ struct JobArguments {
         ->type_name("N");
   }
 
+  /// For commands that plan while the printer prints.
+  void declare_full_quality(CLI::App& app) {
+    app.add_flag("--full-quality", full_quality,
+                 "plan every layer as well as it can be, though the nozzle may have to wait; "
+                 "otherwise quality steps down before it does");
+  }
+
   JobOptions options() const {
-    JobOptions result{job,     path_if(profile), {}, {path_if(report), path_if(pictures)},
-                      threads, !no_look_ahead};
+    JobOptions result{job,     path_if(profile), {},          {path_if(report), path_if(pictures)},
+                      threads, !no_look_ahead,   full_quality};
     if (!layers.empty()) result.layers = parse_layers(layers);
     return result;
   }
@@ -296,6 +303,7 @@ class CommandLine {
     CLI::App* app = command("dry-run", "print on a simulated printer, and see what would come out",
                             "unicursal dry-run heart.toml --report heart.json --picture pictures");
     job_.declare(*app);
+    job_.declare_full_quality(*app);
     declare_json(*app);
     app->add_option(
            "--speed", speed_,
@@ -323,6 +331,7 @@ class CommandLine {
     CLI::App* app =
         command("print", "stream to a printer over USB", "unicursal print heart.toml --port /dev/ttyUSB0");
     job_.declare(*app);
+    job_.declare_full_quality(*app);
     app->add_option("--port", port_, "serial port, or auto; the default is the profile's")->type_name("PORT");
     declare_control(*app);
     declare_spool(*app);

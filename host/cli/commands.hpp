@@ -25,8 +25,9 @@ struct JobOptions {
   std::optional<std::filesystem::path> profile;
   std::optional<LayerRange> layers;
   RunOutputs outputs;
-  std::size_t threads = 0;  ///< that plan; 0: one for each core
-  bool look_ahead = true;   ///< of the mixing schedule
+  std::size_t threads = 0;    ///< that plan; 0: one for each core
+  bool look_ahead = true;     ///< of the mixing schedule
+  bool full_quality = false;  ///< planning never hurries
 };
 
 /// How a print shows what it does, and what it does when it is held.

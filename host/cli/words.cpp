@@ -77,6 +77,7 @@ LayerRange parse_layers(const std::string& text) {
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more) {
   Job job = load_job(options.job, options.profile);
   job.look_ahead = options.look_ahead;
+  job.full_quality = options.full_quality;
   PreparedJob prepared = prepare(std::move(job), options.layers);
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more;

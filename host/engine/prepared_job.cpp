@@ -207,6 +207,7 @@ LookaheadOptions lookahead_options(const PreparedJob& prepared) {
   options.plan.max_bead_width = prepared.job.profile.printer.bead_width_range[1];
   options.planner = prepared.planner;
   options.threads = prepared.threads;
+  options.patient = prepared.job.full_quality;
   options.first = prepared.first;
   options.count = prepared.count;
   return options;

@@ -45,7 +45,9 @@ struct Job {
   Placement place;
   gcode::Seam seam = gcode::Seam::hidden;
   double change_before_border = 0.5;  ///< share of every change of mixture
-  bool look_ahead = true;  ///< of the mixing schedule; false only on the command line's word, for comparison
+  // Only on the command line's word.
+  bool look_ahead = true;     ///< of the mixing schedule; false for comparison
+  bool full_quality = false;  ///< planning never hurries, though the nozzle may have to wait
   /// The mixtures that zones use, equal ones once, in order of first use.
   std::vector<gcode::Material> materials;
   Profile profile;

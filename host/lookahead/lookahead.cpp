@@ -198,7 +198,7 @@ struct Lookahead::State {
     const double area = core::area(island.outline), w = options.plan.bead_width;
     const double share = layer.area > 0 ? area / layer.area : 1;
     Attempt attempt{area / (w * w), time.now(), no_hurry, {}};
-    if (options.pace)
+    if (options.pace && !options.patient)
       attempt.allowed = pacer.allowance(need_of(layer) - attempt.begun, layer.print_seconds, share);
     return attempt;
   }
@@ -206,7 +206,7 @@ struct Lookahead::State {
   /// Asked unlocked, between the steps of the optimisers.
   bool enough(const OpenLayer& layer, Attempt& attempt, const Timeline& time) const {
     if (cancelled || attempt.cut) return true;
-    if (!options.pace) return false;
+    if (!options.pace || options.patient) return false;
     const std::lock_guard lock(mutex);
     const double now = time.now(), done = now + pacer.tail(attempt.cells);
     if (done - attempt.begun < attempt.allowed && done + margin < need_of(layer)) return false;

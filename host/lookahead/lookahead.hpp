@@ -51,6 +51,7 @@ struct LookaheadOptions {
   double horizon = 0;
   std::size_t ahead = 0;     ///< layers that may be open or waiting; 0: default_ahead(), or most_ahead
   std::optional<Pace> pace;  ///< absent: every island takes as long as it needs
+  bool patient = false;      ///< it does so with a pace as well: the nozzle may wait
 };
 
 /// Layers that may be open when there is no horizon in seconds.

@@ -219,6 +219,8 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
                  {"port", order.port},
                  {"layer_count", order.layer_count},
                  {"layers", order.layers ? json{order.layers->first, order.layers->second} : json()},
+                 {"look_ahead", job.look_ahead},
+                 {"full_quality", job.full_quality},
                  {"files", copies_of(job, folder)}};
   auto state = std::make_unique<State>(folder, record, 0, 0);
   state->lock = std::move(lock);
@@ -276,6 +278,8 @@ Job Spool::job() const {
       throw SpoolError(order_file(folder).string(), "", "does not go with the job beside it",
                        "begin the print anew");
     }
+    job.look_ahead = state_->record.at("look_ahead").get<bool>();
+    job.full_quality = state_->record.at("full_quality").get<bool>();
     for (std::size_t i = 0; i < models.size(); ++i) job.source.files[i] = copy(models[i]);
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i] != "") job.source.zones[i].pattern.field = copy(fields[i]);

@@ -221,6 +221,26 @@ TEST_CASE("On a computer that is too slow layers take less effort, say so, and a
   CHECK(least < 1);
 }
 
+TEST_CASE(
+    "With patience nothing is hurried on such a computer either, and the curves are those without a pace") {
+  const Stack part(2);
+  LookaheadOptions options = options_for(0, 2, 1);
+  options.flow = 1.5;
+  Lookahead unhurried(part, options);
+  options.pace = Pace{{}, 1e5};
+  options.patient = true;
+  Lookahead patient(part, options);
+  patient.printed(0, 0);
+  while (const auto layer = patient.wait()) {
+    CHECK(layer->effort == 1);
+    const auto expected = unhurried.wait();
+    REQUIRE(expected);
+    for (std::size_t i = 0; i < layer->plans.size(); ++i)
+      CHECK(same_beads(layer->plans[i], expected->plans[i]));
+    patient.printed(layer->ready_at + 10, 0);
+  }
+}
+
 TEST_CASE("What the effort of a hurried island was gives the same curve again") {
   const Stack part(1);
   LookaheadOptions options = options_for(0, 1, 1);
