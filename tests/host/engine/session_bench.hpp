@@ -26,19 +26,28 @@ class SessionBench {
   using Script = std::function<void(host::Session&, const host::SessionEvent&)>;
 
   /// `profile_more`: lines for the end of the profile. `simulator`: more options.
-  explicit SessionBench(const std::vector<std::string>& simulator = {}, const std::string& profile_more = {})
-      : job_(write_job(profile_more)),
+  /// `job`: its text.
+  explicit SessionBench(const std::vector<std::string>& simulator = {}, const std::string& profile_more = {},
+                        const std::string& job = sample_job)
+      : job_(write_job(profile_more, job)),
         prepared_(host::prepare(host::load_job(job_, {}))),
         printer_(simulate(simulator)),
         run_(prepared_, "test", {}),
         clock_(connect()) {}
 
   host::StreamSettings settings;
+  /// Printer seconds that a second of planning takes, on one thread; absent: planning takes no time.
+  std::optional<double> charge;
 
   /// Prints; `script` is called at every event. Ends the simulator, whose report is then there.
   host::StreamResult print(const Script& script = {}) {
     settings.clock = clock_;
-    host::Lookahead lookahead(*prepared_.part, host::lookahead_options(prepared_));
+    host::LookaheadOptions planning = host::lookahead_options(prepared_);
+    if (charge) {
+      planning.pace = host::Pace{{}, *charge};
+      planning.threads = 1;
+    }
+    host::Lookahead lookahead(*prepared_.part, planning);
     std::optional<host::StreamResult> result;
     {
       asio::io_context loop{1};
@@ -82,10 +91,10 @@ class SessionBench {
   }
 
  private:
-  std::string write_job(const std::string& profile_more) {
+  std::string write_job(const std::string& profile_more, const std::string& job) {
     folder_.write("bench.toml", sample_profile + profile_more);
     folder_.write("plate.svg", sample_drawing);
-    return folder_.write("job.toml", sample_job).string();
+    return folder_.write("job.toml", job).string();
   }
 
   std::vector<std::string> simulate(const std::vector<std::string>& more) const {
