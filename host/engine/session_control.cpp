@@ -19,6 +19,8 @@ using namespace std::chrono_literals;
 constexpr auto sign_of_life = 10s;
 /// That the nozzle may stand on the part with nothing to do: it melts into it, and what drips stays there.
 constexpr auto idle_patience = 5s;
+/// That a nozzle is kept hot though nobody has come: what is in it chars, and it is a danger.
+constexpr auto hot_patience = 15min;
 constexpr auto look_interval = 2s;  ///< between looks whether what is lacking has come
 constexpr auto stop_patience = 2s;  ///< for the printer to confirm an emergency stop
 
@@ -84,6 +86,7 @@ asio::awaitable<void> Session::State::go_aside(std::string why, bool moving) {
     co_await interpose(std::move(chunk.lines));
     co_await link.drain();
   }
+  hot_until = clock->now() + hot_patience;
   enter(SessionState::paused, why);
 }
 
@@ -121,6 +124,19 @@ asio::awaitable<void> Session::State::wait_for(const Need& need) {
   }
 }
 
+/// Lets the firmware know that somebody is there. Where nobody is for long, the nozzle cools until it goes
+/// on.
+asio::awaitable<void> Session::State::stay_aside(bool moved) {
+  tell_position();
+  co_await interpose(signs_of_life());
+  if (!moved || settings.pause_heat == PauseHeat::lower || clock->now() < hot_until) co_return;
+  hot_until = TimePoint::max();
+  tell(SessionEvent::Kind::notice,
+       "nobody has come for long: the nozzle cools, and is heated before it goes on");
+  std::vector<std::string> cool(1, gcode::cool_aside(modal));
+  co_await interpose(std::move(cool));
+}
+
 /// A pause that was asked for meanwhile goes on when this is over. While nothing is laid yet, the nozzle may
 /// stay where it is.
 asio::awaitable<void> Session::State::wait_aside(const Need& need) {
@@ -142,8 +158,7 @@ asio::awaitable<void> Session::State::wait_aside(const Need& need) {
     co_await make_changes();
     if (clock->now() < sign) continue;
     sign = clock->now() + sign_of_life;
-    tell_position();
-    co_await interpose(signs_of_life());
+    co_await stay_aside(moving);
   }
   lacking = false;
   if (moving) co_await come_back(true);
@@ -159,8 +174,7 @@ asio::awaitable<void> Session::State::wait_held() {
   while (!resume_wanted && !stopped) {
     if (!co_await wake.wait(std::min(last, clock->now() + sign_of_life), ready)) {
       if (clock->now() >= last) co_return;
-      tell_position();
-      if (!firmware_holds) co_await interpose(signs_of_life());
+      if (!firmware_holds) co_await stay_aside(placed());
     }
     co_await make_changes();
   }

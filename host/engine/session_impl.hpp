@@ -59,6 +59,7 @@ struct Session::State {
   asio::awaitable<void> wait_held();
   asio::awaitable<void> go_aside(std::string why, bool moving);
   asio::awaitable<void> come_back(bool moving);
+  asio::awaitable<void> stay_aside(bool moved);
   /// Returns when it has come or the print is to end. The nozzle is not left on the part for long.
   asio::awaitable<void> wait_for(const Need& need);
   asio::awaitable<void> wait_aside(const Need& need);
@@ -115,6 +116,7 @@ struct Session::State {
   // Asked for
   std::optional<std::string> pause_wanted;  ///< why
   bool resume_wanted = false;
+  TimePoint hot_until = TimePoint::max();  ///< while it stands aside
   bool lacking = false;         ///< it stands aside because it lacks something, not because it was asked to
   bool firmware_holds = false;  ///< it has paused on its own: it parks and returns by itself
   bool stopped = false;

@@ -107,6 +107,21 @@ TEST_CASE("A long pause keeps the firmware's watch on this program fresh") {
   CHECK(bench.seen()["printer_seconds"].get<double>() > 4000);
 }
 
+TEST_CASE("A pause that nobody ends cools the nozzle, and heats it again before the print goes on") {
+  SessionBench bench;
+  bench.settings.longest_pause = 1200;  // s
+  REQUIRE(bench.print(at(40, [](Session& s) { CHECK_FALSE(s.pause()); })).ending == Ending::completed);
+  const Lines lines = bench.executed();
+  const std::size_t still = index_of(lines, "M400"), cool = index_of(lines, "M104 S150");
+  REQUIRE(still < cool);
+  REQUIRE(cool < lines.size());
+  CHECK(std::count(lines.begin(), lines.end(), "M104 S150") == 1);
+  const auto from = lines.begin() + static_cast<std::ptrdiff_t>(still);
+  const auto to = lines.begin() + static_cast<std::ptrdiff_t>(cool);
+  CHECK(std::find(to, lines.end(), "M109 S210") != lines.end());
+  CHECK(std::count(from, to, "M85 S1800") >= 80);  // a quarter of an hour
+}
+
 TEST_CASE(
     "A nozzle that has nothing to do for long does not stay on the part, nor does the firmware give up") {
   SessionBench bench({}, "",

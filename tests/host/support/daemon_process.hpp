@@ -49,10 +49,12 @@ class DaemonBench {
     await([this] { return std::filesystem::exists(path("port")); }, *printer_);
   }
 
-  void serve(const std::vector<std::string>& more = {}) {
+  void serve(const std::vector<std::string>& more = {}) { serve_at(path("port"), more); }
+  /// Another's printer.
+  void serve_at(const std::string& device, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"serve",       "--listen", "127.0.0.1:0", "--state",
                                        path("state"), "--spool",  path("spool"), "--port",
-                                       path("port"),  "--jobs",   path("jobs")};
+                                       device,        "--jobs",   path("jobs")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     daemon_ = std::make_unique<Child>(arguments);
     await([this] { return daemon_->out().find('\n') != std::string::npos; }, *daemon_);
@@ -102,6 +104,13 @@ class DaemonBench {
   /// Until the daemon's print is in this state.
   void await_print(const std::string& state) {
     await([&] { return print_state() == state; }, *daemon_);
+  }
+  /// Until something of the part lies there, or is about to: being hot is not enough.
+  void await_laying() {
+    const auto laying = [&] {
+      return ask("GET", "/api/status").value("print", nlohmann::json::object()).value("percent", 0.0) > 0.5;
+    };
+    await(laying, *daemon_);
   }
   void await_job(int id, const std::string& state) {
     await([&] { return ask("GET", "/api/jobs/" + std::to_string(id)).value("state", "") == state; },
