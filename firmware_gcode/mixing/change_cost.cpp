@@ -9,16 +9,22 @@ namespace {
 
 constexpr double room = 3;  ///< transitions: what a change needs on either side to be alone
 
-/// Of a single change with its half-way point on the border. A gradient counts with its middle.
+/// Of a single change with its half-way point on the border, or hurried on. A gradient counts with its
+/// middle.
 double cost_of(const Palette& palette, const ChamberModel& chamber, std::size_t from, std::size_t to,
-               const Rivals& rivals) {
+               const Overshoot* hurried_by, const Rivals& rivals) {
   const double volume = room * (chamber.dead_volume + chamber.mixing_volume) + 1;
   Forecast forecast(palette, chamber);
   forecast.add(Piece{volume, from, 0.5, 0, false, 0, rivals});  // fills the chamber
   forecast.add(Piece{volume, from, 0.5, 1, false, 0, rivals});
   forecast.add(Piece{volume, to, 0.5, 1, false, 0, rivals});
   forecast.add(Switch{0, palette.shade(from, 0.5)});
-  forecast.add(Switch{2 * volume - chamber.delay(0.5), palette.shade(to, 0.5)});
+  double at = 2 * volume - (hurried_by ? chamber.dead_volume + hurried_by->lead : chamber.delay(0.5));
+  for (std::size_t i = 0; hurried_by && i < hurried_by->pulses.size(); ++i) {
+    forecast.add(Switch{at, hurried_by->pulses[i].shade});
+    at += hurried_by->pulses[i].volume;
+  }
+  forecast.add(Switch{at, palette.shade(to, 0.5)});
   const LayerMixing mixing = forecast.rest().back();
   return mixing.misplaced + mixing.wrong;
 }
@@ -26,8 +32,8 @@ double cost_of(const Palette& palette, const ChamberModel& chamber, std::size_t 
 }  // namespace
 
 ChangeCosts::ChangeCosts(const Palette& palette, const ChamberModel& chamber,
-                         const std::vector<bool>& matters)
-    : palette_(palette), chamber_(chamber), matters_(matters) {}
+                         const std::vector<bool>& matters, const Overshoots& overshoots)
+    : palette_(palette), chamber_(chamber), overshoots_(overshoots), matters_(matters) {}
 
 double ChangeCosts::of(std::size_t from, std::size_t to) const {
   if (from == to || !matters_[from] || !matters_[to]) return 0;
@@ -36,7 +42,7 @@ double ChangeCosts::of(std::size_t from, std::size_t to) const {
   std::vector<std::size_t> all(palette_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(all));
-  return cost->second = cost_of(palette_, chamber_, from, to, rivals);
+  return cost->second = cost_of(palette_, chamber_, from, to, overshoots_.between(from, to), rivals);
 }
 
 }  // namespace unicursal::gcode

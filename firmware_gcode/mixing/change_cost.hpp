@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_gcode/mixing/overshoot.hpp"
 #include "firmware_gcode/mixing/palette.hpp"
 #include "firmware_gcode/mixing/response.hpp"
 
@@ -13,9 +14,10 @@ namespace unicursal::gcode {
 
 class ChangeCosts {
  public:
-  /// The palette must outlive this object. `matters`, by material: false for those that are there to take up
-  /// changes.
-  ChangeCosts(const Palette& palette, const ChamberModel& chamber, const std::vector<bool>& matters);
+  /// The palette and the overshoots must outlive this object. `matters`, by material: false for those that
+  /// are there to take up changes.
+  ChangeCosts(const Palette& palette, const ChamberModel& chamber, const std::vector<bool>& matters,
+              const Overshoots& overshoots);
 
   /// Misplaced plastic, and once more what is nearer to a third material; 0 for the same material.
   double of(std::size_t from, std::size_t to) const;
@@ -23,6 +25,7 @@ class ChangeCosts {
  private:
   const Palette& palette_;
   ChamberModel chamber_;
+  const Overshoots& overshoots_;
   std::vector<bool> matters_;
   mutable std::map<std::pair<std::size_t, std::size_t>, double>
       known_;  ///< since jobs may have many materials

@@ -20,7 +20,8 @@ double Gradient::part_at(const core::Vec2& place, double z) const {
 }
 
 Palette::Palette(const std::vector<Material>& materials,
-                 const std::function<Mixture(const Mixture&)>& written) {
+                 const std::function<Mixture(const Mixture&)>& written)
+    : written_(written) {
   for (const Material& material : materials) {
     std::vector<Mixture> shades{written(material.mixture)};
     for (std::size_t step = 1; material.gradient && step <= steps; ++step) {
@@ -34,6 +35,14 @@ Palette::Palette(const std::vector<Material>& materials,
 Shade Palette::shade(std::size_t material, double part) const {
   const auto last = static_cast<double>(shades_[material].size() - 1);
   return {material, static_cast<std::size_t>(std::lround(part * last))};
+}
+
+Shade Palette::add(const Mixture& mixture) {
+  const Mixture as_fed = written_(mixture);
+  const auto known = std::find(added_.begin(), added_.end(), as_fed);
+  const auto index = static_cast<std::size_t>(known - added_.begin());
+  if (known == added_.end()) added_.push_back(as_fed);
+  return {size() + index, 0};
 }
 
 Mixture Palette::mixture(std::size_t material, double part) const {

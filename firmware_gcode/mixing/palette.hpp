@@ -31,7 +31,8 @@ struct Material {
   bool transition = false;                ///< its zones are there to take up the changes between others
 };
 
-/// One of the mixtures of a material: of a gradient, that many steps along.
+/// One of the mixtures of a material: of a gradient, that many steps along. Behind the last material come the
+/// mixtures that no zone wants.
 struct Shade {
   std::size_t material = 0;
   std::size_t step = 0;
@@ -52,12 +53,20 @@ class Palette {
   /// How many shades a material has; 1 unless it is a gradient.
   std::size_t steps_of(std::size_t material) const { return shades_[material].size(); }
   Shade shade(std::size_t material, double part) const;
-  const Mixture& mixture(const Shade& shade) const { return shades_[shade.material][shade.step]; }
+  const Mixture& mixture(const Shade& shade) const {
+    return shade.material < size() ? shades_[shade.material][shade.step] : added_[shade.material - size()];
+  }
+  /// A mixture that no zone wants, but that is fed on the way from one to another.
+  Shade add(const Mixture& mixture);
+  /// How many have been added.
+  std::size_t added() const { return added_.size(); }
   /// Between the steps, too: what is wanted, not what is sent.
   Mixture mixture(std::size_t material, double part) const;
 
  private:
+  std::function<Mixture(const Mixture&)> written_;
   std::vector<std::vector<Mixture>> shades_;
+  std::vector<Mixture> added_;
 };
 
 }  // namespace unicursal::gcode

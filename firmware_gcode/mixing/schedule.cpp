@@ -29,8 +29,18 @@ struct Survivor {
   Tanks tanks;
   std::size_t serves = 0;  ///< the run whose material is fed
   Shade shade;
-  std::vector<Switch> switches;  ///< that are not certain yet
+  std::vector<Switch> switches;           ///< that are not certain yet
+  const Overshoot* hurried_by = nullptr;  ///< a pulse is fed, the shade follows behind the last one
+  std::size_t pulse = 0;                  ///< that is fed
+  double pulse_end = 0;                   ///< at the tanks' entry
+
+  const Shade& fed() const { return hurried_by ? hurried_by->pulses[pulse].shade : shade; }
 };
+
+bool feed_alike(const Survivor& a, const Survivor& b) {
+  return a.shade == b.shade && a.hurried_by == b.hurried_by &&
+         (!a.hurried_by || (a.pulse == b.pulse && a.pulse_end == b.pulse_end));
+}
 
 }  // namespace
 
@@ -53,7 +63,11 @@ struct Schedule::State {
   bool near_border() const;
   double border_of(std::size_t run) const;
   double next_place() const;
+  double lead_into(std::size_t run) const;
+  const Overshoot* overshoot(const Shade& from, const Shade& to) const;
   void branch();
+  void change(std::size_t survivor, std::size_t run, const Shade& shade, const Overshoot* hurried_by);
+  Tanks::Shares pass(Survivor& survivor, double to) const;
   void follow_gradients();
   double loss(const Misfit& bad) const;
   void advance(double to);
@@ -136,10 +150,39 @@ double Schedule::State::next_place() const {
   const bool in_gradient = palette.is_gradient(wanted.run(here).material);
   double place = at + (near_border() || in_gradient ? step : long_step);
   if (border_of(here) - reach > at + same_place) place = std::min(place, border_of(here) - reach);
-  for (std::size_t i = here; i < wanted.past() && border_of(i) - lead < place; ++i) {
-    if (border_of(i) - lead > at + same_place) place = border_of(i) - lead;
+  for (std::size_t i = here; i < wanted.past() && border_of(i) - reach < place; ++i) {
+    for (const double before : {lead, lead_into(i + 1)}) {
+      const double best = border_of(i) - before;
+      if (best > at + same_place) place = std::min(place, best);
+    }
   }
   return std::min(place, border_of(here));
+}
+
+/// How far before its border the change into a run is best begun when it is hurried on.
+double Schedule::State::lead_into(std::size_t run) const {
+  if (run >= wanted.past()) return lead;
+  const Overshoot* by = overshoot({wanted.run(run - 1).material, 0}, {wanted.run(run).material, 0});
+  return by ? by->lead : lead;
+}
+
+const Overshoot* Schedule::State::overshoot(const Shade& from, const Shade& to) const {
+  return options.overshoots ? options.overshoots->between(from.material, to.material) : nullptr;
+}
+
+/// One more survivor, that makes the change.
+void Schedule::State::change(std::size_t survivor, std::size_t run, const Shade& shade,
+                             const Overshoot* hurried_by) {
+  Survivor changed = survivors[survivor];
+  const std::size_t switches = 1 + (hurried_by ? hurried_by->pulses.size() : 0);
+  changed.cost += static_cast<double>(switches) * switch_cost * options.chamber.mixing_volume;
+  changed.serves = run;
+  changed.shade = shade;
+  changed.hurried_by = hurried_by;
+  changed.pulse = 0;
+  if (hurried_by) changed.pulse_end = at + hurried_by->pulses.front().volume;
+  changed.switches.push_back({at - options.chamber.dead_volume, changed.fed()});
+  survivors.push_back(std::move(changed));
 }
 
 /// Runs are served in their order, each once: what was left or passed over does not come back, so that
@@ -155,12 +198,8 @@ void Schedule::State::branch() {
     const Shade shade = shade_for(wanted.run(i));
     for (std::size_t s = 0; s < count; ++s) {
       if (survivors[s].serves >= i || survivors[s].shade == shade) continue;
-      Survivor changed = survivors[s];
-      changed.cost += switch_cost * options.chamber.mixing_volume;
-      changed.serves = i;
-      changed.shade = shade;
-      changed.switches.push_back({at - options.chamber.dead_volume, shade});
-      survivors.push_back(std::move(changed));
+      change(s, i, shade, nullptr);
+      if (const Overshoot* by = overshoot(survivors[s].shade, shade)) change(s, i, shade, by);
     }
   }
 }
@@ -183,6 +222,26 @@ double Schedule::State::loss(const Misfit& bad) const {
   return bad.misplaced + (bad.wrong && options.before_border == 0.5 ? 1 : 0);
 }
 
+/// Feeds the survivor as far as `to`; gives the mean of what comes out.
+Tanks::Shares Schedule::State::pass(Survivor& survivor, double to) const {
+  Tanks::Shares mean{};
+  for (double from = at; from < to;) {
+    const double end = survivor.hurried_by ? std::min(to, survivor.pulse_end) : to;
+    if (end > from) {
+      const Tanks::Shares out = survivor.tanks.pass(palette.mixture(survivor.fed()).shares(), end - from);
+      for (std::size_t f = 0; f < max_feeders; ++f) mean[f] += out[f] * (end - from) / (to - at);
+    }
+    from = std::max(from, end);
+    if (!survivor.hurried_by || end < survivor.pulse_end) continue;
+    if (++survivor.pulse == survivor.hurried_by->pulses.size())
+      survivor.hurried_by = nullptr;
+    else
+      survivor.pulse_end += survivor.hurried_by->pulses[survivor.pulse].volume;
+    survivor.switches.push_back({end - options.chamber.dead_volume, survivor.fed()});
+  }
+  return mean;
+}
+
 void Schedule::State::advance(double to) {
   const double volume = to - at, middle = (at + to) / 2;
   const WantedRun& run = wanted.run(here);
@@ -192,8 +251,7 @@ void Schedule::State::advance(double to) {
   const bool head = left < reach && left < middle - run.begin;
   const double weight = 2 * run.weight * volume * (head ? 1 - options.before_border : options.before_border);
   for (Survivor& survivor : survivors) {
-    const Tanks::Shares arrived = survivor.tanks.pass(palette.mixture(survivor.shade).shares(), volume);
-    survivor.cost += weight * loss(misfit(palette, run, want, arrived));
+    survivor.cost += weight * loss(misfit(palette, run, want, pass(survivor, to)));
   }
   at = to;
   while (wanted.run(here).end <= at + same_place && here + 1 < wanted.past()) ++here;
@@ -207,7 +265,7 @@ void Schedule::State::prune() {
   for (Survivor& survivor : survivors) {
     if (survivor.cost > limit || kept.size() == most_survivors) break;
     const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Survivor& other) {
-      return other.shade == survivor.shade && other.tanks.difference(survivor.tanks) < alike;
+      return feed_alike(other, survivor) && other.tanks.difference(survivor.tanks) < alike;
     });
     if (!seen) kept.push_back(std::move(survivor));
   }

@@ -7,7 +7,8 @@
 // on in small steps; at each step near a border every survivor may change to a material that is wanted soon;
 // what then leaves the tanks is held against what is wanted there, and the dearest survivors are dropped.
 // Thus the half-way point of a single change comes to lie on its border, for a short visit the switches move
-// apart until it shows, and one that is too short to show is passed over, whichever misplaces least. Switches
+// apart until it shows, and one that is too short to show is passed over, whichever misplaces least. A change
+// that may be hurried on (overshoot.hpp) is weighed both ways, with its pulses and without. Switches
 // are certain once all survivors agree on them, at the latest when `horizon` has passed. The paper (§4.1)
 // leaves its 6.1 mm³ to the zones; this takes care of them where there is no zone for them. All volumes in
 // mm³, fed since the beginning of the print.
@@ -17,6 +18,7 @@
 #include <memory>
 #include <vector>
 
+#include "firmware_gcode/mixing/overshoot.hpp"
 #include "firmware_gcode/mixing/palette.hpp"
 #include "firmware_gcode/mixing/response.hpp"
 #include "firmware_gcode/mixing/wanted.hpp"
@@ -27,6 +29,8 @@ struct ScheduleOptions {
   ChamberModel chamber;
   double before_border = 0.5;  ///< the share of a change that falls before the border, 0.05…0.95
   bool look_ahead = true;      ///< false, for comparison: switch where the border is
+  /// How changes may be hurried on; null: not at all. Must outlive the schedule.
+  const Overshoots* overshoots = nullptr;
 };
 
 /// From `at` on the feeders mix `shade`.

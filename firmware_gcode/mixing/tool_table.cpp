@@ -15,6 +15,10 @@ std::vector<Mixture> different_mixtures(const Palette& palette, std::size_t enou
       if (std::find(mixtures.begin(), mixtures.end(), mixture) == mixtures.end()) mixtures.push_back(mixture);
     }
   }
+  for (std::size_t i = 0; i < palette.added(); ++i) {
+    const Mixture& mixture = palette.mixture(Shade{palette.size() + i, 0});
+    if (std::find(mixtures.begin(), mixtures.end(), mixture) == mixtures.end()) mixtures.push_back(mixture);
+  }
   return mixtures;
 }
 

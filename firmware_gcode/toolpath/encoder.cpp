@@ -15,6 +15,7 @@
 #include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/mixing/change_cost.hpp"
 #include "firmware_gcode/mixing/forecast.hpp"
+#include "firmware_gcode/mixing/overshoot.hpp"
 #include "firmware_gcode/mixing/schedule.hpp"
 #include "firmware_gcode/mixing/tool_table.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
@@ -99,6 +100,7 @@ bool prints_anything(const PlacedLayer& layer) {
 struct Encoder::State {
   State(const Printer& of, const PrintSettings& with);
 
+  Overshoots usable_overshoots();
   ScheduleOptions schedule_options() const;
   RouteOptions route_options() const;
   std::size_t material_at(const core::BeadPath& path, std::size_t bead) const;
@@ -129,7 +131,8 @@ struct Encoder::State {
   const Printer printer;
   const PrintSettings settings;
   const Dialect& dialect;
-  const Palette palette;
+  Palette palette;
+  const Overshoots overshoots;
   Lines start_lines, end_lines;
   ToolTable tools;
   MoveWriter writer;
@@ -163,6 +166,7 @@ Encoder::State::State(const Printer& of, const PrintSettings& with)
               [this](const Mixture& m) {
                 return calibrated(m.with_floor(printer.floor_share), printer.flow_factors, dialect).delivered;
               }),
+      overshoots(usable_overshoots()),
       tools(dialect, palette, printer.flow_factors),
       writer(printer, dialect),
       pace(printer, settings),
@@ -175,16 +179,26 @@ Encoder::State::State(const Printer& of, const PrintSettings& with)
   if (const auto tool = tools.retraction_tool()) writer.calibrate(*tool, tools.scale(*tool));
 }
 
+/// One tool is for drawing back.
+Overshoots Encoder::State::usable_overshoots() {
+  if (!settings.look_ahead || !printer.overshoot) return {};
+  return Overshoots(palette, {chamber_of(printer), settings.change_before_border, printer.floor_share,
+                              dialect.limits().virtual_tools - 1});
+}
+
 ScheduleOptions Encoder::State::schedule_options() const {
-  return {chamber_of(printer), settings.change_before_border, settings.look_ahead};
+  return {chamber_of(printer), settings.change_before_border, settings.look_ahead, &overshoots};
 }
 
 RouteOptions Encoder::State::route_options() const {
-  const ChangeCosts costs(palette, chamber_of(printer), [&] {
-    std::vector<bool> matters;
-    for (const Material& material : settings.materials) matters.push_back(!material.transition);
-    return matters;
-  }());
+  const ChangeCosts costs(
+      palette, chamber_of(printer),
+      [&] {
+        std::vector<bool> matters;
+        for (const Material& material : settings.materials) matters.push_back(!material.transition);
+        return matters;
+      }(),
+      overshoots);
   RouteOptions options;
   options.horizon = settings.horizon;
   options.seam = settings.seam;

@@ -45,6 +45,7 @@ struct Printer {
   double dead_volume = 2.1;    ///< mm³ before a new mixture first shows
   double mixing_volume = 4.0;  ///< mm³ from the first trace to 95 %
   std::size_t tanks = 2;  ///< stirred tanks in a row that the chamber answers like: how steep a change is
+  bool overshoot = true;  ///< changes of mixture may be hurried on (mixing/overshoot.hpp)
   Motion motion;
   std::string start_gcode;  ///< extra lines after homing and heating, may be empty
   std::string end_gcode;    ///< extra lines before the motors go off, may be empty

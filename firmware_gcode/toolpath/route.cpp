@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -64,6 +65,64 @@ std::uint64_t cell_of(const core::Vec2& p, double size) {
              y = static_cast<std::int64_t>(std::floor(p.y() / size));
   return (static_cast<std::uint64_t>(x) << 32) ^ static_cast<std::uint32_t>(y);
 }
+
+/// The vertices of a path by squares, each square's in their order.
+class VertexGrid {
+ public:
+  /// `reach`: how far neighbours are looked for, mm.
+  VertexGrid(const core::BeadPath& path, double reach)
+      : path_(path), reach_(reach), square_(reach), least_(path.start(0)) {
+    core::Vec2 greatest = least_;
+    for (const core::Bead& bead : path.beads) {
+      least_ = least_.cwiseMin(bead.position);
+      greatest = greatest.cwiseMax(bead.position);
+    }
+    square_ = std::max(reach, (greatest - least_).maxCoeff() / most_columns);
+    columns_ = column(greatest.x(), least_.x()) + 1;
+    rows_ = column(greatest.y(), least_.y()) + 1;
+    begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+    for (std::size_t v = 0; v < path.size(); ++v) ++begin_[square_of(path.start(v)) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    vertices_.resize(path.size());
+    for (std::size_t v = 0; v < path.size(); ++v) {
+      vertices_[next[square_of(path.start(v))]++] = static_cast<std::uint32_t>(v);
+    }
+  }
+
+  /// Calls use(vertex) for those within the reach.
+  template <typename Use>
+  void for_each_near(const core::Vec2& p, Use&& use) const {
+    const std::int64_t x = column(p.x(), least_.x()), y = column(p.y(), least_.y());
+    for (std::int64_t cx = std::max<std::int64_t>(0, x - 1); cx <= std::min(columns_ - 1, x + 1); ++cx) {
+      for (std::int64_t cy = std::max<std::int64_t>(0, y - 1); cy <= std::min(rows_ - 1, y + 1); ++cy) {
+        const auto square = static_cast<std::size_t>(cx * rows_ + cy);
+        for (std::uint32_t i = begin_[square]; i < begin_[square + 1]; ++i) {
+          if ((path_.start(vertices_[i]) - p).norm() <= reach_) use(vertices_[i]);
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr double most_columns = 1024;
+
+  std::int64_t column(double at, double least) const {
+    return static_cast<std::int64_t>(std::floor(at / square_)) -
+           static_cast<std::int64_t>(std::floor(least / square_));
+  }
+  std::size_t square_of(const core::Vec2& p) const {
+    return static_cast<std::size_t>(column(p.x(), least_.x()) * rows_ + column(p.y(), least_.y()));
+  }
+
+  const core::BeadPath& path_;
+  double reach_;
+  double square_;  ///< mm, no less than the reach
+  core::Vec2 least_;
+  std::int64_t columns_ = 0, rows_ = 0;
+  std::vector<std::uint32_t> begin_;  ///< of each square's vertices, and the end of the last one's
+  std::vector<std::uint32_t> vertices_;
+};
 
 /// 0 where a seam at the vertex would not show, 1 where it would show most.
 class SeamLook {
@@ -169,6 +228,7 @@ struct Route::State {
   const std::vector<double>& own_costs(const Node& node);
   void begin(Node& node) const;
   void follow(Node& node, const Node& before) const;
+  void travel(Node& node, const Node& before) const;
   double step_cost(const Node& node, std::size_t k, const core::Vec2& from, std::size_t zone) const;
   RoutedLayer decide();
 
@@ -221,7 +281,8 @@ const std::vector<double>& Route::State::own_costs(const Node& node) {
   for (std::size_t v = 0; v < node.beads->size(); ++v) {
     const double seam = seam_weight * look(node.beads->start(v), node.width);
     for (std::size_t k = 2 * v; k <= 2 * v + 1; ++k) {
-      own[k] = seam - options.change_cost(node.last_zone(k), node.first_zone(k));
+      const std::size_t last = node.last_zone(k), first = node.first_zone(k);
+      own[k] = seam - (last == first ? 0 : options.change_cost(last, first));
     }
   }
   return own;
@@ -230,8 +291,9 @@ const std::vector<double>& Route::State::own_costs(const Node& node) {
 double Route::State::step_cost(const Node& node, std::size_t k, const core::Vec2& from,
                                std::size_t zone) const {
   const double way = (node.place(k) - from).norm();
+  const std::size_t next = node.first_zone(k);
   return way_weight * way + (way > travel_widths * node.width ? travel_weight : 0) +
-         options.change_cost(zone, node.first_zone(k));
+         (zone == next ? 0 : options.change_cost(zone, next));
 }
 
 /// The first of the chain follows what is decided, or nothing: then all beginnings are equal.
@@ -242,19 +304,14 @@ void Route::State::begin(Node& node) const {
   for (std::size_t k = 0; k < node.own.size(); ++k) node.least[k] += step_cost(node, k, here, here_zone);
 }
 
+/// Every pair of neighbouring vertices is looked at in all layers of the horizon, for every layer anew: what
+/// is the same for both directions is reckoned once.
 void Route::State::follow(Node& node, const Node& before) const {
   const std::size_t count = node.own.size();
   node.least.assign(count, infinite);
   node.from.assign(count, 0);
-  // Ends in the neighbourhood, one by one; for travels the best of every square and zone.
   const double reach = travel_widths * node.width;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> near;
-  std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> far;
-  for (std::size_t k = 0; k < before.own.size(); ++k) {
-    near[cell_of(before.place(k), reach)].push_back(k);
-    const auto [best, added] = far.try_emplace({cell_of(before.place(k), cell), before.last_zone(k)}, k);
-    if (!added && before.least[k] < before.least[best->second]) best->second = k;
-  }
+  const VertexGrid near(*before.beads, reach);
   bool reached = false;
   const auto consider = [&](std::size_t k, std::size_t end) {
     const double cost =
@@ -263,20 +320,38 @@ void Route::State::follow(Node& node, const Node& before) const {
     node.least[k] = cost, node.from[k] = end;
     reached = true;
   };
-  for (std::size_t k = 0; k < count; ++k) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        const auto found = near.find(cell_of(node.place(k) + core::Vec2(dx * reach, dy * reach), reach));
-        if (found == near.end()) continue;
-        for (const std::size_t end : found->second) {
-          if ((before.place(end) - node.place(k)).norm() <= reach) consider(k, end);
-        }
+  for (std::size_t k = 0; k < count; k += 2) {
+    const bool alike = node.own[k] == node.own[k + 1] && node.first_zone(k) == node.first_zone(k + 1);
+    near.for_each_near(node.place(k), [&](std::size_t vertex) {
+      const std::size_t ahead = 2 * vertex, back = ahead + 1;
+      const bool one_zone = before.last_zone(ahead) == before.last_zone(back);
+      for (const std::size_t end : {ahead, back}) {
+        const std::size_t other = end == ahead ? back : ahead;
+        const bool beaten =
+            end == ahead ? before.least[other] < before.least[end] : before.least[other] <= before.least[end];
+        if (one_zone && beaten) continue;
+        consider(k, end);
+        if (!alike) consider(k + 1, end);
       }
-    }
+    });
+    if (alike) node.least[k + 1] = node.least[k], node.from[k + 1] = node.from[k];
   }
-  if (reached) return;  // a travel to where none is needed cannot pay
-  for (std::size_t k = 0; k < count; ++k) {
-    for (const auto& [where, end] : far) consider(k, end);
+  if (!reached) travel(node, before);  // a travel to where none is needed cannot pay
+}
+
+/// To every beginning from the best end of every square and zone.
+void Route::State::travel(Node& node, const Node& before) const {
+  std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> far;
+  for (std::size_t k = 0; k < before.own.size(); ++k) {
+    const auto [best, added] = far.try_emplace({cell_of(before.place(k), cell), before.last_zone(k)}, k);
+    if (!added && before.least[k] < before.least[best->second]) best->second = k;
+  }
+  for (std::size_t k = 0; k < node.own.size(); ++k) {
+    for (const auto& [where, end] : far) {
+      const double cost =
+          before.least[end] + node.own[k] + step_cost(node, k, before.place(end), before.last_zone(end));
+      if (cost < node.least[k]) node.least[k] = cost, node.from[k] = end;
+    }
   }
 }
 

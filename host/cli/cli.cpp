@@ -13,6 +13,7 @@
 #include "host/cli/show.hpp"
 #include "host/cli/version.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/engine/session.hpp"
 #include "host/link/link.hpp"
 
 namespace unicursal::host {
@@ -664,6 +665,8 @@ int run_command_line(int argc, char** argv) {
   } catch (const core::DataError& error) {
     return report(error, Exit::bad_input);
   } catch (const PortError& error) {
+    return report(error, Exit::bad_input);
+  } catch (const PrinterUnfit& error) {
     return report(error, Exit::bad_input);
   } catch (const std::filesystem::filesystem_error& error) {
     // Before a print: within one, everything becomes a PrintError.

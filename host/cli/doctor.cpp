@@ -41,7 +41,7 @@ Exit doctor(const DoctorCommand& command) {
   const unsigned baud = command.baud.value_or(profile.baud);
   LinkOptions options = link_options(profile, command.log);
   options.temperatures = {};  // asked for, so that reports do not go on afterwards
-  const int port = open_port(command.port.value_or(profile.port), baud);
+  const int port = open_port(command.port.value_or(profile.port), baud, options);
   const Examination found = examine_port(port, options);
   const std::vector<Finding> list = findings(found, baud, told ? &profile : nullptr);
   if (command.json)

@@ -55,6 +55,7 @@ StreamSettings settings_for(const DryRunCommand& command, const Profile& profile
                             const SimulatorProcess& simulator) {
   StreamSettings settings;
   settings.link = link_options(profile, command.log);
+  settings.profile = profile.file;
   settings.longest_pause = unattended_pause;
   if (is_virtual(command)) {
     settings.clock = std::make_shared<LockstepClock>(simulator.control());

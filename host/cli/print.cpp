@@ -29,11 +29,12 @@ Exit print(const PrintCommand& command) {
   check_beginning(prepared);
   StreamSettings settings;
   settings.pause_heat = command.pause_heat;
+  settings.profile = prepared.job.profile.file;
   Lookahead lookahead(*prepared.part, paced(lookahead_options(prepared), settings.clock));
-  const int port = open_port(order.port, prepared.job.profile.baud);
+  settings.link = link_options(prepared.job.profile, command.log);
+  const int port = open_port(order.port, prepared.job.profile.baud, settings.link);
   Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
   settings.spool = &spool;
-  settings.link = link_options(prepared.job.profile, command.log);
   PlannedSource source(lookahead, run);
   const StreamResult result = stream_with_progress(port, source, command.display, settings);
   tell_about_spool(spool, result);

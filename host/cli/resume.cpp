@@ -137,7 +137,8 @@ class Resumption {
     settings.spool = &spool_;
     settings.link = link_options(prepared_.job.profile, command_.log);
     settings.continuation = Continuation{std::move(leg), [this] { catch_up(run_, spool_); }};
-    const int port = open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud);
+    const int port =
+        open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud, settings.link);
     PlannedSource source(lookahead_, run_, spool_.extent().rest);
     return stream_with_progress(port, source, command_.display, settings);
   }

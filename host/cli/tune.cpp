@@ -72,13 +72,18 @@ void write_gcode(const FinishedPrint& print, const std::filesystem::path& file) 
 
 /// Throws PrintError when the print failed, TuningCancelled when it was stopped.
 void expect_whole(const StreamResult& result) {
+  if (result.unfit) throw PrinterUnfit(result.reason);
   if (result.ending == Ending::failed) throw PrintError(result.reason);
   if (result.ending == Ending::stopped) throw TuningCancelled("the strip was not printed to its end");
 }
 
 void print_on(const std::string& port, const Profile& profile, const FinishedPrint& print) {
   FinishedSource source(print, profile.printer);
-  expect_whole(stream_with_progress(open_port(port, profile.baud), source, {}));
+  StreamSettings settings;
+  settings.profile = profile.file;
+  settings.link = link_options(profile, {});
+  const int open = open_port(port, profile.baud, settings.link);
+  expect_whole(stream_with_progress(open, source, {}, settings));
 }
 
 std::vector<std::string> simulator_arguments(const TuneCommand& command, const Profile& profile,
@@ -97,8 +102,9 @@ std::optional<std::filesystem::path> pictures_of(const TuneCommand& command) {
 }
 
 /// The simulator ends only when nothing holds its clock any more.
-StreamSettings in_lockstep(const SimulatorProcess& simulator) {
+StreamSettings in_lockstep(const SimulatorProcess& simulator, const Profile& profile) {
   StreamSettings settings;
+  settings.profile = profile.file;
   settings.clock = std::make_shared<LockstepClock>(simulator.control());
   return settings;
 }
@@ -116,8 +122,8 @@ std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const
     while (const auto frame = reader.next()) seen->take(*frame, reader);
   });
   FinishedSource source(print, profile.printer);
-  expect_whole(
-      stream_with_progress(open_port(simulator.port(), profile.baud), source, {}, in_lockstep(simulator)));
+  expect_whole(stream_with_progress(open_port(simulator.port(), profile.baud), source, {},
+                                    in_lockstep(simulator, profile)));
   simulator.finish();
   watching.get();
   if (pictures) show(stdout, "picture:   {}\n", (*pictures / "deposit-0000.png").string());

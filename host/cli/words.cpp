@@ -98,6 +98,7 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
   } catch (const std::exception& error) {
     problem = error.what();
   }
+  if (result.unfit) throw PrinterUnfit(result.reason);
   if (result.ending == Ending::failed) throw PrintError(result.reason);
   if (!problem.empty()) {
     throw PrintError(
@@ -107,7 +108,7 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
 
 void tell_about_spool(Spool& spool, const StreamResult& result) {
   if (const auto problem = spool.journal().problem()) show(stderr, "warning: {}\n", *problem);
-  if (result.ending == Ending::completed) return;
+  if (result.ending == Ending::completed || result.unfit) return;
   show(stderr, "to go on with this print: unicursal resume {}\n", spool.folder().filename().string());
 }
 

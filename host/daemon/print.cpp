@@ -24,13 +24,14 @@ Print::Print(const PrintPlan& plan)
       lookahead_(*prepared_.part, paced(lookahead_options(prepared_), settings_.clock)),
       source_(lookahead_, run_) {
   settings_.pause_heat = plan.pause_heat;
+  settings_.profile = prepared_.job.profile.file;
   settings_.link = link_options(prepared_.job.profile, {});
   PrintOrder order;
   order.job_name = prepared_.job.file.stem().string();
   order.port = plan.port.value_or(plan.own_port ? "auto" : prepared_.job.profile.port);
   order.layer_count = prepared_.count;
   if (plan.layers) order.layers = std::pair(plan.layers->first, plan.layers->last);
-  port_ = open_port(order.port, prepared_.job.profile.baud);
+  port_ = open_port(order.port, prepared_.job.profile.baud, settings_.link);
   try {
     spool_.emplace(Spool::create(plan.spool ? *plan.spool : default_spool_root(), prepared_.job, order));
   } catch (...) {

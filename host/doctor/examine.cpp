@@ -4,6 +4,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "host/engine/printer_check.hpp"
 #include "host/link/signal.hpp"
 
 namespace unicursal::host {
@@ -126,7 +127,7 @@ asio::awaitable<Examination> examine(Link& link, asio::any_io_executor executor,
   Examination found;
   co_await interview.connect();
   found.reset_by_opening = interview.heard("start");
-  found.mixes = co_await interview.knows("M163 S99 P1");
+  found.mixes = co_await interview.knows(mixing_question);
   found.shuts_down = co_await interview.knows("M85 S0");
   found.tells_settings = co_await interview.knows("M503 S0");
   if (found.tells_settings) {

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "firmware_gcode/dialect/dialect.hpp"
+#include "host/engine/printer_check.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -20,18 +18,6 @@ constexpr double segment = 0.2;                        ///< mm, of a curve of 0.
 constexpr double slow_answer = 0.012;      ///< s; FTDI chips hold replies back for 16 ms, others for 1
 constexpr double hot = 50;                 ///< °C
 constexpr double plenty_of_baud = 250000;  ///< bits/s
-
-bool speaks(Family family) {
-  std::string name(gcode::name(family));
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  try {
-    gcode::dialect_named(name);
-    return true;
-  } catch (const core::DataError&) {
-    return false;
-  }
-}
 
 class Doctor {
  public:
@@ -62,9 +48,13 @@ class Doctor {
       add(Weight::warning,
           "its firmware is none that this program knows; a print may fail in ways that nobody has tried");
     } else {
-      add_if(speaks(who.family), Weight::trouble,
+      add_if(dialect_of(who.family).has_value(), Weight::trouble,
              fmt::format("this program speaks {}", gcode::name(who.family)),
              fmt::format("this program does not speak {} yet; Marlin 2 would do", gcode::name(who.family)));
+    }
+    if (profile_ != nullptr) {
+      if (const auto wrong = mismatch(who, profile_->printer.firmware))
+        add(Weight::trouble, fmt::format("{}; {}", *wrong, correction(who, profile_->file)));
     }
     if (who.family == Family::marlin && who.version && *who.version < gcode::Version{2, 0, 0}) {
       add(Weight::warning,
@@ -77,7 +67,7 @@ class Doctor {
   void mixing() {
     add_if(found_.mixes, Weight::trouble,
            "its feeders mix (it knows M163); it does not tell how many they are, so the profile has to",
-           "its feeders do not mix: it does not know M163; build its firmware with MIXING_EXTRUDER");
+           does_not_mix);
     const auto extruders = found_.identity.extruders.value_or(1);
     if (!found_.mixes && extruders > 1)
       add(Weight::note, fmt::format("it takes its feeders for {} extruders, each for itself", extruders));

@@ -1,5 +1,7 @@
 #include "host/engine/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <asio/bind_executor.hpp>
 #include <asio/co_spawn.hpp>
@@ -7,6 +9,7 @@
 #include <exception>
 #include <new>
 
+#include "host/engine/printer_check.hpp"
 #include "host/engine/rejoining.hpp"
 #include "host/engine/session_impl.hpp"
 #include "host/link/serial_log.hpp"
@@ -20,7 +23,7 @@ constexpr double look_ahead = 300;  ///< s of printing that are planned before t
 /// Lines handed to the link at once: few, so that a command takes effect soon.
 constexpr std::size_t batch = 16;
 
-constexpr double no_time = 0;
+constexpr auto late_answer = std::chrono::seconds(1);  ///< of a printer that says ok first
 
 constexpr auto fell_behind = "planning has fallen behind; it goes on by itself when the next layer is there";
 
@@ -142,7 +145,35 @@ asio::awaitable<void> Session::State::begin() {
   if (continuation && !continuation->leg) co_return co_await rejoin();
   if (continuation) spool->journal().begin_leg(*continuation->leg);
   co_await link.connect();
+  check_firmware();
+  co_await check_mixing();
   if (spool) spool->supersede_others();
+}
+
+void Session::State::check_firmware() {
+  const gcode::Identity& printer = link.identity();
+  if (const auto why = mismatch(printer, source.printer().firmware)) {
+    unfit = true;
+    const std::string remedy = settings.continuation
+                                   ? "go on where the print was begun, or print the job anew"
+                                   : correction(printer, settings.profile);
+    throw LinkError(fmt::format("this printer cannot be used: {}; {}", *why, remedy));
+  }
+  if (const auto strange = strangeness(printer)) warn(*strange);
+}
+
+/// Some firmwares say ok when a line has come, and answer when it is run; what they answer to the second
+/// question comes behind what they say to the first.
+asio::awaitable<void> Session::State::check_mixing() {
+  std::vector<std::string> questions{mixing_question, "M105"};
+  temperatures = {};
+  co_await interpose(std::move(questions));
+  co_await link.drain();
+  const std::function<bool()> answered = [this] { return !mixes || temperatures.nozzle || temperatures.bed; };
+  co_await wake.wait(clock->now() + late_answer, answered);
+  if (mixes) co_return;
+  unfit = true;
+  throw LinkError(fmt::format("this printer cannot be used: {}", does_not_mix));
 }
 
 asio::awaitable<void> Session::State::rejoin() {
@@ -154,6 +185,7 @@ asio::awaitable<void> Session::State::rejoin() {
     lost = Lost{error.what(), std::nullopt};
     co_return;
   }
+  check_firmware();
   lost = lost_since(before, found, spool->chunks(), spool->extent());
   if (lost) co_return;
   spool->journal().begin_session();
@@ -240,6 +272,7 @@ asio::awaitable<void> Session::State::send_pieces() {
     const gcode::Chunk& chunk = piece->chunk;
     chunk_seconds = chunk.seconds;
     whole = whole_layers(chunk);
+    time_layers(chunk);
     layers_begun = layer_at(chunk, 0).value_or(pieces);
     co_await send(chunk);
     if (stopped) break;
@@ -247,6 +280,16 @@ asio::awaitable<void> Session::State::send_pieces() {
     layers_sent += std::exchange(whole, 0U);
     layer_fraction = 0;
     ++pieces;
+  }
+}
+
+/// The first layer is no measure for the others: it has its own speed, and a skirt.
+void Session::State::time_layers(const gcode::Chunk& chunk) {
+  for (const gcode::LayerShare& share : chunk.layers) {
+    unfinished_seconds += share.seconds;
+    if (!share.last) continue;
+    if (share.layer > 0) later_seconds += unfinished_seconds;
+    unfinished_seconds = 0;
   }
 }
 
@@ -362,8 +405,8 @@ asio::awaitable<void> Session::State::hand(std::vector<std::string> lines) {
 }
 
 StreamResult Session::State::result(const std::exception_ptr& error) {
-  StreamResult result{Ending::completed, {},     parked, link.statistics(),
-                      link.firmware(),   waited, lost,   pauses};
+  StreamResult result{
+      Ending::completed, {}, parked, link.statistics(), link.firmware(), waited, lost, pauses, unfit};
   if (stopped) result.ending = Ending::stopped;
   if (error) result.reason = sentence(error);
   if (aborted) result.reason = reason;
@@ -378,7 +421,10 @@ StreamResult Session::State::result(const std::exception_ptr& error) {
     case Ending::failed:
       enter(SessionState::failed, result.reason);
   }
-  if (spool && !lost) end_journal(result);
+  if (spool && unfit && !settings.continuation)
+    spool->discard();
+  else if (spool && !lost)
+    end_journal(result);
   return result;
 }
 

@@ -23,6 +23,7 @@
 #include <asio/awaitable.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -40,6 +41,13 @@ namespace unicursal::host {
 
 /// Something went wrong when the printer may have been hot; it has been cooled if it still listens.
 class PrintError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The printer is not the one that the print was made for; nothing was heated or moved. The message has the
+/// remedy.
+class PrinterUnfit : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -65,6 +73,7 @@ struct StreamResult {
   double waited = 0;     ///< s that the print has waited for a layer to be planned
   std::optional<Lost> lost;
   std::size_t pauses = 0;  ///< times that it was held
+  bool unfit = false;      ///< it has failed since the printer is another one; nothing was heated or moved
 };
 
 /// A print that goes on.
@@ -82,8 +91,9 @@ enum class PauseHeat {
 
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
-  Spool* spool = nullptr;  ///< that keeps the print, if one does
-  LinkOptions link = {};   ///< on the clock above
+  Spool* spool = nullptr;  ///< that keeps the print, if one does; not if the printer is unfit from the start
+  std::filesystem::path profile;  ///< to be named where it has to be corrected; may be empty
+  LinkOptions link = {};          ///< on the clock above
   /// With a spool that holds the first layers already; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;

@@ -35,12 +35,15 @@ struct Session::State {
   asio::awaitable<void> print();
   asio::awaitable<void> begin();
   asio::awaitable<void> rejoin();
+  void check_firmware();
+  asio::awaitable<void> check_mixing();
   asio::awaitable<void> send_spooled();
   void begin_to_catch_up();
   asio::awaitable<void> catch_up();
   asio::awaitable<void> start();
   asio::awaitable<void> get_hot();
   asio::awaitable<void> send_pieces();
+  void time_layers(const gcode::Chunk& chunk);
   asio::awaitable<std::optional<Piece>> next_piece();
   asio::awaitable<void> until_ready();
   asio::awaitable<void> until(TimePoint ready);
@@ -131,6 +134,8 @@ struct Session::State {
   std::exception_ptr catching_up_failed;
   bool parking = false;  ///< what is sent is not of the spool
   bool parked = false;
+  bool unfit = false;   ///< the printer is another one than the print was made for
+  bool mixes = true;    ///< as far as the printer has told
   bool halted = false;  ///< the firmware has said that it has stopped itself
   std::optional<Lost> lost;
   double waited = 0;  ///< s for pieces
@@ -150,9 +155,13 @@ struct Session::State {
   std::size_t layers_begun = 0;
   double layer_fraction = 0;                   ///< of the chunk that is being sent
   double seconds_sent = 0, chunk_seconds = 0;  ///< of the chunks before, of the one that is being sent
+  double unfinished_seconds = 0;               ///< of these, a layer's that ends in a later chunk
+  double later_seconds = 0;                    ///< and those of whole layers, but for the print's first
   std::size_t layers_sent = 0;                 ///< whose seconds are in `seconds_sent`
   std::size_t whole = 0;                       ///< layers that end in the chunk that is being sent
 };
+
+constexpr double no_time = 0;
 
 /// Whatever was thrown, as a sentence for a person.
 std::string sentence(const std::exception_ptr& error);

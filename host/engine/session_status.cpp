@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/engine/printer_check.hpp"
 #include "host/engine/session_impl.hpp"
 
 namespace unicursal::host {
@@ -86,6 +87,7 @@ void Session::State::hear(const std::string& line) {
   const Reply reply = parse_reply(line);
   const auto heard = [&](const Temperatures& told) {
     update(temperatures, told);
+    wake.notify();
     tell(SessionEvent::Kind::heat);
   };
   if (const auto* ok = std::get_if<reply::Ok>(&reply)) return heard(ok->temperatures);
@@ -93,6 +95,10 @@ void Session::State::hear(const std::string& line) {
   if (const auto* error = std::get_if<reply::Error>(&reply); error && error->halted) halted = true;
   tell(SessionEvent::Kind::printer, line);
   if (const auto* echo = std::get_if<reply::Echo>(&reply); echo && echo->unknown_command) {
+    if (denies_mixing(line)) {
+      mixes = false;
+      wake.notify();
+    }
     if (echo->text.find("M85") != std::string::npos)
       warn("this firmware does not know M85: if this computer fails in mid-print, nothing cools the printer");
   }
@@ -119,14 +125,22 @@ void Session::State::warn(const std::string& sentence) {
   tell(SessionEvent::Kind::notice, "Warning: " + sentence);
 }
 
-/// Layers that are not planned yet are taken to last as long as those before them on average.
+/// Layers that are not sent yet are taken to last as the flow foretells, by as much more as those did that
+/// were; where nothing is foretold, as long as those before them on average.
 double Session::State::seconds_left() const {
+  const double at_hand = chunk_seconds * (1 - layer_fraction);
+  const std::size_t done = layers_before + layers_sent + whole;
+  if (const auto rest = source.foretold(done, source.layers())) {
+    const double later = source.foretold(std::max<std::size_t>(layers_before, 1), done).value_or(0);
+    const double stretch = later > 0 && later_seconds > 0 ? later_seconds / later : 1;
+    return at_hand + std::max(stretch * *rest - unfinished_seconds, no_time);
+  }
   const Waiting waiting = source.waiting();
   const std::size_t known = layers_sent + whole + waiting.layers;
   const double sum = seconds_sent + chunk_seconds + waiting.seconds;
   const double mean = known > 0 ? sum / static_cast<double>(known) : sum;
   const std::size_t unknown = source.layers() - std::min(source.layers(), layers_before + known);
-  return chunk_seconds * (1 - layer_fraction) + waiting.seconds + mean * static_cast<double>(unknown);
+  return at_hand + waiting.seconds + mean * static_cast<double>(unknown);
 }
 
 /// By the tool in use and what was last stored into it.

@@ -12,6 +12,7 @@
 #include "firmware_gcode/toolpath/chunk.hpp"
 #include "firmware_gcode/toolpath/printer.hpp"
 #include "host/engine/run.hpp"
+#include "host/lookahead/foretold_times.hpp"
 #include "host/lookahead/lookahead.hpp"
 #include "host/spool/spooled_chunk.hpp"
 
@@ -57,6 +58,9 @@ class Source {
   /// As Lookahead::printed() and waiting().
   virtual void printed(double now, double left) = 0;
   virtual Waiting waiting() const = 0;
+  /// s that the flow foretells for the layers from `begin` up to `end`, which is not one of them; nothing as
+  /// long as that is unknown.
+  virtual std::optional<double> foretold(std::size_t begin, std::size_t end) const = 0;
 };
 
 /// A job's layers as they are planned. What it refers to must outlive it.
@@ -64,7 +68,11 @@ class PlannedSource final : public Source {
  public:
   /// `rest_given`: nothing is withheld by the run's encoder behind the last layer.
   PlannedSource(Lookahead& lookahead, Run& run, bool rest_given = false)
-      : lookahead_(lookahead), run_(run), ended_(rest_given) {}
+      : lookahead_(lookahead),
+        run_(run),
+        ended_(rest_given),
+        times_(*run.prepared().part, run.prepared().first, run.prepared().count,
+               lookahead_options(run.prepared()).flow) {}
 
   const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
   core::Box extent() const override { return print_settings(run_.prepared()).extent; }
@@ -81,11 +89,15 @@ class PlannedSource final : public Source {
   void cancel() override;
   void printed(double now, double left) override { lookahead_.printed(now, left); }
   Waiting waiting() const override { return lookahead_.waiting(); }
+  std::optional<double> foretold(std::size_t begin, std::size_t end) const override {
+    return times_.between(begin, end);
+  }
 
  private:
   Lookahead& lookahead_;
   Run& run_;
   bool ended_;  ///< nothing is withheld any more, or wanted
+  ForetoldTimes times_;
 };
 
 /// A print that needs no planning any more.
@@ -117,6 +129,7 @@ class FinishedSource final : public Source {
   void cancel() override { taken_ = print_.body.size(); }
   void printed(double, double) override {}
   Waiting waiting() const override;
+  std::optional<double> foretold(std::size_t, std::size_t) const override { return std::nullopt; }
 
  private:
   const FinishedPrint& print_;

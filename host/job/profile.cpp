@@ -141,6 +141,7 @@ void read_transition(const Section& section, gcode::Printer& printer) {
                                          between(1, static_cast<double>(gcode::max_tanks), ""), remedy);
   if (tanks != std::floor(tanks)) section.fail("tanks", "is no whole number", remedy);
   printer.tanks = static_cast<std::size_t>(tanks);
+  printer.overshoot = section.flag_or("overshoot", printer.overshoot, "write true or false");
 }
 
 }  // namespace
@@ -162,7 +163,7 @@ Profile load_profile(const std::filesystem::path& path) {
                                          "flow_factors", "max_speed", "max_acceleration", "jerk"}),
       profile.printer);
   read_temperature(root.section_or_empty("temperature", {"nozzle", "bed"}), profile.printer);
-  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume", "tanks"}),
+  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume", "tanks", "overshoot"}),
                   profile.printer);
   const Section gcode = root.section_or_empty("gcode", {"start", "end"});
   profile.printer.start_gcode = read_script(gcode, "start");

@@ -92,6 +92,10 @@ struct LinkOptions {
   std::shared_ptr<SerialLog> log = nullptr;  ///< of every byte either way
 };
 
+/// The same, and nothing is waited for (`boot` becomes 0) where opening cannot have reset the board: this
+/// program had the port before and has kept DTR up since, or the printer has just answered.
+int open_port(const std::string& path, unsigned baud, LinkOptions& options);
+
 struct LinkStatistics {
   std::uint64_t lines = 0;         ///< lines handed to send()
   std::uint64_t sent = 0;          ///< numbered lines written, repeats and the link's own queries included

@@ -92,6 +92,18 @@ std::string text(const char* from) {
   return from == nullptr ? std::string() : gcode::printable(from);
 }
 
+/// Changes nothing about the port; without one, whoever opens it next will tell why.
+Descriptor open_as_left(const std::string& path) {
+  return Descriptor(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+}
+
+/// HUPCL is off since we opened it last (below): a cable that was pulled meanwhile would have brought it
+/// back.
+bool keeps_dtr(int fd) {
+  termios settings{};
+  return fd >= 0 && ::tcgetattr(fd, &settings) == 0 && (settings.c_cflag & HUPCL) == 0;
+}
+
 /// HUPCL off: otherwise closing the port drops DTR, which resets many boards at the next opening.
 void keep_dtr(int fd) {
   termios settings{};
@@ -182,13 +194,23 @@ std::vector<PortInfo> list_ports() {
 }
 
 int open_port(const std::string& path, unsigned baud) {
+  LinkOptions ignored;
+  return open_port(path, baud, ignored);
+}
+
+int open_port(const std::string& path, unsigned baud, LinkOptions& options) {
   const std::vector<PortInfo> meant = matching_ports(list_ports(), path);
   if (meant.empty()) throw PortError("no such serial port was found; plug the printer in and switch it on");
-  if (meant.size() > 1) return open_answering_port(meant, baud);
+  if (meant.size() > 1) {
+    options.boot = {};
+    return open_answering_port(meant, baud);
+  }
   const std::string& wanted = meant.front().path;
   std::error_code missing;
   const fs::path device = fs::canonical(wanted, missing);  // libserialport does not follow links
   if (missing) refuse(wanted, missing.value());
+  const Descriptor before = open_as_left(device.string());
+  if (keeps_dtr(before.get())) options.boot = {};
   sp_port* found = nullptr;
   if (sp_get_port_by_name(device.c_str(), &found) != SP_OK) return open_direct(device.string(), baud);
   const Port port(found);

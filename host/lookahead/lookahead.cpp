@@ -1,10 +1,5 @@
 #include "host/lookahead/lookahead.hpp"
 
-#include <pthread.h>
-#include <sched.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -17,24 +12,15 @@
 #include <numeric>
 #include <thread>
 
+#include "host/lookahead/foretold_times.hpp"
+#include "host/lookahead/low_priority.hpp"
 #include "host/lookahead/pacer.hpp"
 #include "host/lookahead/timeline.hpp"
 
 namespace unicursal::host {
 namespace {
 
-/// Added to the niceness of planning threads, so that the link is served first on a busy machine.
-constexpr int planner_niceness = 10;
-
 constexpr double margin = 1;  ///< s before a layer is needed, for what nobody can foretell
-
-/// Best effort: where it is refused, planning just competes on equal terms.
-void lower_priority() {
-  const sched_param parameters{};
-  pthread_setschedparam(pthread_self(), SCHED_BATCH, &parameters);
-  const auto thread = static_cast<id_t>(gettid());
-  setpriority(PRIO_PROCESS, thread, planner_niceness);
-}
 
 /// Steele, Lea, Flood 2014: the finaliser of SplitMix64, which spreads every bit over all.
 std::uint64_t mixed(std::uint64_t x) {
@@ -166,7 +152,7 @@ struct Lookahead::State {
       layer.result.plans.resize(layer.result.layer.islands.size());
     });
     layer.area = area_of(layer.result.layer);
-    if (options.flow > 0) layer.print_seconds = layer.area * layer.result.layer.height / options.flow;
+    layer.print_seconds = foretold_seconds(layer.result.layer, options.flow);
     layer.sliced_at = time.ended();
     layer.sliced = true;
     work_available.notify_all();

@@ -9,7 +9,7 @@ namespace unicursal::host {
 namespace {
 
 /// What fed_volumes() calls mixtures that no material has.
-constexpr const char* shades_of_gradients = "between";
+constexpr const char* mixtures_between = "between";
 
 std::string counted(std::uint64_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -76,7 +76,7 @@ std::string summary(const Comparison& comparison) {
   Comparison::Mixture shades;
   std::size_t count = 0;
   for (const Comparison::Mixture& mixture : comparison.mixtures) {
-    if (mixture.name != shades_of_gradients) {
+    if (mixture.name != mixtures_between) {
       tell(mixture);
       continue;
     }

@@ -303,6 +303,11 @@ void Spool::supersede_others() noexcept {
   }
 }
 
+void Spool::discard() noexcept {
+  std::error_code ignored;
+  fs::remove_all(state_->folder, ignored);
+}
+
 void Spool::append(const SpooledChunk& chunk) {
   state_->chunks.append(to_bytes(chunk));
   state_->chunks.sync();

@@ -58,6 +58,8 @@ class Spool {
   /// The printer is about to move: prints that were interrupted on the same port learn that it is no longer
   /// where they left it.
   void supersede_others() noexcept;
+  /// It is of no use: nothing was sent. The folder goes.
+  void discard() noexcept;
   /// What the journal told, and what was spooled, when the spool was opened.
   const JournalState& before() const;
   const SpoolExtent& extent() const;

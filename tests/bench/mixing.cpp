@@ -1,8 +1,10 @@
 // How far the mixtures come out where they are wanted, and how much the nozzle travels:
-//   bench_mixing [--tanks N] [--layers N] JOB.toml …
+//   bench_mixing [--tanks N] [--volumes FACTOR] [--layers N] [--pictures DIR] JOB.toml …
 // The same curves are encoded twice: with the schedule's look-ahead, and switched where the borders are. The
-// simulated printer's chamber has N tanks (3), whatever the profile says. A travel is a move of more than 1.5
-// bead widths without extruding; what is laid outside is told without the prime line and the skirt.
+// simulated printer's chamber has N tanks (3), whatever the profile says, and FACTOR (1) times its volumes:
+// what is promised must hold for nozzles that answer otherwise than the profile has it. DIR gets a map of
+// each layer's mixtures. A travel is a move of more than 1.5 bead widths without extruding; what is laid
+// outside is told without the prime line and the skirt.
 #include <fmt/core.h>
 
 #include <chrono>
@@ -11,6 +13,7 @@
 #include <cstring>
 #include <ctime>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,7 +31,9 @@ constexpr double raster_pixel = 0.05;  // mm
 
 struct Options {
   std::size_t tanks = 3;
+  double volumes = 1;
   std::size_t layers = static_cast<std::size_t>(-1);
+  std::filesystem::path pictures;
 };
 
 /// What one encoding of a job comes to.
@@ -45,8 +50,12 @@ struct Result {
 class Judges : public sim::RasterSink {
  public:
   Judges(const host::PreparedJob& job, const std::vector<host::PlannedLayer>& layers,
-         std::vector<host::IntendedMaterial> materials, Result& result)
-      : job_(job), layers_(layers), materials_(std::move(materials)), result_(result) {}
+         std::vector<host::IntendedMaterial> materials, std::filesystem::path pictures, Result& result)
+      : job_(job),
+        layers_(layers),
+        materials_(std::move(materials)),
+        pictures_(std::move(pictures)),
+        result_(result) {}
 
   void layer(const sim::LayerRaster& raster) override {
     for (const host::PlannedLayer& planned : layers_) {
@@ -54,7 +63,15 @@ class Judges : public sim::RasterSink {
       if (std::abs(target.top - raster.frame().z) > target.height / 4 || target.zones.empty()) continue;
       std::uint64_t row = 0;
       const auto rows = [&](std::span<sim::RasterPixel> pixels) { raster.read_row(row++, pixels); };
-      result_.findings += host::judge(target, raster.frame(), rows, materials_, false).findings;
+      const bool draw = !pictures_.empty();
+      const host::JudgedLayer judged = host::judge(target, raster.frame(), rows, materials_, draw);
+      result_.findings += judged.findings;
+      if (draw) {
+        const char* how = job_.job.look_ahead ? "ahead" : "none";
+        picture::write_png(
+            pictures_ / fmt::format("{}-{}-{}.png", job_.job.file.stem().string(), target.index, how),
+            *judged.mixtures);
+      }
     }
   }
 
@@ -62,6 +79,7 @@ class Judges : public sim::RasterSink {
   const host::PreparedJob& job_;
   const std::vector<host::PlannedLayer>& layers_;
   std::vector<host::IntendedMaterial> materials_;
+  std::filesystem::path pictures_;
   Result& result_;
 };
 
@@ -129,12 +147,15 @@ Result lay(const host::PreparedJob& job, const std::vector<host::PlannedLayer>& 
   Result result;
   const gcode::Printer& printer = job.job.profile.printer;
   gcode::Encoder encoder(printer, host::print_settings(job));
-  Judges judges(job, layers, host::intended_materials(job, encoder), result);
+  Judges judges(job, layers, host::intended_materials(job, encoder), options.pictures, result);
   Travels travels(gcode::travel_widths * job.job.bead_width, result);
   sim::Spread spread({printer.bed[0], printer.bed[1]}, raster_pixel);
   sim::Deposit deposit({nullptr, &spread, &judges});
-  sim::Nozzle nozzle(printer.filament_diameter,
-                     sim::Chamber({printer.dead_volume, printer.mixing_volume, options.tanks}, 3), deposit);
+  sim::Nozzle nozzle(
+      printer.filament_diameter,
+      sim::Chamber(
+          {options.volumes * printer.dead_volume, options.volumes * printer.mixing_volume, options.tanks}, 3),
+      deposit);
   sim::MoveSinks sinks({&nozzle, &travels});
   const auto firmware =
       sim::make_firmware(machine_of(printer), sim::personality("marlin"), sinks, [](std::string_view) {});
@@ -207,6 +228,10 @@ int main(int argc, char** argv) {
       const auto is = [&](const char* name) { return std::strcmp(argv[i], name) == 0 && i + 1 < argc; };
       if (is("--tanks")) {
         options.tanks = std::strtoull(argv[++i], nullptr, 10);
+      } else if (is("--volumes")) {
+        options.volumes = std::strtod(argv[++i], nullptr);
+      } else if (is("--pictures")) {
+        options.pictures = argv[++i];
       } else if (is("--layers")) {
         options.layers = std::strtoull(argv[++i], nullptr, 10);
       } else {

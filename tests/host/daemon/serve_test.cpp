@@ -161,7 +161,8 @@ TEST_CASE("two daemons, and a print beside them, do not share a port") {
   bench.await_print("printing");
   CHECK(other.command({"start"}).code == 1);
   CHECK(job(other, late)["state"] == "failed");
-  CHECK(job(other, late)["reason"].get<std::string>().find("another program is using it") != std::string::npos);
+  CHECK(job(other, late)["reason"].get<std::string>().find("another program is using it") !=
+        std::string::npos);
   const Outcome print = test::run({"print", bench.path("jobs/plate.toml"), "--port", bench.path("port"),
                                    "--spool", bench.path("spool2")});
   CHECK(print.code != 0);

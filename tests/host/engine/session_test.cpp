@@ -5,7 +5,7 @@
 #include <set>
 
 #include "host/engine/session_json.hpp"
-#include "session_bench.hpp"
+#include "tests/host/support/session_bench.hpp"
 
 using namespace unicursal::host;
 using unicursal::test::SessionBench;
@@ -124,8 +124,8 @@ TEST_CASE("A pause that nobody ends cools the nozzle, and heats it again before 
 
 TEST_CASE(
     "A nozzle that has nothing to do for long does not stay on the part, nor does the firmware give up") {
-  SessionBench bench({}, "",
-                     unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2"));
+  SessionBench bench(
+      {}, "", {unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2")});
   bench.charge = 2e4;  // every layer is many minutes late
   std::vector<std::string> whys;
   const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
@@ -149,8 +149,8 @@ TEST_CASE(
 }
 
 TEST_CASE("A pause asked for while the nozzle stands aside lasts until the user ends it") {
-  SessionBench bench({}, "",
-                     unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2"));
+  SessionBench bench(
+      {}, "", {unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2")});
   bench.charge = 2e4;
   bench.settings.link.temperatures = std::chrono::seconds(2);  // heat is told of meanwhile
   int holds = 0, returns = 0;

@@ -52,7 +52,7 @@ TEST_CASE("a print that fails leaves a report that says why") {
   const json report = job.report();
   CHECK(report["ended"] == "failed");
   CHECK(report["reason"].get<std::string>().find("reset itself") != std::string::npos);
-  CHECK(report["link"]["acknowledged"].get<int>() < 60);
+  CHECK(report["link"]["acknowledged"].get<int>() <= 60);  // M105 is not among the printer's 60
 }
 
 TEST_CASE("a stop while heating ends the heating and claims no park") {

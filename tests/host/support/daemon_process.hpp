@@ -42,10 +42,12 @@ class DaemonBench {
   const TempFolder& folder() const { return folder_; }
 
   /// `speed`: printer seconds per second; 0: as fast as lines come.
-  void start_printer(const std::string& speed) {
-    printer_ = std::make_unique<Child>(
-        std::vector<std::string>{"simulate", "--profile", path("jobs/bench.toml.profile"), "--link",
-                                 path("port"), "--speed", speed, "--transcript", path("lines.txt")});
+  void start_printer(const std::string& speed, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"simulate", "--profile",    path("jobs/bench.toml.profile"),
+                                       "--link",   path("port"),   "--speed",
+                                       speed,      "--transcript", path("lines.txt")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    printer_ = std::make_unique<Child>(arguments);
     await([this] { return std::filesystem::exists(path("port")); }, *printer_);
   }
 
@@ -105,12 +107,9 @@ class DaemonBench {
   void await_print(const std::string& state) {
     await([&] { return print_state() == state; }, *daemon_);
   }
-  /// Until something of the part lies there, or is about to: being hot is not enough.
+  /// Until something is extruded: being hot is not enough.
   void await_laying() {
-    const auto laying = [&] {
-      return ask("GET", "/api/status").value("print", nlohmann::json::object()).value("percent", 0.0) > 0.5;
-    };
-    await(laying, *daemon_);
+    await([this] { return read_text(path("lines.txt")).find("G1 ") != std::string::npos; }, *daemon_);
   }
   void await_job(int id, const std::string& state) {
     await([&] { return ask("GET", "/api/jobs/" + std::to_string(id)).value("state", "") == state; },

@@ -21,15 +21,19 @@
 
 namespace unicursal::test {
 
+struct SampleFiles {
+  std::string job = sample_job;
+  std::string part_name = "plate.svg", part = sample_drawing;
+};
+
 class SessionBench {
  public:
   using Script = std::function<void(host::Session&, const host::SessionEvent&)>;
 
   /// `profile_more`: lines for the end of the profile. `simulator`: more options.
-  /// `job`: its text.
   explicit SessionBench(const std::vector<std::string>& simulator = {}, const std::string& profile_more = {},
-                        const std::string& job = sample_job)
-      : job_(write_job(profile_more, job)),
+                        const SampleFiles& sample = {})
+      : job_(write_job(profile_more, sample)),
         prepared_(host::prepare(host::load_job(job_, {}))),
         printer_(simulate(simulator)),
         run_(prepared_, "test", {}),
@@ -91,10 +95,10 @@ class SessionBench {
   }
 
  private:
-  std::string write_job(const std::string& profile_more, const std::string& job) {
+  std::string write_job(const std::string& profile_more, const SampleFiles& sample) {
     folder_.write("bench.toml", sample_profile + profile_more);
-    folder_.write("plate.svg", sample_drawing);
-    return folder_.write("job.toml", job).string();
+    folder_.write(sample.part_name, sample.part);
+    return folder_.write("job.toml", sample.job).string();
   }
 
   std::vector<std::string> simulate(const std::vector<std::string>& more) const {
