@@ -351,7 +351,8 @@ class CommandLine {
 
   void declare_pause_heat(CLI::App& app) {
     app.add_option("--pause-heat", pause_heat_,
-                   "what becomes of the nozzle's heat in a pause: keep (the default) or lower")
+                   "what becomes of the nozzle's heat in a pause: keep (the default; for a quarter of an "
+                   "hour) or lower")
         ->check(CLI::IsMember({"keep", "lower"}));
   }
 
