@@ -153,8 +153,8 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   MoveSinks sinks({&feed, &nozzle, &motion});
   Printer printer(machine_for(options), personality(options.personality), wire_for(options),
                   plan_for(options), sinks);
-  if (options.transcript)
-    printer.watch_commands([&](const std::string& command) { transcript << command << '\n'; });
+  if (options.transcript)  // at once: somebody may be following it
+    printer.watch_commands([&](const std::string& command) { transcript << command << std::endl; });
   run_session(options, printer, ready);
   deposit.finish();
 

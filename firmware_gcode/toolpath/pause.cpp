@@ -24,9 +24,13 @@ Chunk go_aside(const Printer& printer, const Pause& pause) {
   writer.draw_back();
   writer.height(z + rise_aside(printer, z));
   writer.travel(place_beside(printer, pause.extent).value_or(core::Vec2(0, printer.bed[1])));
-  if (pause.cool) writer.line("M104 S{}", short_number(std::max(0.0, pause.state.nozzle - cooler_by), 1));
+  if (pause.cool) writer.line("{}", cool_aside(pause.state));
   writer.line("M400");
   return writer.take();
+}
+
+std::string cool_aside(const ModalState& state) {
+  return "M104 S" + short_number(std::max(0.0, state.nozzle - cooler_by), 1);
 }
 
 Chunk come_back(const Printer& printer, const Pause& pause) {

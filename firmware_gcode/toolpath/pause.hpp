@@ -22,6 +22,9 @@ struct Pause {
 /// one at the back left where the part leaves none; ends when the printer stands still there.
 Chunk go_aside(const Printer& printer, const Pause& pause);
 
+/// For a pause that lasts: the nozzle's heat lowered while it stands aside.
+std::string cool_aside(const ModalState& state);
+
 /// Reheats if need be, squeezes out a transition's volume beside the part if there is a place for it,
 /// returns, and leaves every state as the print's next line expects it.
 Chunk come_back(const Printer& printer, const Pause& pause);

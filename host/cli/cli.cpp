@@ -253,6 +253,7 @@ class CommandLine {
     }
     if (name == "serve") return serve(serve_options());
     if (name == "queue") return queue(queue_command());
+    if (name == "set") return set({remote_command(name), set_.speed, set_.flow, set_.nozzle, set_.bed});
     if (name == "status" || name == "start" || name == "pause" || name == "cancel" || name == "stop") {
       return remote(remote_command(name));
     }
@@ -350,7 +351,8 @@ class CommandLine {
 
   void declare_pause_heat(CLI::App& app) {
     app.add_option("--pause-heat", pause_heat_,
-                   "what becomes of the nozzle's heat in a pause: keep (the default) or lower")
+                   "what becomes of the nozzle's heat in a pause: keep (the default; for a quarter of an "
+                   "hour) or lower")
         ->check(CLI::IsMember({"keep", "lower"}));
   }
 
@@ -459,6 +461,7 @@ class CommandLine {
       if (std::string(word) == "start")
         app->add_option("job", job_number_, "its number")->type_name("NUMBER");
     }
+    declare_set();
     CLI::App* app = command("queue", "the daemon's jobs", "unicursal queue --add leaf.toml");
     declare_state(*app);
     app->add_flag("--json", json_, "the daemon's own answer");
@@ -471,6 +474,20 @@ class CommandLine {
     app->add_option("--layers", job_.layers, "of it, these only: first:last counted from 0")
         ->type_name("A:B");
     app->add_option("--remove", queue_remove_, "take the job of this number away")->type_name("NUMBER");
+  }
+
+  void declare_set() {
+    CLI::App* app = command("set", "change the speed, flow or heat of the daemon's print",
+                            "unicursal set --flow 95 --nozzle 205");
+    declare_state(*app);
+    app->add_flag("--json", json_, "the daemon's own answer");
+    const auto option = [&](const char* name, std::optional<double>& value, const char* what) {
+      app->add_option(name, value, what)->check(finite_number(0, 1000))->type_name("NUMBER");
+    };
+    option("--speed", set_.speed, "per cent of what the print asks for, 10 to 300");
+    option("--flow", set_.flow, "per cent of what the print asks for, 50 to 200");
+    option("--nozzle", set_.nozzle, "°C; the print's own changes still come");
+    option("--bed", set_.bed, "°C");
   }
 
   /// Whoever names a kept print, or where prints are kept, does not mean the daemon's.
@@ -637,6 +654,7 @@ class CommandLine {
   std::vector<std::string> job_folders_;
   std::optional<std::uint64_t> job_number_, queue_remove_;
   ServeOptions serve_;
+  SetCommand set_;
   std::string pause_heat_ = "keep";
   std::string spool_, print_;
   std::string output_, port_, link_, rasters_, control_, transcript_;

@@ -85,6 +85,13 @@ struct RemoteCommand {
   std::optional<std::uint64_t> id;  ///< of the job to start
 };
 
+/// What is changed of the daemon's print.
+struct SetCommand {
+  RemoteCommand remote;
+  std::optional<double> speed, flow;  ///< % of what the print asks for
+  std::optional<double> nozzle, bed;  ///< °C
+};
+
 struct QueueCommand {
   RemoteCommand remote;
   std::optional<std::string> add;               ///< by its name in the daemon's folders
@@ -138,6 +145,7 @@ Exit resume(const ResumeCommand& command);
 Exit serve(const ServeOptions& options);
 Exit remote(const RemoteCommand& command);
 Exit queue(const QueueCommand& command);
+Exit set(const SetCommand& command);
 /// Whether a daemon is there and at a print: `resume` is for that one then.
 bool daemon_prints(const RemoteCommand& command);
 Exit curve(const CurveCommand& command);

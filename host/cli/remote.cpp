@@ -62,6 +62,10 @@ void show_print(const json& print) {
                       print.value("percent", 0.0));
   if (print.contains("left_seconds"))
     line += ", " + duration_words(print["left_seconds"].get<double>()) + " left";
+  for (const char* what : {"speed", "flow"}) {
+    const double percent = print.value(std::string(what) + "_percent", 100.0);
+    if (percent != 100) line += fmt::format(", {} {:.0f} %", what, percent);
+  }
   show(stdout, "{}{}{}\n", line, heater_words(print, "nozzle"), heater_words(print, "bed"));
   if (print.contains("mixture")) show(stdout, "mixture: {}\n", print["mixture"].get<std::string>());
   for (const json& warning : print.value("warnings", json::array()))
@@ -151,6 +155,24 @@ Exit remote(const RemoteCommand& command) {
     show_json(answer);
   else
     show_status(answer);
+  return Exit::success;
+}
+
+Exit set(const SetCommand& command) {
+  if (!command.speed && !command.flow && !command.nozzle && !command.bed)
+    throw DaemonError("", "set", "changes nothing", "say --speed, --flow, --nozzle or --bed with a number");
+  const Client client = connected(command.remote);
+  json heat = json::object();
+  if (command.nozzle) heat["nozzle_c"] = *command.nozzle;
+  if (command.bed) heat["bed_c"] = *command.bed;
+  json status;
+  if (!heat.empty()) status = obeyed(client.ask("POST", "/api/temperature", heat));
+  if (command.flow) status = obeyed(client.ask("POST", "/api/flow", {{"percent", *command.flow}}));
+  if (command.speed) status = obeyed(client.ask("POST", "/api/speed", {{"percent", *command.speed}}));
+  if (command.remote.json)
+    show_json(status);
+  else
+    show_status(status);
   return Exit::success;
 }
 

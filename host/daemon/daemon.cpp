@@ -135,8 +135,19 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
   };
   co_await elsewhere(disk_, check);
   const std::uint64_t id = queue_.add(std::move(name), layers);
-  co_await save();
-  broadcast({{"event", "queue"}, {"job", to_json(*queue_.find(id))}});
+  std::string problem;
+  try {
+    co_await save();
+  } catch (const core::DataError& error) {
+    problem = error.what();
+  }
+  const QueuedJob* job = queue_.find(id);
+  // A job that the next daemon would not know of was not taken; unless somebody has begun it meanwhile.
+  if (!problem.empty() && job && job->state == QueuedJob::State::queued) {
+    queue_.remove(id);
+    throw HttpError(507, problem);
+  }
+  if (job) broadcast({{"event", "queue"}, {"job", to_json(*job)}});
   co_return id;
 }
 
@@ -148,7 +159,14 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
   broadcast({{"event", "queue"}, {"removed", id}});
 }
 
+void Daemon::check_not_printed(const std::string& upload) const {
+  const QueuedJob* job = current_ ? queue_.find(current_->id) : nullptr;
+  if (job && JobFiles::is_from(job->name, upload))
+    throw HttpError(409, "a job from there is being printed; choose another name");
+}
+
 asio::awaitable<void> Daemon::keep_upload(std::string upload, std::string file, std::string bytes) {
+  check_not_printed(upload);
   const auto keep = [this, upload, file, bytes = std::move(bytes)] {
     files_.keep(upload, file, bytes);
     return true;
@@ -157,6 +175,7 @@ asio::awaitable<void> Daemon::keep_upload(std::string upload, std::string file, 
 }
 
 asio::awaitable<void> Daemon::remove_upload(std::string upload) {
+  check_not_printed(upload);
   const auto remove = [this, upload] {
     files_.remove(upload);
     return true;
@@ -252,8 +271,13 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   ending = state_after(result.ending);
   std::string reason = result.ending == Ending::stopped ? session.status().reason : result.reason;
   if (result.ending != Ending::completed && !result.unfit)
-    reason += "; to go on with it: unicursal resume " + current_->print->kept_as();
+    reason += "; to go on with it: " + way_on() + " " + current_->print->kept_as();
   co_return reason;
+}
+
+/// For a person at a terminal, who may have another folder of prints.
+std::string Daemon::way_on() const {
+  return options_.spool ? "unicursal resume --spool " + options_.spool->string() : "unicursal resume";
 }
 
 void Daemon::cancel(const std::string& reason) {

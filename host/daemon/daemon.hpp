@@ -46,10 +46,11 @@ class Daemon {
 
   /// The session of a print that is not over. Throws HttpError 409.
   Session& session();
-  /// Checks the job's text first. Throws HttpError 400, 404, 409 or 422; DaemonError.
+  /// Checks the job's text first. Throws HttpError 400, 404, 409, 422 or 507.
   asio::awaitable<std::uint64_t> add(std::string name, std::optional<LayerRange> layers);
   /// Throws HttpError 404 or 409.
   asio::awaitable<void> remove(std::uint64_t id);
+  /// Not while a job from there is printed: it is checked only once. Throws HttpError 400, 409 or 507.
   asio::awaitable<void> keep_upload(std::string upload, std::string file, std::string bytes);
   asio::awaitable<void> remove_upload(std::string upload);
   asio::awaitable<std::vector<std::string>> job_names();
@@ -77,6 +78,8 @@ class Daemon {
   asio::awaitable<void> print(std::uint64_t id);
   asio::awaitable<std::string> print_prepared(std::uint64_t id, QueuedJob::State& ending);
   PrintPlan plan_of(const QueuedJob& job) const;
+  void check_not_printed(const std::string& upload) const;
+  std::string way_on() const;
   asio::awaitable<void> save();
   asio::awaitable<void> enter(std::uint64_t id, QueuedJob::State state, std::string reason);
   void told(const SessionEvent& event);

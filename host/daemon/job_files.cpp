@@ -106,6 +106,10 @@ bool JobFiles::is_upload(const std::string& name) {
   return name.starts_with(upload_prefix);
 }
 
+bool JobFiles::is_from(const std::string& name, const std::string& upload) {
+  return name.starts_with(std::string(upload_prefix) + upload + "/");
+}
+
 fs::path JobFiles::find_upload(const std::string& name) const {
   const std::string inside = name.substr(upload_prefix.size());
   const std::size_t slash = inside.find('/');
@@ -157,7 +161,11 @@ void JobFiles::keep(const std::string& upload, const std::string& file, const st
   if (kept > most_uploaded || files > most_uploaded_files)
     throw HttpError(507, "there is no room for more uploads; remove some first");
   fs::create_directories(uploads_ / upload, error);
-  replace_file(uploads_ / upload / file, bytes);
+  try {
+    replace_file(uploads_ / upload / file, bytes);
+  } catch (const DaemonError& full) {
+    throw HttpError(507, full.what());
+  }
 }
 
 void JobFiles::remove(const std::string& upload) const {

@@ -32,11 +32,13 @@ class JobFiles {
   /// The file of a job, known to be one that may be opened. Throws HttpError 400, 404 or 422.
   std::filesystem::path find(const std::string& name) const;
   static bool is_upload(const std::string& name);
+  /// Whether a job of this name is one of the upload's.
+  static bool is_from(const std::string& name, const std::string& upload);
   /// Every job that find() would find.
   std::vector<std::string> list() const;
 
   /// Keeps one file of an upload, in place of an earlier one of the same name. Blocks. Throws HttpError 400
-  /// or 507, DaemonError.
+  /// or 507.
   void keep(const std::string& upload, const std::string& file, const std::string& bytes) const;
   /// Throws HttpError 400 or 404.
   void remove(const std::string& upload) const;

@@ -96,7 +96,12 @@ void replace_file(const fs::path& file, const std::string& text) {
   {
     const Descriptor out(open(fresh.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600));
     if (out.fd < 0) throw trouble(fresh, "cannot be made");
-    write_all(out.fd, text, fresh);
+    try {
+      write_all(out.fd, text, fresh);
+    } catch (const DaemonError&) {
+      fs::remove(fresh, ignored);  // half a file is no use, and takes room that is scarce
+      throw;
+    }
   }
   if (rename(fresh.c_str(), file.c_str()) != 0) throw trouble(file, "cannot be replaced");
   const Descriptor folder(open(file.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

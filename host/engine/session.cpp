@@ -25,6 +25,8 @@ constexpr std::size_t batch = 16;
 
 constexpr auto late_answer = std::chrono::seconds(1);  ///< of a printer that says ok first
 
+constexpr auto fell_behind = "planning has fallen behind; it goes on by itself when the next layer is there";
+
 bool moves_away(const std::string& line) {
   const bool move = line.starts_with("G0 ") || line.starts_with("G1 ");
   return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
@@ -298,25 +300,25 @@ asio::awaitable<std::optional<Piece>> Session::State::next_piece() {
   tell_position();
   co_await until_ready();
   std::optional<Piece> piece = source.next();
-  const TimePoint ready{piece ? duration(piece->ready_at) : Duration::zero()};
-  const std::function<bool()> interrupted = [this] { return to_be_interrupted(); };
-  if (ready > clock->now()) co_await wake.wait(ready, interrupted);
+  if (piece) co_await until(TimePoint(duration(piece->ready_at)));
   waited += seconds(clock->now() - asked);
   co_return piece;
 }
 
-/// The nozzle stands still meanwhile: a pause has to take it away from the part.
 asio::awaitable<void> Session::State::until_ready() {
-  const std::function<bool()> event = [this] {
-    return source.ready() || to_be_interrupted() || pause_wanted || firmware_holds || !wanted.empty();
-  };
-  while (!source.ready() && !to_be_interrupted()) {
-    {
-      const Clock::Hold hold(*clock);
-      co_await wake.wait(TimePoint::max(), event);
-    }
-    co_await between();
-  }
+  Need planned;
+  planned.why = fell_behind;
+  planned.come = [this] { return source.ready(); };
+  planned.at_work = true;
+  co_await wait_for(planned);
+}
+
+asio::awaitable<void> Session::State::until(TimePoint ready) {
+  Need planned;
+  planned.why = fell_behind;
+  planned.come = [this, ready] { return clock->now() >= ready; };
+  planned.at = ready;
+  co_await wait_for(planned);
 }
 
 /// What the printer still has in its queue is left out: it is little, and on the safe side.
@@ -339,7 +341,11 @@ asio::awaitable<void> Session::State::finish() {
   }
   SpooledChunk record;
   record.kind = SpooledChunk::Kind::finish;
-  if (!co_await keep(std::move(record), chunk)) co_return co_await send_last(std::move(chunk));
+  if (const std::string problem = co_await try_to_keep(record, chunk); !problem.empty()) {
+    // The part is done: it is not to lie below a hot nozzle until there is room.
+    tell(SessionEvent::Kind::notice, "Error: the end of the print is sent without being kept: " + problem);
+    co_return co_await send_last(std::move(chunk));
+  }
   parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
   co_await send(chunk);
   co_await link.drain();

@@ -13,9 +13,10 @@
 // A pause ends a segment: what the printer has taken is finished, the filament is drawn back in equal shares,
 // the nozzle rises and goes aside (firmware_gcode/toolpath/pause.hpp). Going on, the next line follows: none
 // is lost, none is run twice. A cancelled print is parked and cooled. When the firmware asks for one of these
-// by
-// `//action:`, it is done as if the user had asked. M85 is kept fresh during a pause, so that the firmware
-// cools the printer when this program dies then.
+// by `//action:`, it is done as if the user had asked. M85 is kept fresh during a pause, so that the firmware
+// cools the printer when this program dies then. A nozzle that has had nothing to do for some seconds,
+// because the disk is full or planning has fallen behind, is taken aside like that as well, until it can go
+// on.
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -84,7 +85,7 @@ struct Continuation {
 
 /// What becomes of the nozzle's heat during a pause. The bed stays warm, or the part would come off.
 enum class PauseHeat {
-  keep,
+  keep,  ///< for a quarter of an hour
   lower  ///< so far that nothing drips or chars; it is heated again before the print goes on
 };
 

@@ -17,6 +17,11 @@ using namespace std::chrono_literals;
 /// Between signs of life to a printer that is held: more often than any firmware lets its motors go (Marlin:
 /// two minutes), which would lose the place, and soon enough to find that the cable is out.
 constexpr auto sign_of_life = 10s;
+/// That the nozzle may stand on the part with nothing to do: it melts into it, and what drips stays there.
+constexpr auto idle_patience = 5s;
+/// That a nozzle is kept hot though nobody has come: what is in it chars, and it is a danger.
+constexpr auto hot_patience = 15min;
+constexpr auto look_interval = 2s;  ///< between looks whether what is lacking has come
 constexpr auto stop_patience = 2s;  ///< for the printer to confirm an emergency stop
 
 constexpr double least_speed = 10, most_speed = 300;       ///< %
@@ -62,32 +67,101 @@ gcode::Pause Session::State::pause_here() const {
 /// A firmware that has paused by itself parks and returns by itself: it only gets nothing more to do. Before
 /// the first move there is nothing to go away from.
 asio::awaitable<void> Session::State::hold() {
-  const std::string why = pause_wanted.value_or("the printer has paused itself");
-  const bool aside = !firmware_holds && placed();
-  const gcode::Printer& printer = source.printer();
+  const bool moving = !firmware_holds && placed();
+  co_await go_aside(pause_wanted.value_or("the printer has paused itself"), moving);
+  co_await wait_held();
+  pause_wanted.reset();
+  resume_wanted = firmware_holds = false;
+  co_await come_back(moving);
+}
+
+/// With the printer in any state but that of a wait for heat.
+asio::awaitable<void> Session::State::go_aside(std::string why, bool moving) {
   ++pauses;
   enter(SessionState::pausing, why);
-  if (aside) {
-    gcode::Chunk chunk = gcode::go_aside(printer, pause_here());
+  if (moving) {
+    gcode::Chunk chunk = gcode::go_aside(source.printer(), pause_here());
     note_progress();
     if (spool) spool->journal().park(chunk.lines);
     co_await interpose(std::move(chunk.lines));
     co_await link.drain();
   }
+  hot_until = clock->now() + hot_patience;
   enter(SessionState::paused, why);
-  co_await wait_held();
-  pause_wanted.reset();
-  resume_wanted = firmware_holds = false;
+}
+
+asio::awaitable<void> Session::State::come_back(bool moving) {
   if (stopped) co_return;
   enter(SessionState::resuming);
   tell_position();
   heating = true;  // a stop ends it
-  if (aside) co_await interpose(gcode::come_back(printer, pause_here()).lines);
-  if (aside && !stopped) co_await link.drain();
+  if (moving) co_await interpose(gcode::come_back(source.printer(), pause_here()).lines);
+  if (moving && !stopped) co_await link.drain();
   heating = false;
   if (stopped) co_return;
-  if (aside && spool) spool->journal().park({});
+  if (moving && spool) spool->journal().park({});
   enter(SessionState::printing);
+}
+
+asio::awaitable<void> Session::State::wait_for(const Need& need) {
+  const bool begun = state != SessionState::connecting;  // before that there is nothing to be steered
+  const std::function<bool()> event = [&] {
+    const bool steered = pause_wanted || firmware_holds || !wanted.empty();
+    return need.come() || to_be_interrupted() || (begun && steered);
+  };
+  while (!need.come() && !to_be_interrupted()) {
+    const TimePoint patient_until = clock->now() + idle_patience;
+    while (!event() && clock->now() < patient_until) {
+      if (need.look) co_await need.look();
+      std::optional<Clock::Hold> hold;
+      if (need.at_work) hold.emplace(*clock);
+      co_await wake.wait(std::min(std::min(patient_until, need.at), clock->now() + look_interval), event);
+    }
+    if (event())
+      co_await between();
+    else
+      co_await wait_aside(need);
+  }
+}
+
+/// Lets the firmware know that somebody is there. Where nobody is for long, the nozzle cools until it goes
+/// on.
+asio::awaitable<void> Session::State::stay_aside(bool moved) {
+  tell_position();
+  co_await interpose(signs_of_life());
+  if (!moved || settings.pause_heat == PauseHeat::lower || clock->now() < hot_until) co_return;
+  hot_until = TimePoint::max();
+  tell(SessionEvent::Kind::notice,
+       "nobody has come for long: the nozzle cools, and is heated before it goes on");
+  std::vector<std::string> cool(1, gcode::cool_aside(modal));
+  co_await interpose(std::move(cool));
+}
+
+/// A pause that was asked for meanwhile goes on when this is over. While nothing is laid yet, the nozzle may
+/// stay where it is.
+asio::awaitable<void> Session::State::wait_aside(const Need& need) {
+  const bool moving = laying() && placed();
+  const std::function<bool()> over = [&] {
+    return to_be_interrupted() || (moving ? need.come() && !pause_wanted : need.come() || pause_wanted);
+  };
+  const std::function<bool()> event = [&] { return over() || !wanted.empty(); };
+  lacking = moving;
+  if (moving) co_await go_aside(need.why, true);
+  for (TimePoint sign = clock->now() + sign_of_life; !over();) {
+    TimePoint next = sign;
+    if (!need.come()) {
+      if (need.look) co_await need.look();
+      next = std::min(need.at, need.look ? clock->now() + look_interval : sign);
+    }
+    co_await wake.wait(next, event);
+    if (state == SessionState::connecting) continue;
+    co_await make_changes();
+    if (clock->now() < sign) continue;
+    sign = clock->now() + sign_of_life;
+    co_await stay_aside(moving);
+  }
+  lacking = false;
+  if (moving) co_await come_back(true);
 }
 
 /// Until it is to go on. What is asked for meanwhile is done at once.
@@ -100,8 +174,7 @@ asio::awaitable<void> Session::State::wait_held() {
   while (!resume_wanted && !stopped) {
     if (!co_await wake.wait(std::min(last, clock->now() + sign_of_life), ready)) {
       if (clock->now() >= last) co_return;
-      tell_position();
-      if (!firmware_holds) co_await interpose(signs_of_life());
+      if (!firmware_holds) co_await stay_aside(placed());
     }
     co_await make_changes();
   }
@@ -150,7 +223,7 @@ void Session::State::stop(const std::string& why) {
 Refusal Session::pause(const std::string& reason) {
   State& s = *state_;
   if (has_ended(s.state) || s.ending() || s.stopped) return over;
-  if (s.pause_wanted || s.state == SessionState::paused) return "it is paused already";
+  if (s.pause_wanted || s.firmware_holds) return "it is paused already";
   s.pause_wanted = reason;
   s.tell(SessionEvent::Kind::notice,
          s.heating ? "it is held as soon as it is hot" : "it is held in a moment");
@@ -159,16 +232,20 @@ Refusal Session::pause(const std::string& reason) {
 
 Refusal Session::resume() {
   State& s = *state_;
-  if (!s.pause_wanted && s.state != SessionState::paused && s.state != SessionState::pausing)
-    return "it is not paused";
   if (s.stopped) return over;
-  const bool begun = s.state == SessionState::pausing || s.state == SessionState::paused;
-  if (begun)
-    s.resume_wanted = true;
-  else
-    s.pause_wanted.reset();
-  s.wake.notify();
+  if (s.lacking && !s.pause_wanted) return "it waits for something: " + s.reason;
+  if (!s.pause_wanted && !s.held()) return "it is not paused";
+  s.go_on();
   return std::nullopt;
+}
+
+/// Whoever paused it does not want that any more.
+void Session::State::go_on() {
+  if (firmware_holds || (held() && !lacking))
+    resume_wanted = true;
+  else
+    pause_wanted.reset();
+  wake.notify();
 }
 
 Refusal Session::cancel(const std::string& reason) {
@@ -221,18 +298,28 @@ Refusal Session::set_bed(double temperature) {
   return state_->change(fmt::format("M140 S{:.0f}", temperature));
 }
 
+/// A firmware drives on without laying anything, line by line.
+void Session::State::hold_because_cold() {
+  if (pause_wanted || firmware_holds || lacking || held() || ending() || stopped) return;
+  pause_wanted =
+      "the nozzle is too cold, the printer refuses to push filament: look at the heater before it goes on, "
+      "and at the part, since the last lines were not laid";
+  tell(SessionEvent::Kind::notice, "Error: " + *pause_wanted);
+  wake.notify();
+}
+
 /// What a firmware asks for by `//action:`.
 void Session::State::obey(const std::string& action) {
   const auto is = [&](const char* word) {
     return action == word || action.starts_with(std::string(word) + " ");
   };
-  const bool held = pause_wanted || firmware_holds || state == SessionState::paused;
-  if (is("pause") && !held && !ending() && !stopped) {
+  const bool paused = pause_wanted || firmware_holds;
+  if (is("pause") && !paused && !ending() && !stopped) {
     pause_wanted = "the printer has asked for a pause (" + action + ")";
-  } else if (is("paused") && !held && !ending() && !stopped) {
+  } else if (is("paused") && !paused && !ending() && !stopped) {
     firmware_holds = true;
-  } else if ((is("resume") || is("resumed")) && held) {
-    resume_wanted = true;
+  } else if ((is("resume") || is("resumed")) && paused) {
+    go_on();
   } else if (is("cancel") && !stopped && !ending()) {
     stop("the printer has asked for the end of the print");
   } else if (is("out_of_filament")) {

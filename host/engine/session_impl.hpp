@@ -18,6 +18,15 @@
 
 namespace unicursal::host {
 
+/// What the print cannot go on without, and may have to wait for.
+struct Need {
+  std::string why;                              ///< of the waiting, a sentence
+  std::function<bool()> come;                   ///< whether it is there
+  std::function<asio::awaitable<void>()> look;  ///< now and then, where nobody tells that it has come
+  TimePoint at = TimePoint::max();              ///< when it will be there, in virtual time
+  bool at_work = false;                         ///< this computer is busy with it: virtual time stands still
+};
+
 struct Session::State {
   State(asio::any_io_executor on, int descriptor, Source& of, StreamSettings with);
   ~State();
@@ -37,6 +46,7 @@ struct Session::State {
   void time_layers(const gcode::Chunk& chunk);
   asio::awaitable<std::optional<Piece>> next_piece();
   asio::awaitable<void> until_ready();
+  asio::awaitable<void> until(TimePoint ready);
   void tell_position();
   asio::awaitable<void> finish();
   asio::awaitable<void> park();
@@ -50,14 +60,25 @@ struct Session::State {
   asio::awaitable<void> between();
   asio::awaitable<void> hold();
   asio::awaitable<void> wait_held();
+  asio::awaitable<void> go_aside(std::string why, bool moving);
+  asio::awaitable<void> come_back(bool moving);
+  asio::awaitable<void> stay_aside(bool moved);
+  /// Returns when it has come or the print is to end. The nozzle is not left on the part for long.
+  asio::awaitable<void> wait_for(const Need& need);
+  asio::awaitable<void> wait_aside(const Need& need);
+  void go_on();
   asio::awaitable<void> interpose(std::vector<std::string> lines);
   asio::awaitable<void> confirm_stop();
   gcode::Pause pause_here() const;
   bool placed() const;
+  /// Whether the nozzle stands where plastic was laid.
+  bool laying() const { return layers_before > 0 || seconds_sent > 0; }
+  bool held() const { return state == SessionState::pausing || state == SessionState::paused; }
   bool ending() const { return state == SessionState::finishing || state == SessionState::cancelling; }
   bool to_be_interrupted() const { return stopped || aborted; }
   void stop(const std::string& reason);
   void obey(const std::string& action);
+  void hold_because_cold();
   asio::awaitable<void> make_changes();
   Refusal change(const std::string& line);
 
@@ -66,6 +87,7 @@ struct Session::State {
   void note_progress();
   void end_journal(const StreamResult& ended);
   asio::awaitable<bool> keep(SpooledChunk record, gcode::Chunk& chunk);
+  asio::awaitable<std::string> try_to_keep(SpooledChunk& record, gcode::Chunk& chunk);
   asio::awaitable<std::string> write(const SpooledChunk& record);
 
   // What is told (session_status.cpp)
@@ -97,6 +119,8 @@ struct Session::State {
   // Asked for
   std::optional<std::string> pause_wanted;  ///< why
   bool resume_wanted = false;
+  TimePoint hot_until = TimePoint::max();  ///< while it stands aside
+  bool lacking = false;         ///< it stands aside because it lacks something, not because it was asked to
   bool firmware_holds = false;  ///< it has paused on its own: it parks and returns by itself
   bool stopped = false;
   std::string stop_reason;

@@ -7,11 +7,6 @@
 #include "host/spool/spool_error.hpp"
 
 namespace unicursal::host {
-namespace {
-
-constexpr auto full_disk_pause = std::chrono::seconds(2);  ///< between attempts to write to it
-
-}  // namespace
 
 /// Lines of the session's own that are on their way get their anchor from interpose().
 void Session::State::keep_journal() {
@@ -38,20 +33,27 @@ void Session::State::end_journal(const StreamResult& ended) {
   spool->journal().end({outcomes.at(static_cast<std::size_t>(ended.ending)), ended.reason});
 }
 
-/// Strips the chunk of its comments, and spools it. When the disk is full, the print waits until there is
-/// room; false when it was stopped meanwhile, so that nothing of the chunk may be sent.
-asio::awaitable<bool> Session::State::keep(SpooledChunk record, gcode::Chunk& chunk) {
+/// Strips the chunk of its comments, and spools it. Returns why it could not be done, if so.
+asio::awaitable<std::string> Session::State::try_to_keep(SpooledChunk& record, gcode::Chunk& chunk) {
   if (spool) record.begun = layers_begun_in(chunk.lines);
   std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
-  if (!spool) co_return true;
+  if (!spool) co_return std::string();
   record.lines = chunk.lines;
-  const std::function<bool()> interrupted = [this] { return to_be_interrupted(); };
-  for (bool told = false;; told = true) {
-    const std::string problem = co_await write(record);
-    if (problem.empty()) co_return true;
-    if (!told) tell(SessionEvent::Kind::notice, "Error: the print waits: " + problem);
-    if (co_await wake.wait(clock->now() + full_disk_pause, interrupted)) co_return false;
-  }
+  co_return co_await write(record);
+}
+
+/// The same; when the disk is full, the print waits until there is room. False when it was stopped meanwhile,
+/// so that nothing of the chunk may be sent.
+asio::awaitable<bool> Session::State::keep(SpooledChunk record, gcode::Chunk& chunk) {
+  std::string problem = co_await try_to_keep(record, chunk);
+  if (problem.empty()) co_return true;
+  tell(SessionEvent::Kind::notice, "Error: the print waits: " + problem);
+  Need room;
+  room.why = problem;
+  room.come = [&problem] { return problem.empty(); };
+  room.look = [&]() -> asio::awaitable<void> { problem = co_await write(record); };
+  co_await wait_for(room);
+  co_return problem.empty();
 }
 
 /// Off the loop. Returns why it could not be done, if so.

@@ -102,6 +102,9 @@ void Session::State::hear(const std::string& line) {
     if (echo->text.find("M85") != std::string::npos)
       warn("this firmware does not know M85: if this computer fails in mid-print, nothing cools the printer");
   }
+  if (const auto* echo = std::get_if<reply::Echo>(&reply)) {
+    if (echo->text.find("cold extrusion") != std::string::npos) hold_because_cold();
+  }
   if (const auto* action = std::get_if<reply::Action>(&reply)) obey(action->text);
   if (halted) wake.notify();
 }

@@ -16,6 +16,7 @@ constexpr int planner_niceness = 10;
 void lower_priority() {
   const sched_param parameters{};
   pthread_setschedparam(pthread_self(), SCHED_BATCH, &parameters);
+  pthread_setname_np(pthread_self(), "planner");  // for those who look at what the processor does
   const auto thread = static_cast<id_t>(gettid());
   setpriority(PRIO_PROCESS, thread, planner_niceness);
 }

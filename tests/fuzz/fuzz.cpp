@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -195,6 +196,7 @@ int main(int count, char** words) {
         "SECONDS [FIRST]\n");
     return 2;
   }
+  std::signal(SIGPIPE, SIG_IGN);  // as the program itself does
   return unicursal::run(words[2], words[1], std::atof(words[3]),
                         count > 4 ? std::strtoull(words[4], nullptr, 10) : 0);
 }

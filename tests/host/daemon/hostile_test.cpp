@@ -99,6 +99,12 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
     breaks.read_until("\x88\x02\x03\xea");
     breaks.finish_sending();
     breaks.read_all();
+    RawConnection shouts(bench.port());  // 8 EiB are to come
+    shouts.send(upgrade + std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10));
+    const std::string too_big = "\x88\x02\x03\xf1";
+    CHECK(shouts.read_until(too_big).ends_with(too_big));
+    shouts.finish_sending();
+    shouts.read_all();
   }
   CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
   CHECK(bench.ask("GET", "/api/jobs")["jobs"].empty());

@@ -1,4 +1,5 @@
 // The daemon with a simulated printer, its clients and its ends: real processes, real sockets.
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 
@@ -80,16 +81,20 @@ TEST_CASE("a print is held and steered by the daemon's commands") {
   CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 5}")) == 409);
   CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 150}")) == 202);
   CHECK(bench.status(bench.request("POST", "/api/temperature", "{\"nozzle_c\": 205, \"bed_c\": 55}")) == 202);
+  const Outcome changed = bench.command({"set", "--flow", "95", "--nozzle", "207", "--bed", "57"});
+  CHECK(changed.out.find("flow 95 %") != std::string::npos);
+  CHECK(bench.command({"set", "--flow", "5"}).code == 2);
+  CHECK(bench.command({"set"}).code == 2);
   CHECK(bench.send(bench.request("GET", "/metrics")).find("\nunicursal_paused 1\n") != std::string::npos);
   REQUIRE(bench.command({"resume"}).code == 0);  // the daemon's print, not a kept one
   bench.await_print("printing");
   REQUIRE(bench.command({"cancel"}).code == 0);
   bench.await_job(id, "stopped");
   const std::string lines = bench.transcript();
-  for (const char* line : {"M220 S150", "M104 S205", "M140 S55"})
+  for (const char* line : {"M220 S150", "M104 S205", "M140 S55", "M221 S95", "M104 S207", "M140 S57"})
     CHECK(lines.find(line) != std::string::npos);
-  CHECK(last(lines, "M104 S0") > last(lines, "M104 S205"));  // cold in the end
-  CHECK(last(lines, "M140 S0") > last(lines, "M140 S55"));
+  CHECK(last(lines, "M104 S0") > last(lines, "M104 S207"));  // cold in the end
+  CHECK(last(lines, "M140 S0") > last(lines, "M140 S57"));
 }
 
 TEST_CASE("clients come and go, and the print does not care") {
@@ -131,14 +136,84 @@ TEST_CASE("a daemon that is killed finds its queue again") {
   CHECK(add(bench) == second + 1);
 }
 
+TEST_CASE("what a killed daemon has printed can be gone on with") {
+  DaemonBench bench;
+  bench.start_printer("100");
+  bench.serve();
+  add(bench, "0:4");
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_laying();
+  kill(bench.daemon().id(), SIGKILL);
+  bench.daemon().wait();
+  const Outcome resumed = test::run({"resume", "--spool", bench.path("spool"), "--yes"});
+  INFO(resumed.err);
+  CHECK(resumed.code == 0);
+  const std::string lines = bench.transcript();
+  CHECK(lines.find("M85 S1800") < lines.find("M104 S2"));  // with nobody to go on, the firmware cools it
+  CHECK(count(lines, "G28\n") == 1);                       // it had not lost its place
+  CHECK(last(lines, "M104 S0") > last(lines, "G1 "));
+}
+
+TEST_CASE("two daemons, and a print beside them, do not share a port") {
+  DaemonBench bench, other;
+  bench.start_printer("100");
+  bench.serve();
+  add(bench, "0:99");
+  other.serve_at(bench.path("port"));
+  const int late = add(other);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_print("printing");
+  CHECK(other.command({"start"}).code == 1);
+  CHECK(job(other, late)["state"] == "failed");
+  CHECK(job(other, late)["reason"].get<std::string>().find("another program is using it") !=
+        std::string::npos);
+  const Outcome print = test::run({"print", bench.path("jobs/plate.toml"), "--port", bench.path("port"),
+                                   "--spool", bench.path("spool2")});
+  CHECK(print.code != 0);
+  CHECK(print.err.find("another program is using it") != std::string::npos);
+  CHECK(bench.command({"serve", "--listen", "127.0.0.1:0"}).err.find("another daemon") != std::string::npos);
+  CHECK(bench.print_state() == "printing");
+}
+
+TEST_CASE("a job that a full disk cannot keep is not taken, and nothing else is lost") {
+  DaemonBench bench;
+  bench.serve();
+  const int first = add(bench);
+  const std::string kept = test::read_text(bench.path("state/queue.json"));
+  const rlimit full{kept.size(), RLIM_INFINITY}, room{RLIM_INFINITY, RLIM_INFINITY};
+  REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &full, nullptr) == 0);
+  const std::string one = "{\"job\": \"plate.toml\"}";
+  CHECK(bench.status(bench.request("POST", "/api/jobs", one)) == 507);
+  CHECK(bench.status(bench.request("PUT", "/api/files/a/b.svg", std::string(5000, ' '))) == 507);
+  CHECK(bench.ask("GET", "/api/jobs")["jobs"].size() == 1);
+  CHECK(test::read_text(bench.path("state/queue.json")) == kept);
+  CHECK_FALSE(std::filesystem::exists(bench.path("state/queue.json.new")));
+  CHECK_FALSE(std::filesystem::exists(bench.path("state/files/a/b.svg.new")));
+  REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &room, nullptr) == 0);
+  CHECK(add(bench) > first);
+}
+
+TEST_CASE("an upload does not change under a print") {
+  DaemonBench bench;
+  bench.start_printer("100");
+  bench.serve();
+  bench.folder().write("plate.svg", test::sample_drawing);
+  bench.folder().write("bench.toml", test::sample_profile);
+  bench.folder().write("own.toml", test::replaced(test::sample_job, "height = 0.4", "height = 20.0"));
+  REQUIRE(bench.command({"queue", "--upload", bench.path("own.toml")}).code == 0);
+  REQUIRE(bench.command({"start"}).code == 0);
+  CHECK(bench.status(bench.request("PUT", "/api/files/own/own.toml", test::sample_job)) == 409);
+  CHECK(bench.status(bench.request("DELETE", "/api/files/own")) == 409);
+  CHECK(bench.status(bench.request("PUT", "/api/files/ow/own.toml", test::sample_job)) == 201);
+}
+
 TEST_CASE("SIGTERM parks and cools the print before the daemon ends") {
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
   const int id = add(bench, "0:99");
   REQUIRE(bench.command({"start"}).code == 0);
-  const auto extrudes = [&] { return count(test::read_text(bench.path("lines.txt")), "G1 ") > 0; };
-  test::await(extrudes, bench.daemon());
+  bench.await_laying();
   kill(bench.daemon().id(), SIGTERM);
   CHECK(bench.daemon().wait().code == 0);
   const std::string lines = bench.transcript();

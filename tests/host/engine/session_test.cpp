@@ -107,6 +107,90 @@ TEST_CASE("A long pause keeps the firmware's watch on this program fresh") {
   CHECK(bench.seen()["printer_seconds"].get<double>() > 4000);
 }
 
+TEST_CASE("A pause that nobody ends cools the nozzle, and heats it again before the print goes on") {
+  SessionBench bench;
+  bench.settings.longest_pause = 1200;  // s
+  REQUIRE(bench.print(at(40, [](Session& s) { CHECK_FALSE(s.pause()); })).ending == Ending::completed);
+  const Lines lines = bench.executed();
+  const std::size_t still = index_of(lines, "M400"), cool = index_of(lines, "M104 S150");
+  REQUIRE(still < cool);
+  REQUIRE(cool < lines.size());
+  CHECK(std::count(lines.begin(), lines.end(), "M104 S150") == 1);
+  const auto from = lines.begin() + static_cast<std::ptrdiff_t>(still);
+  const auto to = lines.begin() + static_cast<std::ptrdiff_t>(cool);
+  CHECK(std::find(to, lines.end(), "M109 S210") != lines.end());
+  CHECK(std::count(from, to, "M85 S1800") >= 80);  // a quarter of an hour
+}
+
+TEST_CASE(
+    "A nozzle that has nothing to do for long does not stay on the part, nor does the firmware give up") {
+  SessionBench bench(
+      {}, "", {unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2")});
+  bench.charge = 2e4;  // every layer is many minutes late
+  std::vector<std::string> whys;
+  const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
+    if (event.kind != Kind::state || session.status().state != SessionState::paused) return;
+    whys.push_back(session.status().reason);
+    CHECK(session.resume().value().find("waits") != std::string::npos);
+  });
+  REQUIRE(result.ending == Ending::completed);
+  CHECK(result.waited > 60);
+  REQUIRE(!whys.empty());
+  CHECK(whys.front().find("planning") != std::string::npos);
+  CHECK(result.pauses == whys.size());
+  CHECK(bench.seen()["killed"] == false);
+  const Lines lines = bench.executed();
+  const std::size_t first = index_of(lines, "M400");
+  REQUIRE(first < lines.size());
+  CHECK(lines[first - 1].rfind("G0 X5 Y5", 0) == 0);
+  const auto laid = [](const std::string& line) { return line.rfind("G1 X", 0) == 0; };
+  CHECK(std::any_of(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first), laid));
+  CHECK(std::count(lines.begin(), lines.end(), "M400") == static_cast<std::ptrdiff_t>(whys.size()));
+}
+
+TEST_CASE("A pause asked for while the nozzle stands aside lasts until the user ends it") {
+  SessionBench bench(
+      {}, "", {unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2")});
+  bench.charge = 2e4;
+  bench.settings.link.temperatures = std::chrono::seconds(2);  // heat is told of meanwhile
+  int holds = 0, returns = 0;
+  double since = 0;
+  bool asked = false;
+  const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
+    const SessionState state = session.status().state;
+    if (event.kind == Kind::state && state == SessionState::resuming) ++returns;
+    if (event.kind == Kind::state && state == SessionState::paused && holds++ == 0) {
+      since = session.status().elapsed;
+      CHECK_FALSE(session.pause());
+      CHECK(session.pause().value() == "it is paused already");
+    }
+    // Long after the layer has come:
+    if (!asked && event.kind == Kind::heat && holds > 0 && session.status().elapsed > since + 6000) {
+      asked = true;
+      CHECK(state == SessionState::paused);
+      CHECK(returns == 0);
+      CHECK_FALSE(session.resume());
+    }
+  });
+  CHECK(asked);
+  CHECK(returns > 0);
+  CHECK(result.ending == Ending::completed);
+}
+
+TEST_CASE("A nozzle that is too cold to lay anything holds the print") {
+  SessionBench bench({"--fault", "say:echo: cold extrusion prevented@line=200"});
+  const Lines plain = undisturbed();
+  std::string why;
+  const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
+    if (event.kind != Kind::state || session.status().state != SessionState::paused) return;
+    why = session.status().reason;
+    CHECK_FALSE(session.resume());
+  });
+  CHECK(result.ending == Ending::completed);
+  CHECK(why.find("too cold") != std::string::npos);
+  CHECK(holds(inserted(plain, bench.executed()), "M109 S210"));
+}
+
 TEST_CASE("A pause may be asked for at any time before the end, while heating as well") {
   const Lines plain = undisturbed();
   const SessionState when = GENERATE(SessionState::connecting, SessionState::heating);

@@ -10,14 +10,15 @@
 #include <random>
 
 #include "host/spool/chunk_reader.hpp"
-#include "tests/host/support/child_process.hpp"
-#include "tests/host/support/sample_job.hpp"
-#include "tests/host/support/temp_folder.hpp"
+#include "tests/host/support/print_bench.hpp"
 
 using namespace unicursal;
-using nlohmann::json;
+using test::check_equal;
 using test::Child;
+using test::ends_like;
 using test::Outcome;
+using test::Seen;
+using Bench = test::PrintBench;
 namespace fs = std::filesystem;
 
 namespace {
@@ -28,88 +29,16 @@ double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
 
-/// What a simulated printer has run and laid.
-struct Seen {
-  std::vector<std::string> lines;  ///< without the hosts' questions
-  json report;
-};
-
-/// A job, a printer of its own, and the folder in which its prints are kept.
-class Bench {
- public:
-  /// `speed`: printer seconds per second; 0: as fast as lines come.
-  explicit Bench(int speed, const std::vector<std::string>& more = {}) {
-    folder_.write("bench.toml", test::sample_profile);
-    folder_.write("plate.svg", test::sample_drawing);
-    folder_.write("job.toml", test::sample_job);
-    std::vector<std::string> arguments{"simulate",    "--profile", path("bench.toml"),    "--link",
-                                       path("port"),  "--speed",   std::to_string(speed), "--transcript",
-                                       path("t.txt"), "--report",  path("seen.json")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    printer_ = std::make_unique<Child>(arguments);
-    wait_for([&] { return fs::exists(path("port")); }, *printer_);
-  }
-
-  std::string path(const std::string& name) const { return folder_ / name; }
-  const test::TempFolder& folder() const { return folder_; }
-  /// Planned in no hurry, so that two prints of the job are alike on a busy computer as well.
-  std::vector<std::string> print(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words{"print",   path("job.toml"), "--port",        path("port"),
-                                   "--spool", path("spool"),    "--full-quality"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-  std::vector<std::string> resume() const { return {"resume", "--spool", path("spool")}; }
-  Outcome resume_anyway() const {
-    auto arguments = resume();
-    arguments.push_back("--yes");
-    return test::run(arguments);
-  }
-  /// Whether a print has been begun, as far as its folder tells.
-  bool begun() const {
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(path("spool"), none)) {
-      if (fs::exists(entry.path() / "print.json")) return true;
-    }
-    return false;
-  }
-  fs::path print_folder() const { return fs::directory_iterator(path("spool"))->path(); }
-
-  /// Ends the printer.
-  Seen seen() {
-    kill(printer_->id(), SIGTERM);
-    CHECK(printer_->wait().code == 0);
-    Seen seen;
-    std::istringstream transcript(test::read_text(path("t.txt")));
-    for (std::string line; std::getline(transcript, line);) {
-      const bool question = line == "M115" || line == "M105" || line == "M114" ||
-                            line.rfind("M155", 0) == 0 || line.rfind("M110", 0) == 0 ||
-                            line == "M163 S99 P1";
-      if (!question) seen.lines.push_back(line);
-    }
-    seen.report = json::parse(test::read_text(path("seen.json")));
-    return seen;
-  }
-
-  template <class Condition>
-  static void wait_for(Condition condition, const Child& child) {
-    while (!condition() && child.running()) poll(nullptr, 0, 2);
-  }
-
- private:
-  test::TempFolder folder_;
-  std::unique_ptr<Child> printer_;
-};
-
 /// An undisturbed print, and how long it took from its spool's beginning, s.
 struct Undisturbed {
   Seen seen;
   double seconds = 0;
 };
 
-Undisturbed undisturbed(int speed, const std::vector<std::string>& more = {}) {
+Undisturbed undisturbed(int speed, const std::string& job = test::sample_job) {
   Bench bench(speed);
-  Child host(bench.print(more));
+  bench.folder().write("job.toml", job);
+  Child host(bench.print());
   Bench::wait_for([&] { return bench.begun(); }, host);
   const auto begun = Clock::now();
   const Outcome outcome = host.wait();
@@ -126,17 +55,6 @@ bool kill_after(Child& host, double seconds) {
   kill(host.id(), SIGKILL);
   host.wait();
   return running;
-}
-
-void check_equal(const Seen& seen, const Seen& expected) {
-  CHECK((seen.lines == expected.lines));
-  for (const char* figure : {"extruded_mm", "feeders", "deposited_length_mm"}) {
-    INFO(figure);
-    CHECK(seen.report[figure] == expected.report[figure]);
-  }
-  CHECK(seen.report["chamber"]["fed_mm3"] == expected.report["chamber"]["fed_mm3"]);
-  CHECK(seen.report["deposited_mm3"].get<double>() ==
-        Approx(expected.report["deposited_mm3"].get<double>()).epsilon(1e-9));
 }
 
 /// Kills a print `times` times at random moments, several times in a row when chance will have it so.
@@ -168,14 +86,6 @@ const std::vector<std::string> garbling{"--fault", "merge:0.002",    "--fault", 
                                         "--fault", "brokenok:0.005", "--fault", "noise:0.005",
                                         "--fault", "doubleok:0.005"};
 
-/// The lines that follow the last one of `seen` that begins the print anew, compared with the end of a print.
-bool ends_like(const std::vector<std::string>& seen, const std::vector<std::string>& whole,
-               std::size_t from) {
-  const std::size_t count = whole.size() - from;
-  return seen.size() >= count && std::equal(whole.begin() + static_cast<std::ptrdiff_t>(from), whole.end(),
-                                            seen.end() - static_cast<std::ptrdiff_t>(count));
-}
-
 }  // namespace
 
 TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice") {
@@ -185,19 +95,6 @@ TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice"
 
 TEST_CASE("the same over a line that garbles what passes") {
   kill_and_resume(100, 3, 3, garbling);
-}
-
-TEST_CASE("a print goes on in the way that the command line had asked for") {
-  const std::vector<std::string> asked{"--no-look-ahead"};
-  const Undisturbed expected = undisturbed(100, asked);
-  Bench bench(100);
-  Child host(bench.print(asked));
-  Bench::wait_for([&] { return bench.begun(); }, host);
-  REQUIRE(kill_after(host, expected.seconds / 3));
-  const Outcome outcome = bench.resume_anyway();
-  INFO(outcome.out << outcome.err);
-  REQUIRE(outcome.code == 0);
-  check_equal(bench.seen(), expected.seen);
 }
 
 TEST_CASE("200 kills at random moments leave the part as it would have been", "[long]") {
@@ -237,13 +134,9 @@ TEST_CASE("after a reset the print goes on at the last place that is certain, if
   // At most what the printer may have planned is laid twice, and nothing is left out.
   const auto lead_in = std::find(seen.lines.begin() + 5, seen.lines.end(), "G28 X Y");
   REQUIRE(lead_in != seen.lines.end());
-  std::size_t again = whole.lines.size();
-  while (again > 0 && ends_like(seen.lines, whole.lines, again - 1)) --again;
-  const auto run_before = static_cast<std::size_t>(
-      std::mismatch(seen.lines.begin(), seen.lines.end(), whole.lines.begin(), whole.lines.end()).first -
-      seen.lines.begin());
-  CHECK(again <= run_before);
-  CHECK(run_before - again <= 20 + 16);
+  const test::Cut place = test::cut_in(seen.lines, whole.lines);
+  CHECK(place.again <= place.run);
+  CHECK(place.run - place.again <= 20 + 16);
   // Every layer is as high as it was to be: z was found again.
   REQUIRE(seen.report["layers"].size() == whole.report["layers"].size());
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
@@ -342,6 +235,35 @@ TEST_CASE("when the disk is full the print waits, and goes on when there is room
   INFO(outcome.err);
   CHECK(outcome.code == 0);
   check_equal(bench.seen(), expected);
+}
+
+TEST_CASE("when the disk stays full the nozzle does not stay on the part") {
+  const std::string tall = test::replaced(test::sample_job, "height = 0.4", "height = 2.0");
+  const std::vector<std::string> whole = undisturbed(0, tall).seen.lines;
+  Bench bench(0);
+  bench.folder().write("job.toml", tall);
+  Child host(bench.print());
+  const auto laying = [&] {
+    return bench.begun() && host::read_journal(bench.print_folder() / "journal").acknowledged > 300;
+  };
+  Bench::wait_for(laying, host);
+  const rlimit full{fs::file_size(bench.print_folder() / "chunks"), RLIM_INFINITY};
+  const rlimit room{RLIM_INFINITY, RLIM_INFINITY};
+  REQUIRE(prlimit(host.id(), RLIMIT_FSIZE, &full, nullptr) == 0);
+  Bench::wait_for([&] { return host.err().find("paused: ") != std::string::npos; }, host);
+  CHECK(host.err().find("make room", host.err().find("paused: ")) != std::string::npos);
+  REQUIRE(prlimit(host.id(), RLIMIT_FSIZE, &room, nullptr) == 0);
+  const Outcome outcome = host.wait();
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  // Nothing of the print is lost or twice, and what came in between went aside and back.
+  const std::vector<std::string> lines = bench.seen().lines;
+  const test::Cut place = test::cut_in(lines, whole);
+  CHECK(place.again == place.run);
+  const auto aside = lines.begin() + static_cast<std::ptrdiff_t>(place.run);
+  const auto still = std::find(aside, lines.end(), "M400");
+  REQUIRE(still != lines.end());
+  CHECK((still - 1)->rfind("G0 X5 Y5", 0) == 0);
 }
 
 TEST_CASE("a new print on the same printer ends the chance to resume the one before") {

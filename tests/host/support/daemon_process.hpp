@@ -51,10 +51,12 @@ class DaemonBench {
     await([this] { return std::filesystem::exists(path("port")); }, *printer_);
   }
 
-  void serve(const std::vector<std::string>& more = {}) {
+  void serve(const std::vector<std::string>& more = {}) { serve_at(path("port"), more); }
+  /// Another's printer.
+  void serve_at(const std::string& device, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"serve",       "--listen", "127.0.0.1:0", "--state",
                                        path("state"), "--spool",  path("spool"), "--port",
-                                       path("port"),  "--jobs",   path("jobs")};
+                                       device,        "--jobs",   path("jobs")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     daemon_ = std::make_unique<Child>(arguments);
     await([this] { return daemon_->out().find('\n') != std::string::npos; }, *daemon_);
@@ -104,6 +106,10 @@ class DaemonBench {
   /// Until the daemon's print is in this state.
   void await_print(const std::string& state) {
     await([&] { return print_state() == state; }, *daemon_);
+  }
+  /// Until something is extruded: being hot is not enough.
+  void await_laying() {
+    await([this] { return read_text(path("lines.txt")).find("G1 ") != std::string::npos; }, *daemon_);
   }
   void await_job(int id, const std::string& state) {
     await([&] { return ask("GET", "/api/jobs/" + std::to_string(id)).value("state", "") == state; },

@@ -40,11 +40,18 @@ class SessionBench {
         clock_(connect()) {}
 
   host::StreamSettings settings;
+  /// Printer seconds that a second of planning takes, on one thread; absent: planning takes no time.
+  std::optional<double> charge;
 
   /// Prints; `script` is called at every event. Ends the simulator, whose report is then there.
   host::StreamResult print(const Script& script = {}) {
     settings.clock = clock_;
-    host::Lookahead lookahead(*prepared_.part, host::lookahead_options(prepared_));
+    host::LookaheadOptions planning = host::lookahead_options(prepared_);
+    if (charge) {
+      planning.pace = host::Pace{{}, *charge};
+      planning.threads = 1;
+    }
+    host::Lookahead lookahead(*prepared_.part, planning);
     std::optional<host::StreamResult> result;
     {
       asio::io_context loop{1};

@@ -1,0 +1,110 @@
+// `unicursal print` in a real terminal: what a person types there, and Ctrl-C.
+#include <pty.h>
+
+#include <catch2/catch.hpp>
+#include <cerrno>
+
+#include "tests/host/support/daemon_process.hpp"
+
+using namespace unicursal;
+using test::Child;
+
+namespace {
+
+/// The program with a terminal of its own.
+class Terminal {
+ public:
+  explicit Terminal(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), UNICURSAL_PROGRAM);
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    id_ = forkpty(&master_, nullptr, nullptr, nullptr);
+    if (id_ < 0) throw std::runtime_error("no terminal");
+    if (id_ == 0) {
+      execv(pointers[0], pointers.data());
+      _exit(127);
+    }
+    fcntl(master_, F_SETFL, O_NONBLOCK);
+  }
+  ~Terminal() {
+    if (id_ > 0) kill(id_, SIGKILL), waitpid(id_, nullptr, 0);
+    close(master_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  void type(const std::string& text) {
+    REQUIRE(write(master_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+  }
+  /// Until the screen has shown it, since the last time; two minutes at most.
+  void await(const std::string& text) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    for (std::size_t at = screen_.find(text); at == std::string::npos; at = screen_.find(text)) {
+      INFO(screen_);
+      REQUIRE(read_some());
+      REQUIRE(std::chrono::steady_clock::now() < end);
+    }
+    screen_.erase(0, screen_.find(text) + text.size());
+  }
+  /// Its exit code.
+  int wait() {
+    while (read_some()) {
+    }
+    int status = 0;
+    waitpid(id_, &status, 0);
+    id_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  /// False when the program has hung up.
+  bool read_some() {
+    pollfd end{master_, POLLIN, 0};
+    poll(&end, 1, 100);
+    char bytes[4096];
+    const ssize_t count = read(master_, bytes, sizeof bytes);
+    if (count > 0) screen_.append(bytes, static_cast<std::size_t>(count));
+    return count > 0 || (count < 0 && errno == EAGAIN);
+  }
+
+  pid_t id_ = -1;
+  int master_ = -1;
+  std::string screen_;
+};
+
+}  // namespace
+
+TEST_CASE("a print is paused, changed, resumed and stopped from its terminal") {
+  const test::TempFolder folder;
+  folder.write("bench.toml", test::sample_profile);
+  folder.write("plate.svg", test::sample_drawing);
+  folder.write("job.toml", test::replaced(test::sample_job, "height = 0.4", "height = 20.0"));
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  Child printer({"simulate", "--profile", path("bench.toml"), "--link", path("port"), "--speed", "100",
+                 "--transcript", path("lines")});
+  test::await([&] { return std::filesystem::exists(folder / "port"); }, printer);
+
+  Terminal terminal({"print", path("job.toml"), "--port", path("port"), "--spool", path("spool")});
+  terminal.await("printing layer 1 of 100");
+  terminal.type("flow 5\n");
+  terminal.await("not between 50 and 200");
+  terminal.type("flow 95\n");
+  terminal.type("pause\n");
+  terminal.await("paused layer");
+  terminal.type("what?\n");
+  terminal.await("say pause, resume, cancel");
+  terminal.type("resume\n");
+  terminal.await("printing layer");
+  terminal.type("\x03");
+  terminal.await("once more stops it at once");
+  CHECK(terminal.wait() == 3);
+
+  kill(printer.id(), SIGTERM);
+  printer.wait();
+  const std::string lines = test::read_text(folder / "lines");
+  const auto at = [&](const char* line) { return lines.find(line); };
+  REQUIRE(at("M221 S95") != std::string::npos);
+  CHECK(at("M221 S95") < at("M400"));
+  CHECK(lines.rfind("M104 S0") > lines.rfind("G1 X"));
+}

@@ -1,0 +1,200 @@
+// What may happen to a printer while it prints, at random lines: the print stops safely, tells what has
+// happened, and goes on as it was promised. Real processes on a pseudo-terminal.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "host/spool/chunk_reader.hpp"
+#include "host/spool/journal.hpp"
+#include "tests/host/support/print_bench.hpp"
+
+using namespace unicursal;
+using test::Child;
+using test::Outcome;
+using test::Seen;
+using Lines = std::vector<std::string>;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Mishap {
+  std::string kind;                ///< as the simulator knows it
+  int speed;                       ///< printer seconds per second; 0: as fast as lines come
+  std::vector<std::string> words;  ///< of which the program has to say one
+  Lines more = {};                 ///< options of the simulator
+  std::size_t at_once = 10;        ///< trials that run beside each other, since they mostly wait
+};
+
+/// A print that something happens to.
+struct Trial {
+  Trial(const Mishap& mishap, std::size_t at)
+      : line(at), bench(mishap.speed, options(mishap, at)), host(std::make_unique<Child>(bench.print())) {}
+
+  static Lines options(const Mishap& mishap, std::size_t at) {
+    Lines all{"--fault", mishap.kind + "@line=" + std::to_string(at)};
+    all.insert(all.end(), mishap.more.begin(), mishap.more.end());
+    return all;
+  }
+
+  std::size_t line;
+  test::PrintBench bench;
+  std::unique_ptr<Child> host;
+  Outcome cut;
+};
+
+const Seen& undisturbed() {
+  static const Seen seen = [] {
+    test::PrintBench bench(0);
+    REQUIRE(test::run(bench.print()).code == 0);
+    return bench.seen();
+  }();
+  return seen;
+}
+
+/// Up to their last byte.
+void check_records(const fs::path& file) {
+  host::RecordReader reader(file);
+  while (reader.next()) {
+  }
+  CHECK(reader.sound() == fs::file_size(file));
+}
+
+void check_kept(const fs::path& folder) {
+  check_records(folder / "journal");
+  check_records(folder / "chunks");
+  const host::JournalState state = host::read_journal(folder / "journal");
+  CHECK(state.acknowledged <= state.handed);
+  REQUIRE(state.ended);
+  CHECK(state.ended->outcome == host::Outcome::failed);
+  CHECK_FALSE(state.ended->reason.empty());
+}
+
+void check_told(const Mishap& mishap, const Outcome& cut) {
+  CHECK(cut.code == 1);
+  CHECK(std::any_of(mishap.words.begin(), mishap.words.end(),
+                    [&](const std::string& word) { return cut.err.find(word) != std::string::npos; }));
+  CHECK(cut.err.find("unicursal resume") != std::string::npos);
+}
+
+/// Nothing is left out, and no more is laid twice than a printer may have planned (20 lines) and be handed at
+/// once (16). Before the first move the print begins anew.
+void check_continued(const Lines& seen) {
+  const Lines& whole = undisturbed().lines;
+  const test::Cut place = test::cut_in(seen, whole);
+  const auto is_bead = [](const std::string& line) { return line.rfind("G1 X", 0) == 0; };
+  const auto start = std::find_if(whole.begin(), whole.end(), is_bead) - whole.begin();
+  CHECK(place.again <= place.run);
+  if (place.again > 0)
+    CHECK(place.run - place.again <= 20 + 16);
+  else
+    CHECK(static_cast<std::ptrdiff_t>(place.run) <= start + 20 + 16);
+}
+
+/// Lets `times` prints come to it, and calls `after` with each.
+template <class After>
+void suffer(const Mishap& mishap, int times, unsigned seed, After after) {
+  const std::size_t lines = undisturbed().lines.size();
+  std::mt19937 random(seed);
+  for (int done = 0; done < times;) {
+    std::vector<std::unique_ptr<Trial>> trials;
+    for (; done < times && trials.size() < mishap.at_once; ++done)
+      trials.push_back(std::make_unique<Trial>(mishap, 1 + random() % lines));
+    for (const auto& trial : trials) trial->cut = trial->host->wait();
+    for (const auto& trial : trials) {
+      INFO(mishap.kind << " at line " << trial->line << ": " << trial->cut.err);
+      after(*trial);
+    }
+  }
+}
+
+void resumed(Trial& trial) {
+  const Outcome outcome = trial.bench.resume_anyway();
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.code == 0);
+}
+
+void reset(int times, unsigned seed) {
+  const Mishap mishap{"reset", 0, {"has reset itself"}};
+  suffer(mishap, times, seed, [&](Trial& trial) {
+    check_told(mishap, trial.cut);
+    check_kept(trial.bench.print_folder());
+    const Outcome asked = test::run(trial.bench.resume());  // with nobody to answer
+    const bool anew =
+        asked.code == 0;  // of the first lines none has done anything that would have to be told
+    CHECK((anew || asked.code == 2));
+    if (!anew) CHECK(asked.err.find("--yes") != std::string::npos);
+    resumed(trial);
+    const Seen seen = trial.bench.seen();
+    if (anew) CHECK(test::cut_in(seen.lines, undisturbed().lines).again == 0);
+    check_continued(seen.lines);
+    CHECK(seen.report["layers"].size() == undisturbed().report["layers"].size());
+    CHECK(seen.report["extents"]["max"][2] == undisturbed().report["extents"]["max"][2]);
+  });
+}
+
+void unplug(int times, unsigned seed) {
+  // One by one: a hundred times as fast, a printer cools after 18 s in which nobody has resumed.
+  const Mishap mishap{"disconnect:5", 100, {"cable"}, {}, 1};
+  suffer(mishap, times, seed, [&](Trial& trial) {
+    check_told(mishap, trial.cut);
+    check_kept(trial.bench.print_folder());
+    while (!fs::exists(trial.bench.path("port"))) poll(nullptr, 0, 5);
+    resumed(trial);
+    check_equal(trial.bench.seen(), undisturbed());
+  });
+}
+
+/// A heater that fails so late that nobody notices does no harm.
+void run_cold(int times, unsigned seed) {
+  const Mishap mishap{"heaterfail", 100, {"Thermal Runaway", "Heating failed", "MINTEMP"}};
+  suffer(mishap, times, seed, [&](Trial& trial) {
+    if (trial.cut.code == 0) return check_equal(trial.bench.seen(), undisturbed());
+    check_told(mishap, trial.cut);
+    check_kept(trial.bench.print_folder());
+    trial.bench.replace_printer();
+    resumed(trial);
+    check_continued(trial.bench.seen().lines);
+  });
+}
+
+/// The host has given up long before somebody presses the button: at a hundredfold speed, after 90 s.
+void fall_silent(int times, unsigned seed) {
+  const Mishap mishap{"silence", 100, {"fallen silent"}, {"--fault", "reset@t=9000"}};
+  suffer(mishap, times, seed, [&](Trial& trial) {
+    check_told(mishap, trial.cut);
+    check_kept(trial.bench.print_folder());
+    resumed(trial);
+    const Seen seen = trial.bench.seen();
+    check_continued(seen.lines);
+    CHECK(seen.report["extents"]["max"][2] == undisturbed().report["extents"]["max"][2]);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a printer that resets anywhere has its print taken up again") {
+  reset(2, 1);
+}
+
+TEST_CASE("a cable that is pulled anywhere costs nothing") {
+  unplug(2, 2);
+}
+
+TEST_CASE("a heater that fails anywhere ends the print, which another printer can go on with") {
+  run_cold(2, 3);
+}
+
+TEST_CASE("50 resets", "[long]") {
+  reset(50, 11);
+}
+
+TEST_CASE("50 cables pulled and put back", "[long]") {
+  unplug(50, 12);
+}
+
+TEST_CASE("50 heaters that fail", "[long]") {
+  run_cold(50, 13);
+}
+
+TEST_CASE("50 printers that fall silent", "[long]") {
+  fall_silent(50, 14);
+}
