@@ -98,7 +98,6 @@ gcode::Chunk Run::replay(const gcode::PlacedLayer& layer) {
 gcode::Chunk Run::encoded(const gcode::PlacedLayer& layer) {
   gcode::Chunk chunk = encoder_.layer(layer);
   ++totals_.layers;
-  totals_.flow = flow();
   add_layer(totals_.materials, layer, zone_materials_);
   return chunk;
 }
@@ -136,6 +135,7 @@ void Run::log_finished_layers(bool all) {
 }
 
 void Run::count(const gcode::Chunk& chunk) {
+  totals_.flow = flow();  // an automatic one is known when the first layer comes out of the encoder
   totals_.print_seconds += chunk.seconds;
   totals_.volume += chunk.volume;
   totals_.materials.at(chunk.prime_material).prime += chunk.prime_volume;
