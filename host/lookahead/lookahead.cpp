@@ -249,6 +249,8 @@ struct Lookahead::State {
     const std::unique_ptr<OpenLayer> layer = std::move(open.front());
     open.pop_front();
     room_since = now_told;
+    // Until it is told anew: the next one is needed when this one is printed.
+    if (position) *position = std::max(*position, layer->result.ready_at) + layer->print_seconds;
     work_available.notify_all();
     if (!layer->error) return std::move(layer->result);
     stop();

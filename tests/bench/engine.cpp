@@ -2,8 +2,8 @@
 //
 //   starve JOB…        whole jobs in virtual time, planning charged ×1 and ×8 of what it takes this computer:
 //                      how often the printer's queue ran dry in mid-curve, how long the print waited for
-//                      layers (the first one, while the printer heats, included in neither starvation nor
-//                      hurry), which quality was given up, and the host's memory at layer 10 and at most
+//                      layers, those included that the hot printer needs before its first bead, which quality
+//                      was given up, and the host's memory at layer 10 and at most
 //   start JOB…         `print` on a printer that is hot and homed: time to the first extruding move, less
 //                      what the same lines take when they are sent without any thinking
 //   live MINUTES JOB…  by the clock on the wall: starvation, and what each kind of thread takes of a core

@@ -196,6 +196,17 @@ TEST_CASE("Nobody hurries before the printer needs something, and without a pace
   }
 }
 
+TEST_CASE("Once a layer is taken, the next has as long as that one prints") {
+  const Stack part(2);
+  LookaheadOptions options = options_for(0, 2, 1);
+  options.flow = 1e-3;  // mm³/s: hours for a layer
+  options.pace = Pace{[] { return 0.0; }, 1};
+  Lookahead lookahead(part, options);
+  lookahead.printed(0, 0);
+  CHECK(lookahead.wait()->effort < 1);  // the printer stands still
+  CHECK(lookahead.wait()->effort == 1);
+}
+
 TEST_CASE("On a computer that is too slow layers take less effort, say so, and are still whole") {
   const Stack part(12);
   LookaheadOptions options = options_for(0, 12, 1);
