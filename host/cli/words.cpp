@@ -108,7 +108,7 @@ void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra)
 
 void tell_about_spool(Spool& spool, const StreamResult& result) {
   if (const auto problem = spool.journal().problem()) show(stderr, "warning: {}\n", *problem);
-  if (result.ending == Ending::completed || result.unfit) return;
+  if (result.ending == Ending::completed || !result.begun) return;
   show(stderr, "to go on with this print: unicursal resume {}\n", spool.folder().filename().string());
 }
 

@@ -270,7 +270,7 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   firmware_ = result.firmware;
   ending = state_after(result.ending);
   std::string reason = result.ending == Ending::stopped ? session.status().reason : result.reason;
-  if (result.ending != Ending::completed && !result.unfit)
+  if (result.ending != Ending::completed && result.begun)
     reason += "; to go on with it: " + way_on() + " " + current_->print->kept_as();
   co_return reason;
 }

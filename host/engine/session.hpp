@@ -74,6 +74,7 @@ struct StreamResult {
   std::optional<Lost> lost;
   std::size_t pauses = 0;  ///< times that it was held
   bool unfit = false;      ///< it has failed since the printer is another one; nothing was heated or moved
+  bool begun = false;      ///< lines of it were sent; otherwise no spool keeps it
 };
 
 /// A print that goes on.
@@ -91,7 +92,7 @@ enum class PauseHeat {
 
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
-  Spool* spool = nullptr;  ///< that keeps the print, if one does; not if the printer is unfit from the start
+  Spool* spool = nullptr;         ///< that keeps the print, if one does; not if it never began
   std::filesystem::path profile;  ///< to be named where it has to be corrected; may be empty
   LinkOptions link = {};          ///< on the clock above
   /// With a spool that holds the first layers already; the source begins behind them.

@@ -135,6 +135,7 @@ struct Session::State {
   bool parking = false;  ///< what is sent is not of the spool
   bool parked = false;
   bool unfit = false;   ///< the printer is another one than the print was made for
+  bool begun = false;   ///< lines of the print may have been sent
   bool mixes = true;    ///< as far as the printer has told
   bool halted = false;  ///< the firmware has said that it has stopped itself
   std::optional<Lost> lost;

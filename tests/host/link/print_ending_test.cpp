@@ -55,6 +55,23 @@ TEST_CASE("a print that fails leaves a report that says why") {
   CHECK(report["link"]["acknowledged"].get<int>() <= 60);  // M105 is not among the printer's 60
 }
 
+TEST_CASE("a print that never began is not kept, and nobody is told to go on with it") {
+  const Job job;
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t, const std::string&) {
+    p.reply("Error:Printer halted. kill() called!");
+    return true;
+  }});
+  auto command = job.print_on(printer);
+  const std::filesystem::path kept = job.folder / "spool";
+  command.insert(command.end(), {"--spool", kept.string()});
+  const Outcome outcome = test::run(command);
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("halted") != std::string::npos);
+  CHECK(outcome.err.find("unicursal resume") == std::string::npos);
+  CHECK(std::filesystem::is_empty(kept));
+}
+
 TEST_CASE("a stop while heating ends the heating and claims no park") {
   const Job job;
   std::atomic<bool> heating = false;
