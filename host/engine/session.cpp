@@ -114,9 +114,9 @@ Session::State::~State() {
 // ---- the way through a print
 
 asio::awaitable<void> Session::State::print() {
-  begun = settings.continuation.has_value();
+  print_begun = settings.continuation.has_value();
   co_await begin();
-  begun = true;
+  print_begun = true;
   if (lost) co_return;
   std::exception_ptr error;
   try {
@@ -408,7 +408,8 @@ asio::awaitable<void> Session::State::hand(std::vector<std::string> lines) {
 
 StreamResult Session::State::result(const std::exception_ptr& error) {
   StreamResult result{
-      Ending::completed, {}, parked, link.statistics(), link.firmware(), waited, lost, pauses, unfit, begun};
+      Ending::completed, {}, parked, link.statistics(), link.firmware(), waited, lost, pauses, unfit,
+      print_begun};
   if (stopped) result.ending = Ending::stopped;
   if (error) result.reason = sentence(error);
   if (aborted) result.reason = reason;
@@ -423,7 +424,7 @@ StreamResult Session::State::result(const std::exception_ptr& error) {
     case Ending::failed:
       enter(SessionState::failed, result.reason);
   }
-  if (spool && !begun)
+  if (spool && !print_begun)
     spool->discard();
   else if (spool && !lost)
     end_journal(result);

@@ -134,10 +134,10 @@ struct Session::State {
   std::exception_ptr catching_up_failed;
   bool parking = false;  ///< what is sent is not of the spool
   bool parked = false;
-  bool unfit = false;   ///< the printer is another one than the print was made for
-  bool begun = false;   ///< lines of the print may have been sent
-  bool mixes = true;    ///< as far as the printer has told
-  bool halted = false;  ///< the firmware has said that it has stopped itself
+  bool unfit = false;        ///< the printer is another one than the print was made for
+  bool print_begun = false;  ///< lines of it may have been sent
+  bool mixes = true;         ///< as far as the printer has told
+  bool halted = false;       ///< the firmware has said that it has stopped itself
   std::optional<Lost> lost;
   double waited = 0;  ///< s for pieces
   std::size_t pauses = 0;
