@@ -205,6 +205,7 @@ RouteOptions Encoder::State::route_options() const {
       overshoots);
   RouteOptions options;
   options.horizon = settings.horizon;
+  options.growing = !settings.automatic_flow;  // which is chosen over the whole window
   options.seam = settings.seam;
   options.change_cost = [costs, zones = settings.zone_materials](std::size_t from, std::size_t to) {
     return costs.of(zones.at(from), zones.at(to));

@@ -234,6 +234,7 @@ struct Route::State {
 
   RouteOptions options;
   std::deque<Waiting> waiting;
+  std::size_t decided = 0;  ///< layers
   bool ended = false;
   std::optional<core::BeadPath> last_path;  ///< of what is decided
   core::Vec2 here{0, 0};                    ///< where it ends
@@ -408,8 +409,10 @@ std::vector<const PlacedLayer*> Route::waiting() const {
 }
 
 std::optional<RoutedLayer> Route::take() {
-  const std::size_t enough = std::max<std::size_t>(1, state_->options.horizon);
+  std::size_t enough = std::max<std::size_t>(1, state_->options.horizon);
+  if (state_->options.growing) enough = std::min(enough, 1 + (state_->decided + 1) / 2);
   if (state_->waiting.empty() || (!state_->ended && state_->waiting.size() < enough)) return std::nullopt;
+  ++state_->decided;
   return state_->decide();
 }
 

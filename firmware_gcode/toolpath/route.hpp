@@ -24,6 +24,10 @@ inline constexpr double travel_widths = 1.5;  ///< bead widths; a longer move wi
 
 struct RouteOptions {
   std::size_t horizon = default_horizon;
+  /// The first layer is decided as soon as it comes, the two after it on sight of two, and so on up to the
+  /// horizon: a hot nozzle waits for one layer to be planned, not for four. A part that shrinks to a tower
+  /// after its very first layer may cost a travel by that.
+  bool growing = false;
   Seam seam = Seam::hidden;
   /// What a change between the mixtures of two zones costs, mm³ of plastic in the wrong place; 0 for the
   /// same.

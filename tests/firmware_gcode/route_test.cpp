@@ -156,6 +156,25 @@ TEST_CASE("the horizon sees where a part goes") {
   CHECK(tally(routed(layers, options_for())).travels == 0);
 }
 
+TEST_CASE("a growing horizon gives the first layer at once, and later ones as soon as they see enough") {
+  RouteOptions options = options_for();
+  options.growing = true;
+  Route route(options);
+  const std::size_t decided[] = {1, 1, 2, 3, 3, 4, 5, 5, 6, 7};  // after so many layers have come
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < std::size(decided); ++i) {
+    route.add(layer_of({comb({50, 50}, 40, 10)}, i));
+    while (const auto next = route.take()) {
+      CHECK(next->layer.index == taken);
+      ++taken;
+    }
+    CHECK(taken == decided[i]);
+  }
+  route.end();
+  while (route.take()) ++taken;
+  CHECK(taken == std::size(decided));
+}
+
 TEST_CASE("islands: as many travels as there are more islands than layers, and none in between") {
   std::mt19937 random(3);
   for (const std::size_t islands : {2u, 3u, 5u, 9u}) {
