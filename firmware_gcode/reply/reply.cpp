@@ -141,7 +141,8 @@ Reply parse_reply(std::string_view line) {
   if (whole == "wait") return reply::Wait{};
   if (take(rest, "skip") && ends_word(rest)) return reply::Skip{take_count(rest)};
   rest = whole;
-  if (take(rest, "echo:busy:") || take(rest, "busy:")) return reply::Busy{};
+  if (take(rest, "echo:busy:") || take(rest, "busy:"))
+    return reply::Busy{rest.find("paused for") != std::string_view::npos};
   if (take(rest, "echo:")) {
     rest = trimmed(rest);
     return reply::Echo{std::string(rest), rest.starts_with("Unknown command")};

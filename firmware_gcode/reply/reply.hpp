@@ -41,7 +41,9 @@ struct Error {
 /// The board has started, that is, it has forgotten everything.
 struct Start {};
 /// "echo:busy: processing", "busy:processing": alive, at work.
-struct Busy {};
+struct Busy {
+  bool for_user = false;  ///< "paused for user": somebody has to come
+};
 /// Repetier, every idle second.
 struct Wait {};
 /// Repetier has dropped a repeated line.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <string_view>
 
@@ -19,19 +20,23 @@ std::string position(double value) {
   return short_number(value, 3);
 }
 
-/// M163 S0 P.3333: what stands behind the P.
-std::string_view share_in(std::string_view line) {
+constexpr double rounding = 0.015;  ///< between equal shares that add up to one in two decimals
+
+/// Of M163 S0 P.3333; below 0 in any other line.
+double share_in(const std::string& line) {
   const auto at = line.find(" P");
-  return line.starts_with("M163 ") && at != std::string_view::npos ? line.substr(at) : std::string_view();
+  return line.starts_with("M163 ") && at != std::string::npos ? std::strtod(line.c_str() + at + 2, nullptr)
+                                                              : -1;
 }
 
 /// The virtual tool whose mixture is made of equal shares: it draws filament back from all inlets alike.
 std::optional<int> tool_of_equal_shares(const ModalState& state) {
   for (const auto& [tool, lines] : state.tools) {
-    const std::string_view first = share_in(lines.front());
-    const bool equal = std::all_of(lines.begin(), lines.end() - 1,
-                                   [&](const std::string& line) { return share_in(line) == first; });
-    if (lines.size() > 2 && !first.empty() && equal) return tool;
+    const double first = share_in(lines.front());
+    const bool equal = std::all_of(lines.begin(), lines.end() - 1, [&](const std::string& line) {
+      return std::abs(share_in(line) - first) < rounding;
+    });
+    if (lines.size() > 2 && first > 0 && equal) return tool;
   }
   return std::nullopt;
 }

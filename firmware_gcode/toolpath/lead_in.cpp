@@ -28,10 +28,10 @@ void find_position(AsideWriter& writer, const Printer& printer, double height) {
 
 void mixtures(AsideWriter& writer, const ModalState& state) {
   for (const auto& [tool, definition] : state.tools) writer.lines(definition);
+  writer.lines(state.collected());
   writer.select(state.tool);
 }
 
-/// The filament hangs back by what the print had drawn back, or, after a loss of power, by what has oozed.
 void squeeze_out(AsideWriter& writer, const Printer& printer, const LeadIn& to) {
   const auto place = place_beside(printer, to.extent);
   if (!place) {
@@ -53,7 +53,7 @@ double lead_in_rise(const Printer& printer, double height) {
 
 Chunk lead_in(const Printer& printer, const LeadIn& to) {
   assert(to.state.position[0] && to.state.position[1] && to.state.position[2] && !to.state.relative);
-  AsideWriter writer(printer, to.state, to.state.drawn_back);
+  AsideWriter writer(printer, to.state, to.drawn);
   heat(writer, to.state);
   find_position(writer, printer, to.height);
   mixtures(writer, to.state);

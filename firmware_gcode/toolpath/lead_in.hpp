@@ -19,6 +19,7 @@ struct LeadIn {
   double height = 0;  ///< mm, where the nozzle is now
   double flow = 2;    ///< mm³/s, of what is squeezed out
   core::Box extent;   ///< of the part on the bed
+  double drawn = 0;   ///< mm of filament by which it is drawn back now, by the print or by what parked it
 };
 
 /// Heat, rise, home x and y, mixtures, two transitions of plastic into the air beside the part (a warning

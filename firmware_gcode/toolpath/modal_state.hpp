@@ -29,6 +29,8 @@ struct ModalState {
 
   /// Runs one line (no number, no checksum).
   void run(std::string_view line);
+  /// Shares that are told and belong to no tool yet: those of a definition that is begun.
+  const Lines& collected() const { return collected_; }
 
  private:
   Lines collected_;  ///< M163 lines since the last mixture was stored

@@ -15,8 +15,8 @@ struct PlacedLayer {
   double top = 0;  ///< where the nozzle runs
   double height = 0;
   std::vector<core::BeadPath> paths;
-  std::vector<core::Polygon>
-      outlines = {};  ///< of the islands: for hidden seams and travels round them; may be absent
+  std::vector<core::Polygon> outlines =
+      {};  ///< of the islands: for hidden seams and travels round them; may be absent
 };
 
 /// Where the cycle of a layer begins and ends, as far as that is free: none of these makes a travel.

@@ -322,8 +322,10 @@ class CommandLine {
     app->add_option("job", job_.job, "the job, a TOML file")->required()->type_name("JOB");
     app->add_option("--profile", job_.profile, "printer profile instead of the one that the job names")
         ->type_name("FILE");
-    app->add_option("--layer", layer_, "counted from 0")->type_name("N");
-    app->add_option("--island", island_, "counted from 0, the largest")->type_name("K");
+    app->add_option("--layer", layer_, "counted from 0")->check(finite_number(0, 1e9))->type_name("N");
+    app->add_option("--island", island_, "counted from 0, the largest")
+        ->check(finite_number(0, 1e9))
+        ->type_name("K");
     app->add_option("-o,--output", outputs_, ".txt (x y width), .svg or .png; may be given several times")
         ->type_name("FILE");
     app->add_option("--report", job_.report, "write what was measured as JSON")->type_name("FILE");

@@ -36,6 +36,7 @@ Examination examine_port(int port, const LinkOptions& options) {
 }  // namespace
 
 Exit doctor(const DoctorCommand& command) {
+  check_outputs(present({command.profile}), present({command.log}));
   const bool told = command.profile.has_value();
   const Profile profile = told ? load_profile(*command.profile) : Profile{};
   const unsigned baud = command.baud.value_or(profile.baud);

@@ -127,10 +127,9 @@ nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult resul
 
 Exit dry_run(const DryRunCommand& command) {
   check_simulator(command.printer);
-  const PreparedJob prepared = prepare_and_warn(command.job);
+  const PreparedJob prepared = prepare_and_warn(command.job, present({command.log}));
   check_beginning(prepared);
-  if (command.printer.fault_file && command.job.outputs.report)
-    check_outputs({*command.printer.fault_file}, {*command.job.outputs.report});
+  check_outputs(present({command.printer.fault_file}), present({command.job.outputs.report, command.log}));
   Run run(prepared, "dry-run", outputs_of(command));
   // Outlives the simulator, whose end is that of the stream it waits for.
   DepositCheck check(intended_materials(prepared, run.encoder()), command.job.outputs.pictures);

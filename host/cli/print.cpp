@@ -23,9 +23,9 @@ PrintOrder order_of(const PrintCommand& command, const PreparedJob& prepared) {
 }  // namespace
 
 Exit print(const PrintCommand& command) {
-  const PreparedJob prepared = prepare_and_warn(command.job);
+  const PreparedJob prepared = prepare_and_warn(command.job, present({command.log}));
   Run run(prepared, "print", command.job.outputs);
-  const PrintOrder order = order_of(command, prepared);
+  PrintOrder order = order_of(command, prepared);
   check_beginning(prepared);
   StreamSettings settings;
   settings.pause_heat = command.pause_heat;
@@ -33,13 +33,15 @@ Exit print(const PrintCommand& command) {
   Lookahead lookahead(*prepared.part, paced(lookahead_options(prepared), settings.clock));
   settings.link = link_options(prepared.job.profile, command.log);
   const int port = open_port(order.port, prepared.job.profile.baud, settings.link);
+  order.device = device_of(port);
   Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
   settings.spool = &spool;
   PlannedSource source(lookahead, run);
   const StreamResult result = stream_with_progress(port, source, command.display, settings);
   tell_about_spool(spool, result);
   conclude(run, result, {{"planning", planning_json(lookahead)}});
-  show(words_of(command.display), "{}", summary(run.totals(), lookahead.effort()));
+  if (result.ending == Ending::completed)
+    show(words_of(command.display), "{}", summary(run.totals(), lookahead.effort()));
   return tell_ending(result, command.display);
 }
 

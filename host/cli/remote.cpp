@@ -1,6 +1,7 @@
 // The commands that talk to a daemon: status, start, pause, resume, cancel, stop, queue.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -115,6 +116,21 @@ void check_beside(const fs::path& job, const fs::path& file) {
                     "folder with --jobs");
 }
 
+/// One that no job in the queue needs any more.
+std::string free_folder(const Client& client, const std::string& name) {
+  const json jobs = obeyed(client.ask("GET", "/api/jobs")).at("jobs");
+  const auto needed = [&](const std::string& folder) {
+    return std::any_of(jobs.begin(), jobs.end(), [&](const json& job) {
+      const std::string state = job.at("state");
+      const bool open = state == "queued" || state == "preparing" || state == "printing";
+      return open && job.at("job").get<std::string>().starts_with("upload:" + folder + "/");
+    });
+  };
+  std::string folder = name;
+  for (int i = 2; needed(folder); ++i) folder = fmt::format("{}-{}", name, i);
+  return folder;
+}
+
 std::string upload(const Client& client, const fs::path& file) {
   const Job job = load_job(file);
   std::vector<fs::path> files = job.source.files;
@@ -124,7 +140,7 @@ std::string upload(const Client& client, const fs::path& file) {
   files.push_back(job.profile.file);
   files.push_back(file);
   for (const fs::path& one : files) check_beside(file, one);
-  const std::string folder = file.stem().string();
+  const std::string folder = free_folder(client, file.stem().string());
   for (const fs::path& one : files) {
     const std::string path = fmt::format("/api/files/{}/{}", folder, one.filename().string());
     obeyed(client.send_file(path, core::file_bytes(one)));

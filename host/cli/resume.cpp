@@ -96,13 +96,18 @@ void tell(const Restart& restart, const Lost& lost, const Spool& spool) {
          "It was on its way up: it may be as high as {:.2f} mm, and the rest then lies that much too high.\n",
          restart.highest);
   }
+  show(stdout, "Speed, flow and heat that were set by hand while it printed are the job's again.\n");
   for (const std::string& warning : restart.warnings) show(stdout, "note: {}\n", warning);
 }
 
-bool agreed(const ResumeCommand& command) {
-  if (command.yes) return true;
+bool agreed(const ResumeCommand& command, const Restart& restart) {
+  const bool sure = restart.highest <= restart.lowest;
+  if (command.yes && sure) return true;
   if (isatty(STDIN_FILENO) == 0) {
-    throw SpoolError("", "", "nobody is there to be asked", "say --yes if the print shall go on like that");
+    throw SpoolError("", "",
+                     sure ? "nobody is there to be asked" : "nobody is there to see how high the nozzle is",
+                     sure ? "say --yes if the print shall go on like that"
+                          : "resume at a terminal, without --yes or with it");
   }
   show(stdout, "Go on? [y/N] ");
   std::fflush(stdout);
@@ -124,7 +129,10 @@ class Resumption {
   Exit operator()() {
     const JournalState& before = spool_.before();
     const bool nothing_sent = before.anchors.empty();
-    if (!before.parking.empty()) return restart({"it was parked and cooled", std::nullopt});
+    if (!before.parking.empty()) {
+      return restart(
+          {before.aside ? "its nozzle was moved aside" : "it was parked and cooled", std::nullopt});
+    }
     const StreamResult result = stream(nothing_sent ? std::optional(before.leg) : std::nullopt);
     return result.lost ? restart(*result.lost) : end(result);
   }
@@ -146,7 +154,12 @@ class Resumption {
   Exit restart(const Lost& lost) {
     const Restart restart = restart_after(prepared_, spool_, lost);
     tell(restart, lost, spool_);
-    if (!agreed(command_)) return Exit::failed;
+    if (!agreed(command_, restart)) {
+      show(stdout,
+           "The print was not gone on with. If the printer's heaters are on, they stay on: look after "
+           "them.\n");
+      return Exit::failed;
+    }
     return end(stream(restart.leg));
   }
 

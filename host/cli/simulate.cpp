@@ -34,15 +34,6 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.feeders = static_cast<std::size_t>(printer.feeders);
 }
 
-std::vector<std::filesystem::path> present(
-    std::initializer_list<std::optional<std::filesystem::path>> names) {
-  std::vector<std::filesystem::path> result;
-  for (const auto& name : names) {
-    if (name) result.push_back(*name);
-  }
-  return result;
-}
-
 }  // namespace
 
 void check_simulator(const sim::SimulatorOptions& options) {

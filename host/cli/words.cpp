@@ -60,6 +60,14 @@ void check_outputs(std::vector<fs::path> inputs, const std::vector<fs::path>& ou
   }
 }
 
+std::vector<fs::path> present(std::initializer_list<std::optional<fs::path>> paths) {
+  std::vector<fs::path> given;
+  for (const auto& path : paths) {
+    if (path) given.push_back(*path);
+  }
+  return given;
+}
+
 LayerRange parse_layers(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string_view view = text;

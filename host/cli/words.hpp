@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 
 #include "host/cli/commands.hpp"
@@ -13,6 +14,9 @@ namespace unicursal::host {
 /// Throws core::DataError for an output that is one of the inputs, or another output.
 void check_outputs(std::vector<std::filesystem::path> inputs,
                    const std::vector<std::filesystem::path>& outputs);
+
+/// Those that were given.
+std::vector<std::filesystem::path> present(std::initializer_list<std::optional<std::filesystem::path>> paths);
 
 /// Loads, checks and places a job; its warnings go to standard error. Refuses outputs, those of the options
 /// and `more`, that are one of the job's own files or one another.

@@ -1,5 +1,7 @@
 #include "host/daemon/daemon.hpp"
 
+#include <fmt/format.h>
+
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
 #include <asio/post.hpp>
@@ -159,14 +161,18 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
   broadcast({{"event", "queue"}, {"removed", id}});
 }
 
-void Daemon::check_not_printed(const std::string& upload) const {
-  const QueuedJob* job = current_ ? queue_.find(current_->id) : nullptr;
-  if (job && JobFiles::is_from(job->name, upload))
-    throw HttpError(409, "a job from there is being printed; choose another name");
+/// What was queued is what is printed.
+void Daemon::check_not_needed(const std::string& upload) const {
+  for (const QueuedJob& job : queue_.jobs()) {
+    const bool current = current_ && current_->id == job.id;
+    if ((current || job.state == QueuedJob::State::queued) && JobFiles::is_from(job.name, upload))
+      throw HttpError(409, fmt::format("job {} is from there, and {}; choose another name", job.id,
+                                       current ? "is being printed" : "waits"));
+  }
 }
 
 asio::awaitable<void> Daemon::keep_upload(std::string upload, std::string file, std::string bytes) {
-  check_not_printed(upload);
+  check_not_needed(upload);
   const auto keep = [this, upload, file, bytes = std::move(bytes)] {
     files_.keep(upload, file, bytes);
     return true;
@@ -175,7 +181,7 @@ asio::awaitable<void> Daemon::keep_upload(std::string upload, std::string file, 
 }
 
 asio::awaitable<void> Daemon::remove_upload(std::string upload) {
-  check_not_printed(upload);
+  check_not_needed(upload);
   const auto remove = [this, upload] {
     files_.remove(upload);
     return true;
@@ -239,7 +245,7 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   }
   if (error) reason = told_by(error);
   if (current_->print) {
-    if (current_->print->session()) last_ = job_and_print();
+    last_ = current_->print->session() ? job_and_print() : json();
     current_->print->end();
     // The planning threads end when they come to it: not on this loop's time.
     asio::post(preparing_,
@@ -248,6 +254,8 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   current_.reset();
   notify_service("STATUS=idle");
   co_await enter(id, ending, reason);
+  const QueuedJob* ended = queue_.find(id);
+  if (ended && !last_.is_null()) last_["job"] = to_json(*ended);
   if (when_idle_) when_idle_();
 }
 

@@ -78,7 +78,7 @@ class Daemon {
   asio::awaitable<void> print(std::uint64_t id);
   asio::awaitable<std::string> print_prepared(std::uint64_t id, QueuedJob::State& ending);
   PrintPlan plan_of(const QueuedJob& job) const;
-  void check_not_printed(const std::string& upload) const;
+  void check_not_needed(const std::string& upload) const;
   std::string way_on() const;
   asio::awaitable<void> save();
   asio::awaitable<void> enter(std::uint64_t id, QueuedJob::State state, std::string reason);

@@ -32,6 +32,7 @@ Print::Print(const PrintPlan& plan)
   order.layer_count = prepared_.count;
   if (plan.layers) order.layers = std::pair(plan.layers->first, plan.layers->last);
   port_ = open_port(order.port, prepared_.job.profile.baud, settings_.link);
+  order.device = device_of(port_);
   try {
     spool_.emplace(Spool::create(plan.spool ? *plan.spool : default_spool_root(), prepared_.job, order));
   } catch (...) {

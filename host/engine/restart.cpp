@@ -40,16 +40,17 @@ void note_heights(Restart& restart, const std::filesystem::path& chunks, const J
     from += lines.size();
   }
   std::for_each(journal.parking.begin(), journal.parking.end(), run);
+  restart.drawn = state.drawn_back;
 }
 
 }  // namespace
 
 Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost) {
   const JournalState& journal = spool.before();
-  const bool ended_in_order = journal.ended && journal.ended->outcome == Outcome::stopped;
+  const bool settled = journal.aside || (journal.ended && journal.ended->outcome == Outcome::stopped);
   const std::uint64_t sent = std::max(journal.handed, journal.acknowledged);
   std::uint64_t certain = journal.acknowledged - std::min(journal.acknowledged, planned_lines);
-  if (ended_in_order) certain = sent;
+  if (settled) certain = sent;
   if (lost.place) certain = *lost.place;
   Restart restart;
   const std::uint64_t line = journal.leg.line(certain);
@@ -59,10 +60,10 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   restart.layer = layer_of(spool.chunks(), line);
   restart.repeated = std::max(sent, certain) - certain;
   note_heights(restart, spool.chunks(), journal, certain, std::max(sent, certain));
-  if (ended_in_order) restart.lowest = restart.highest;
+  if (settled) restart.lowest = restart.highest;
   const gcode::PrintSettings settings = print_settings(prepared);
-  gcode::Chunk chunk =
-      gcode::lead_in(prepared.job.profile.printer, {state, restart.lowest, settings.flow, settings.extent});
+  gcode::Chunk chunk = gcode::lead_in(prepared.job.profile.printer,
+                                      {state, restart.lowest, settings.flow, settings.extent, restart.drawn});
   restart.leg.height = restart.lowest;
   restart.leg.lead_in = commands(std::move(chunk.lines));
   restart.warnings = std::move(chunk.warnings);

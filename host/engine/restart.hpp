@@ -19,6 +19,7 @@ struct Restart {
   std::optional<LayerPlace> layer;  ///< where it goes on
   std::uint64_t repeated = 0;       ///< lines, at most, that the printer may have run before and runs again
   double lowest = 0, highest = 0;   ///< mm, between which the nozzle stands now; the lower one is assumed
+  double drawn = 0;                 ///< mm of filament by which it is drawn back
   std::vector<std::string> warnings;
 
   bool from_start() const { return leg.begins_at == 0; }
@@ -26,7 +27,7 @@ struct Restart {
 
 /// Everything before the place is certain: a firmware acknowledges a move when it is planned, so the last
 /// ones acknowledged may be undone unless it has told otherwise (`lost.place`) or the print had been ended
-/// in order. Precondition: `prepared` is the spool's job.
+/// in order, or held aside. Precondition: `prepared` is the spool's job.
 Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost);
 
 /// Brings the encoder of a fresh run to where the spool's last chunk has left it. Throws SpoolError when it

@@ -109,6 +109,7 @@ Session::State::State(asio::any_io_executor on, int descriptor, Source& of, Stre
 
 Session::State::~State() {
   source.on_ready({});
+  disk.join();  // before what its work refers to goes away
 }
 
 // ---- the way through a print
@@ -226,6 +227,7 @@ asio::awaitable<void> Session::State::send_spooled() {
   modal = state_at(spool->chunks(), leg, first);
   heating = first < hot;
   homeless = heating && !leg.lead_in.empty();
+  replaying = true;
   enter(heating ? SessionState::heating : SessionState::printing);
   while (!stopped) {
     // What leads back to the part is gone through as a whole.
@@ -240,7 +242,8 @@ asio::awaitable<void> Session::State::send_spooled() {
     if (heating && place >= hot) co_await get_hot();
     homeless = homeless && stopped;
   }
-  heating = false;
+  heating = replaying = false;
+  layer_fraction = 0;
   co_await catch_up();
   if (catching_up_failed) std::rethrow_exception(catching_up_failed);
 }
@@ -267,7 +270,6 @@ asio::awaitable<void> Session::State::get_hot() {
 }
 
 asio::awaitable<void> Session::State::send_pieces() {
-  std::size_t pieces = layers_before;
   while (!stopped) {
     std::optional<Piece> piece = co_await next_piece();
     if (!piece || stopped || !co_await keep(std::move(piece->record), piece->chunk)) break;
@@ -275,18 +277,19 @@ asio::awaitable<void> Session::State::send_pieces() {
     chunk_seconds = chunk.seconds;
     whole = whole_layers(chunk);
     time_layers(chunk);
-    layers_begun = layer_at(chunk, 0).value_or(pieces);
+    layers_begun = layer_at(chunk, 0).value_or(layers_begun);
     co_await send(chunk);
     if (stopped) break;
     seconds_sent += std::exchange(chunk_seconds, no_time);
     layers_sent += std::exchange(whole, 0U);
     layer_fraction = 0;
-    ++pieces;
   }
 }
 
-/// The first layer is no measure for the others: it has its own speed, and a skirt.
+/// The first layer is no measure for the others: it has its own speed, and a skirt. What primes is no part of a
+/// layer.
 void Session::State::time_layers(const gcode::Chunk& chunk) {
+  if (source.flow() > 0) unfinished_seconds -= chunk.prime_volume / source.flow();
   for (const gcode::LayerShare& share : chunk.layers) {
     unfinished_seconds += share.seconds;
     if (!share.last) continue;

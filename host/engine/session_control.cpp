@@ -24,9 +24,10 @@ constexpr auto hot_patience = 15min;
 constexpr auto look_interval = 2s;  ///< between looks whether what is lacking has come
 constexpr auto stop_patience = 2s;  ///< for the printer to confirm an emergency stop
 
-constexpr double least_speed = 10, most_speed = 300;       ///< %
-constexpr double least_flow = 50, most_flow = 200;         ///< %
-constexpr double hottest_nozzle = 300, hottest_bed = 150;  ///< °C; beyond, it is a typing error
+constexpr double least_speed = 10, most_speed = 300;  ///< %
+constexpr double least_flow = 50, most_flow = 200;    ///< %
+constexpr double hottest_nozzle = 450,
+                 hottest_bed = 200;  ///< °C, as for a profile; beyond, it is a typing error
 
 constexpr auto over = "the print is ending";
 
@@ -82,9 +83,12 @@ asio::awaitable<void> Session::State::go_aside(std::string why, bool moving) {
   if (moving) {
     gcode::Chunk chunk = gcode::go_aside(source.printer(), pause_here());
     note_progress();
-    if (spool) spool->journal().park(chunk.lines);
+    way_aside = chunk.lines;
+    if (spool) spool->journal().park(way_aside);
     co_await interpose(std::move(chunk.lines));
     co_await link.drain();
+    note_progress();
+    if (spool) spool->journal().aside();
   }
   hot_until = clock->now() + hot_patience;
   enter(SessionState::paused, why);
@@ -95,9 +99,16 @@ asio::awaitable<void> Session::State::come_back(bool moving) {
   enter(SessionState::resuming);
   tell_position();
   heating = true;  // a stop ends it
-  if (moving) co_await interpose(gcode::come_back(source.printer(), pause_here()).lines);
+  if (moving) {
+    std::vector<std::string> lines = gcode::come_back(source.printer(), pause_here()).lines;
+    way_aside.insert(way_aside.end(), lines.begin(), lines.end());
+    if (spool) spool->journal().park(way_aside);  // first: from now on the nozzle may be anywhere on it
+    co_await interpose(std::move(lines));
+  }
   if (moving && !stopped) co_await link.drain();
   heating = false;
+  if (moving) cooled = false;
+  co_await heat_again();
   if (stopped) co_return;
   if (moving && spool) spool->journal().park({});
   enter(SessionState::printing);
@@ -129,10 +140,11 @@ asio::awaitable<void> Session::State::wait_for(const Need& need) {
 asio::awaitable<void> Session::State::stay_aside(bool moved) {
   tell_position();
   co_await interpose(signs_of_life());
-  if (!moved || settings.pause_heat == PauseHeat::lower || clock->now() < hot_until) co_return;
-  hot_until = TimePoint::max();
-  tell(SessionEvent::Kind::notice,
-       "nobody has come for long: the nozzle cools, and is heated before it goes on");
+  const bool lower = settings.pause_heat == PauseHeat::lower;
+  if (cooled || (lower && moved)) co_return;  // on the way aside
+  if (!(lower && pause_wanted) && clock->now() < hot_until) co_return;
+  cooled = true;
+  tell(SessionEvent::Kind::notice, "the nozzle cools, and is heated before it goes on");
   std::vector<std::string> cool(1, gcode::cool_aside(modal));
   co_await interpose(std::move(cool));
 }
@@ -146,6 +158,7 @@ asio::awaitable<void> Session::State::wait_aside(const Need& need) {
   };
   const std::function<bool()> event = [&] { return over() || !wanted.empty(); };
   lacking = moving;
+  hot_until = clock->now() + hot_patience;
   if (moving) co_await go_aside(need.why, true);
   for (TimePoint sign = clock->now() + sign_of_life; !over();) {
     TimePoint next = sign;
@@ -161,7 +174,20 @@ asio::awaitable<void> Session::State::wait_aside(const Need& need) {
     co_await stay_aside(moving);
   }
   lacking = false;
-  if (moving) co_await come_back(true);
+  if (moving)
+    co_await come_back(true);
+  else
+    co_await heat_again();
+}
+
+/// Where it has cooled without having been moved.
+asio::awaitable<void> Session::State::heat_again() {
+  if (!std::exchange(cooled, false) || stopped) co_return;
+  heating = true;  // a stop ends it
+  std::vector<std::string> lines(1, fmt::format("M109 S{:.0f}", modal.nozzle));
+  co_await interpose(std::move(lines));
+  if (!stopped) co_await link.drain();
+  heating = false;
 }
 
 /// Until it is to go on. What is asked for meanwhile is done at once.
@@ -213,7 +239,7 @@ void Session::State::stop(const std::string& why) {
   stopped = true;
   stop_reason = why;
   source.cancel();
-  if (heating) link.cool_down();
+  if (heating || link.waits_for_user()) link.cool_down();
   tell(SessionEvent::Kind::notice,
        heating ? "stopping: heating ends; once more stops the printer at once"
                : "stopping: the printer is parked and cooled; once more stops it at once");
@@ -225,8 +251,7 @@ Refusal Session::pause(const std::string& reason) {
   if (has_ended(s.state) || s.ending() || s.stopped) return over;
   if (s.pause_wanted || s.firmware_holds) return "it is paused already";
   s.pause_wanted = reason;
-  s.tell(SessionEvent::Kind::notice,
-         s.heating ? "it is held as soon as it is hot" : "it is held in a moment");
+  s.tell(SessionEvent::Kind::notice, s.heating ? pause_when_hot : "it is held in a moment");
   return std::nullopt;
 }
 
@@ -241,6 +266,7 @@ Refusal Session::resume() {
 
 /// Whoever paused it does not want that any more.
 void Session::State::go_on() {
+  link.end_wait_for_user();
   if (firmware_holds || (held() && !lacking))
     resume_wanted = true;
   else

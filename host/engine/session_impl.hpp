@@ -62,6 +62,7 @@ struct Session::State {
   asio::awaitable<void> wait_held();
   asio::awaitable<void> go_aside(std::string why, bool moving);
   asio::awaitable<void> come_back(bool moving);
+  asio::awaitable<void> heat_again();
   asio::awaitable<void> stay_aside(bool moved);
   /// Returns when it has come or the print is to end. The nozzle is not left on the part for long.
   asio::awaitable<void> wait_for(const Need& need);
@@ -134,10 +135,12 @@ struct Session::State {
   std::exception_ptr catching_up_failed;
   bool parking = false;  ///< what is sent is not of the spool
   bool parked = false;
-  bool unfit = false;        ///< the printer is another one than the print was made for
-  bool print_begun = false;  ///< lines of it may have been sent
-  bool mixes = true;         ///< as far as the printer has told
-  bool halted = false;       ///< the firmware has said that it has stopped itself
+  std::vector<std::string> way_aside;  ///< the lines that have led the nozzle away, in a pause
+  bool cooled = false;                 ///< the nozzle, while it is held
+  bool unfit = false;                  ///< the printer is another one than the print was made for
+  bool print_begun = false;            ///< lines of it may have been sent
+  bool mixes = true;                   ///< as far as the printer has told
+  bool halted = false;                 ///< the firmware has said that it has stopped itself
   std::optional<Lost> lost;
   double waited = 0;  ///< s for pieces
   std::size_t pauses = 0;
@@ -154,7 +157,9 @@ struct Session::State {
   Anchor numbered;                ///< `place` counts all lines of this session
   std::size_t layers_before = 0;  ///< that the spool held when this session began
   std::size_t layers_begun = 0;
-  double layer_fraction = 0;                   ///< of the chunk that is being sent
+  bool replaying = false;           ///< what is sent comes from the spool
+  mutable double told_percent = 0;  ///< it never falls, though a layer may take longer than was foretold
+  double layer_fraction = 0;        ///< of the chunk that is being sent
   double seconds_sent = 0, chunk_seconds = 0;  ///< of the chunks before, of the one that is being sent
   double unfinished_seconds = 0;               ///< of these, a layer's that ends in a later chunk
   double later_seconds = 0;                    ///< and those of whole layers, but for the print's first
@@ -163,6 +168,7 @@ struct Session::State {
 };
 
 constexpr double no_time = 0;
+constexpr auto pause_when_hot = "it is held as soon as it is hot";
 
 /// Whatever was thrown, as a sentence for a person.
 std::string sentence(const std::exception_ptr& error);

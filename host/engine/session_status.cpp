@@ -128,6 +128,10 @@ void Session::State::warn(const std::string& sentence) {
 /// Layers that are not sent yet are taken to last as the flow foretells, by as much more as those did that
 /// were; where nothing is foretold, as long as those before them on average.
 double Session::State::seconds_left() const {
+  if (replaying) {
+    const double this_layer = source.foretold(layers_begun, layers_begun + 1).value_or(0);
+    return source.foretold(layers_begun, source.layers()).value_or(0) - layer_fraction * this_layer;
+  }
   const double at_hand = chunk_seconds * (1 - layer_fraction);
   const std::size_t done = layers_before + layers_sent + whole;
   if (const auto rest = source.foretold(done, source.layers())) {
@@ -166,14 +170,21 @@ std::string Session::State::mixture() const {
 SessionStatus Session::State::status() const {
   SessionStatus status;
   status.state = state;
-  status.reason = reason;
+  status.reason = pause_wanted && state == SessionState::heating ? pause_when_hot : reason;
   status.layers = source.layers();
   const bool begun = chunk_seconds > 0 || layers_begun > 0 || layers_sent > 0;
   status.layer = begun ? std::min(layers_begun + 1, status.layers) : 0;
   status.layer_fraction = layer_fraction;
-  if (begun) status.left = has_ended(state) ? 0 : seconds_left();
-  const double sent = seconds_sent + chunk_seconds * layer_fraction;
-  if (status.left && sent + *status.left > 0) status.percent = 100 * sent / (sent + *status.left);
+  if (begun) {
+    const double left = seconds_left();
+    double sent = seconds_sent + chunk_seconds * layer_fraction;
+    if (settings.continuation)
+      sent = std::max(source.foretold(0, source.layers()).value_or(0) - left, no_time);
+    status.left = has_ended(state) ? 0 : left;
+    const double rest = state == SessionState::done ? 0 : left;
+    if (sent + rest > 0) told_percent = std::max(told_percent, 100 * sent / (sent + rest));
+    status.percent = told_percent;
+  }
   status.elapsed = std::chrono::duration<double>(clock->now() - began).count();
   status.temperatures = temperatures;
   status.mixture = mixture();

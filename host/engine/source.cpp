@@ -33,8 +33,21 @@ std::optional<Piece> PlannedSource::next() {
   }
   piece.record = record_of(*layer, run_.prepared());
   piece.ready_at = layer->ready_at;
+  taken_ = piece.record.layer.index + 1;
   piece.chunk = run_.layer(std::move(*layer));
+  for (const gcode::LayerShare& share : piece.chunk.layers) {
+    if (share.last) given_ = share.layer + 1;
+  }
   return piece;
+}
+
+/// The encoder withholds a few layers, over which it chooses the route.
+Waiting PlannedSource::waiting() const {
+  Waiting waiting = lookahead_.waiting();
+  if (ended_ || taken_ <= given_) return waiting;
+  waiting.layers += taken_ - given_;
+  waiting.seconds += foretold(given_, taken_).value_or(0);
+  return waiting;
 }
 
 void PlannedSource::cancel() {

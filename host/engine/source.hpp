@@ -55,8 +55,9 @@ class Source {
   /// No further piece is needed.
   virtual void cancel() = 0;
 
-  /// As Lookahead::printed() and waiting().
+  /// As Lookahead::printed().
   virtual void printed(double now, double left) = 0;
+  /// Planned, and in no piece yet.
   virtual Waiting waiting() const = 0;
   /// s that the flow foretells for the layers from `begin` up to `end`, which is not one of them; nothing as
   /// long as that is unknown.
@@ -88,7 +89,7 @@ class PlannedSource final : public Source {
   gcode::Chunk finish() override { return run_.finish(); }
   void cancel() override;
   void printed(double now, double left) override { lookahead_.printed(now, left); }
-  Waiting waiting() const override { return lookahead_.waiting(); }
+  Waiting waiting() const override;
   std::optional<double> foretold(std::size_t begin, std::size_t end) const override {
     return times_.between(begin, end);
   }
@@ -96,7 +97,8 @@ class PlannedSource final : public Source {
  private:
   Lookahead& lookahead_;
   Run& run_;
-  bool ended_;  ///< nothing is withheld any more, or wanted
+  bool ended_;                         ///< nothing is withheld any more, or wanted
+  std::size_t taken_ = 0, given_ = 0;  ///< layers of the print up to which the encoder has taken, and given
   ForetoldTimes times_;
 };
 

@@ -12,6 +12,8 @@
 namespace unicursal::host {
 namespace {
 
+constexpr double least_flow = 0.01, most_flow = 1000;  ///< mm³/s; below, moves are slower than firmwares can
+
 /// Spacing of the curve ÷ distance of the seeds; the inverse of what the planner takes (tests/bench/spacing).
 constexpr double bead_width_per_seed_distance = 1 / 1.4;
 
@@ -150,7 +152,7 @@ void read_flow(const Section& part, Job& job) {
     job.automatic_flow = true;
     return;
   }
-  job.flow = part.number("flow", above(0, "mm³/s"), "write for example flow = 2.0");
+  job.flow = part.number("flow", between(least_flow, most_flow, "mm³/s"), "write for example flow = 2.0");
   if (job.flow > greatest) {
     part.fail("flow", fmt::format("is {} mm³/s, but the printer melts at most {} mm³/s", job.flow, greatest),
               "lower it, or raise extruder.max_flow in the profile if that is wrong");

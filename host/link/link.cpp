@@ -82,6 +82,14 @@ void Link::cool_down() noexcept {
   state_->cool_down();
 }
 
+bool Link::waits_for_user() const {
+  return state_->waits_for_user;
+}
+
+void Link::end_wait_for_user() noexcept {
+  state_->end_wait_for_user();
+}
+
 void Link::emergency_stop() noexcept {
   state_->emergency_stop();
 }

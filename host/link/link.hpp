@@ -74,6 +74,8 @@ std::vector<PortInfo> list_ports();
 /// there is; where there are several, the first that answers M115 (find_port.hpp). Returns the file
 /// descriptor, owned by the caller. Throws PortError.
 int open_port(const std::string& path, unsigned baud);
+/// The device behind an open port: the same for every name that it has.
+std::string device_of(int port);
 
 struct LinkOptions {
   std::shared_ptr<Clock> clock = real_clock();  ///< that the times below are measured by
@@ -95,6 +97,10 @@ struct LinkOptions {
 /// The same, and nothing is waited for (`boot` becomes 0) where opening cannot have reset the board: this
 /// program had the port before and has kept DTR up since, or the printer has just answered.
 int open_port(const std::string& path, unsigned baud, LinkOptions& options);
+
+/// The device behind an open port, which is the same whatever name it was opened by; empty if that is
+/// unknown.
+std::string device_of(int port);
 
 struct LinkStatistics {
   std::uint64_t lines = 0;         ///< lines handed to send()
@@ -146,6 +152,10 @@ class Link {
   /// Out of band: ends a wait for heat and switches the heaters off; lines that have no number yet are
   /// forgotten. Best effort, may be repeated. The conversation goes on.
   void cool_down() noexcept;
+  /// Whether the printer says that it waits for a person: it runs nothing meanwhile.
+  bool waits_for_user() const;
+  /// Out of band: ends that wait (M108).
+  void end_wait_for_user() noexcept;
   /// Out of band, now: M112 past every queue. Best effort; every later send() and drain() throws.
   void emergency_stop() noexcept;
 

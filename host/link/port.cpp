@@ -217,4 +217,9 @@ int open_port(const std::string& path, unsigned baud, LinkOptions& options) {
   return open_real(port.get(), wanted, baud);
 }
 
+std::string device_of(int port) {
+  std::error_code unknown;
+  return fs::read_symlink("/proc/self/fd/" + std::to_string(port), unknown).string();
+}
+
 }  // namespace unicursal::host

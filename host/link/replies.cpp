@@ -40,6 +40,7 @@ void Link::State::hear(std::string_view line) {
 void Link::State::take(const reply::Ok& ok) {
   ++oks;
   last_ok = last_life = now();
+  waits_for_user = false;
   idle_words = 0;
   if (!ok.temperatures.empty()) {
     told_temperatures = ok.temperatures;
@@ -116,8 +117,11 @@ void Link::State::take(const reply::Start&) {
       "check its power supply, see `unicursal resume`");
 }
 
-void Link::State::take(const reply::Busy&) {
+/// Nobody knows how long it takes until a person comes.
+void Link::State::take(const reply::Busy& busy) {
   last_life = now();
+  waits_for_user = busy.for_user;
+  if (busy.for_user) last_ok = now();
 }
 
 /// Repetier's, every second in which it does nothing. The first may have crossed with lines on their way.

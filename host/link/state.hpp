@@ -55,6 +55,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   void pump();  ///< writes what may be written now
   void wait_for_port();
   void cool_down() noexcept;
+  void end_wait_for_user() noexcept;
   void emergency_stop() noexcept;
   void close();
 
@@ -156,6 +157,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
 
   std::uint64_t bytes_heard = 0;
   std::uint64_t oks = 0, refusals = 0, lines_heard = 0, waits_heard = 0;
+  bool waits_for_user = false;  ///< as the printer has last said
   TimePoint last_ok = now();
   TimePoint last_life = now();  ///< of an ok or a busy
 };

@@ -101,6 +101,19 @@ void Link::State::cool_down() noexcept {
   }
 }
 
+void Link::State::end_wait_for_user() noexcept {
+  try {
+    if (failure || phase == Phase::greeting || !waits_for_user) return;
+    waits_for_user = false;
+    doubt = out_of_band = true;
+    interruptions = most_interruptions;
+    write("M108\n");
+    signal.notify();
+  } catch (...) {
+    // It can still be told so by its own button.
+  }
+}
+
 void Link::State::emergency_stop() noexcept {
   try {
     const int descriptor = port.native_handle();

@@ -20,7 +20,7 @@ constexpr std::int64_t repetier_modulus = 65536;
 constexpr std::uint64_t most_lines = 1'000'000'000'000;  ///< of one print, fifty years' worth
 
 /// First byte of a record. Numbers of the format: never given a new meaning.
-enum class Event : std::uint8_t { session = 1, leg, anchor, progress, park, end, superseded };
+enum class Event : std::uint8_t { session = 1, leg, anchor, progress, park, end, superseded, aside };
 
 ByteWriter event(Event what) {
   ByteWriter bytes;
@@ -87,6 +87,10 @@ void apply(JournalState& state, ByteReader bytes) {
       break;
     case Event::park:
       state.parking = lines_in(bytes);
+      state.aside = false;
+      break;
+    case Event::aside:
+      state.aside = true;
       break;
     case Event::end:
       state.ended = ended_in(bytes);
@@ -188,6 +192,10 @@ void Journal::park(const std::vector<std::string>& lines) {
   ByteWriter bytes = event(Event::park);
   put(bytes, lines);
   write_now(bytes.bytes());
+}
+
+void Journal::aside() {
+  write_now(event(Event::aside).bytes());
 }
 
 void Journal::end(const Ended& ended) {

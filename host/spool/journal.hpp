@@ -53,7 +53,8 @@ struct JournalState {
   std::vector<Anchor> anchors;       ///< since the numbers began anew
   std::uint64_t handed = 0;          ///< places before this one were handed to the link
   std::uint64_t acknowledged = 0;    ///< places before this one have their ok
-  std::vector<std::string> parking;  ///< lines that ended the print early, after `handed`
+  std::vector<std::string> parking;  ///< lines that led the nozzle away, after `handed`, and perhaps back
+  bool aside = false;                ///< it has come where these led it, and everything before them was run
   bool superseded = false;           ///< another print has begun: the printer is no longer where it was
   std::optional<Ended> ended;
 
@@ -78,7 +79,8 @@ class Journal {
   void begin_leg(const Leg& leg);
   /// From now on line `number` on the wire is the one at `place`. `anew`: numbers told before mean nothing.
   void anchor(const Anchor& anchor, bool anew);
-  void park(const std::vector<std::string>& lines);  ///< these are sent instead of the rest
+  void park(const std::vector<std::string>& lines);  ///< these are sent instead of the rest, or before it
+  void aside();                                      ///< and were run
   void end(const Ended& ended);
   void supersede();
 

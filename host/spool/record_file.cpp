@@ -115,14 +115,23 @@ void RecordWriter::append(std::string_view content) {
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       const int error = count < 0 ? errno : ENOSPC;
-      const auto end = static_cast<off_t>(length_);
-      // Where even that fails, the half record is cut when the file is read again.
-      if (::ftruncate(descriptor_, end) == 0) ::lseek(descriptor_, end, SEEK_SET);
+      cut();
       refuse(error);
     }
     done += static_cast<std::size_t>(count);
   }
-  length_ += bytes.size();
+  before_last_ = std::exchange(length_, length_ + bytes.size());
+}
+
+/// Where even that fails, half a record is cut when the file is read again.
+void RecordWriter::cut() noexcept {
+  const auto end = static_cast<off_t>(length_);
+  if (::ftruncate(descriptor_, end) == 0) ::lseek(descriptor_, end, SEEK_SET);
+}
+
+void RecordWriter::drop_last() noexcept {
+  length_ = before_last_;
+  cut();
 }
 
 void RecordWriter::sync() {

@@ -52,13 +52,17 @@ class RecordWriter {
   void append(std::string_view content);
   /// From here on what was appended survives the computer, too. Throws SpoolFull.
   void sync();
+  /// As if the last record had never been appended; best effort. Precondition: one was, and none dropped
+  /// since.
+  void drop_last() noexcept;
 
  private:
   [[noreturn]] void refuse(int error);
+  void cut() noexcept;  ///< to `length_`
 
   std::filesystem::path file_;
   int descriptor_ = -1;
-  std::uint64_t length_;
+  std::uint64_t length_, before_last_ = 0;
 };
 
 /// Makes a folder's new names survive the computer; best effort.

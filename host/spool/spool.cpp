@@ -133,6 +133,7 @@ PrintOrder order_in(const json& record) {
   PrintOrder order;
   order.job_name = record.at("name").get<std::string>();
   order.port = record.at("port").get<std::string>();
+  order.device = record.at("device").get<std::string>();
   order.layer_count = record.at("layer_count").get<std::size_t>();
   if (const json& layers = record.at("layers"); layers.is_array()) {
     order.layers = std::pair(layers.at(0).get<std::size_t>(), layers.at(1).get<std::size_t>());
@@ -176,10 +177,11 @@ void remove_old(const fs::path& root) {
   }
 }
 
-void supersede(const fs::path& folder, const std::string& port) {
+void supersede(const fs::path& folder, const PrintOrder& by) {
   const Lock lock(folder);
   const json record = read_order(folder);
-  if (of_record(folder, [&] { return order_in(record); }).port != port) return;
+  const PrintOrder order = of_record(folder, [&] { return order_in(record); });
+  if (order.port != by.port && order.device != by.device) return;
   std::uint64_t sound = 0;
   const JournalState state = read_journal(journal_file(folder), &sound);
   const bool over = state.ended && state.ended->outcome == Outcome::completed;
@@ -217,6 +219,7 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
                  {"program", UNICURSAL_VERSION},
                  {"name", order.job_name},
                  {"port", order.port},
+                 {"device", order.device},
                  {"layer_count", order.layer_count},
                  {"layers", order.layers ? json{order.layers->first, order.layers->second} : json()},
                  {"look_ahead", job.look_ahead},
@@ -293,7 +296,7 @@ void Spool::supersede_others() noexcept {
     for (const fs::path& folder : kept_prints(state_->folder.parent_path())) {
       if (folder == state_->folder) continue;
       try {
-        supersede(folder, state_->order.port);
+        supersede(folder, state_->order);
       } catch (const SpoolError&) {
         // In use on another printer, or beyond help.
       }
@@ -310,7 +313,12 @@ void Spool::discard() noexcept {
 
 void Spool::append(const SpooledChunk& chunk) {
   state_->chunks.append(to_bytes(chunk));
-  state_->chunks.sync();
+  try {
+    state_->chunks.sync();
+  } catch (const SpoolFull&) {
+    state_->chunks.drop_last();  // it is appended again when there is room
+    throw;
+  }
 }
 
 fs::path default_spool_root() {

@@ -31,6 +31,7 @@ namespace unicursal::host {
 struct PrintOrder {
   std::string job_name;                                       ///< for people
   std::string port;                                           ///< as the user said: a path or "auto"
+  std::string device;                                         ///< that this was, when the print began
   std::optional<std::pair<std::size_t, std::size_t>> layers;  ///< first and last, if not all
   std::size_t layer_count = 0;                                ///< to be printed
 };

@@ -113,12 +113,12 @@ void starve(const std::string& job) {
     fmt::print(
         "{:<16} ×{:<3} {:>6} layers {:>8.0f} s printed  starvations {:>3}, {:>6.2f} s stopped  waited "
         "{:>6.2f} s"
-        "  hurried {:>4}, least effort {:.2f}  peak {:>5.0f} MiB at layer 10, {:>5.0f} in all  ({:.0f} s)\n",
+        "  hurried {:>4}, least effort {:.2f}  peak {:>5.0f} MiB{}  ({:.0f} s)\n",
         name_of(job), charge, report["layer_count"].get<int>(),
         report["simulator"]["printing_seconds"].get<double>(), motion["starvations"].get<int>(),
         motion["stopped_seconds"].get<double>(), report["planning"]["waited_seconds"].get<double>(),
-        effort["hurried_layers"].get<int>(), effort["least"].get<double>(), seen.at_ten, seen.most,
-        since(begun));
+        effort["hurried_layers"].get<int>(), effort["least"].get<double>(), seen.most,
+        seen.at_ten > 0 ? fmt::format(", {:.0f} at layer {}", seen.at_ten, early) : "", since(begun));
     if (const std::string hurried = hurried_layers(report); !hurried.empty())
       fmt::print("{:<21} layers with less than their effort:{}\n", "", hurried);
     std::fflush(stdout);

@@ -140,6 +140,38 @@ TEST_CASE("a lead-in moves only when hot, rises first, and never homes z") {
   CHECK(risen);
 }
 
+TEST_CASE("a lead-in into the middle of a mixture's definition tells the shares before it again") {
+  std::vector<std::string> lines = a_print;
+  lines.insert(lines.end(), {"M163 S0 P.2", "M163 S1 P.3"});
+  ModalState state;
+  for (const std::string& line :
+       lead_in(Printer{}, {after(lines), 0.2, 2, core::Box{{90, 90}, {110, 110}}}).lines)
+    state.run(line);
+  state.run("M163 S2 P.5");  // with which the print goes on
+  state.run("M164 S0");
+  CHECK(state.tools.at(0) == ModalState::Lines{"M163 S0 P.2", "M163 S1 P.3", "M163 S2 P.5", "M164 S0"});
+}
+
+TEST_CASE(
+    "a lead-in makes up for all that hangs back, and draws back in equal shares however they are rounded") {
+  std::vector<std::string> lines = a_print;
+  lines.insert(lines.end(), {"M163 S0 P.3334", "M163 S1 P.3333", "M163 S2 P.3333", "M164 S2"});
+  LeadIn to{after(lines), 0.2, 2, core::Box{{90, 90}, {110, 110}}};
+  to.state.tools.erase(1);
+  const auto pushed = [&](double drawn) {
+    to.drawn = drawn;
+    double sum = 0;
+    std::string tool;
+    for (const std::string& line : lead_in(Printer{}, to).lines) {
+      if (line.starts_with("T")) tool = line;
+      if (line.starts_with("G1 E")) sum += std::stod(line.substr(4));
+      if (line.starts_with("G1 E-")) CHECK(tool == "T2");
+    }
+    return sum;
+  };
+  CHECK(pushed(8) - pushed(0) == Approx(8));
+}
+
 TEST_CASE("a lead-in keeps below the bed's ceiling, and tells when nothing can be squeezed out") {
   Printer printer;
   CHECK(lead_in_rise(printer, 0.2) == 10);

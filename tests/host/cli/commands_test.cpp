@@ -2,6 +2,7 @@
 #include <poll.h>
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -238,6 +239,28 @@ TEST_CASE("A simulator that stands alone takes a print, more than one process aw
   REQUIRE(outcome.code == 0);  // else the simulator would wait for a host for ever
   CHECK(simulator.wait().code == 0);
   CHECK(read_json(shop.path("seen.json"))["last_line"] == read_json(shop.path("r.json"))["link"]["lines"]);
+}
+
+TEST_CASE("Words for people never go into a file or to a printer, not even without standard streams") {
+  const Workshop shop;
+  const std::string script = "exec 0<&- 1>&- 2>&-; exec \"" UNICURSAL_PROGRAM "\" dry-run \"" + shop.job +
+                             "\" --report \"" + shop.path("r.json") + "\"";
+  const int code = std::system(script.c_str());
+  CHECK(WEXITSTATUS(code) == 0);
+  const json report = read_json(shop.path("r.json"));
+  CHECK(report["simulator"]["lines"]["unknown"] == 0);
+  CHECK(report["ended"] == "completed");
+}
+
+TEST_CASE("A serial log is no other file of the print") {
+  const Workshop shop;
+  const std::string before = test::read_text(shop.job);
+  CHECK(run({"dry-run", shop.job, "--log", shop.job}).code == 2);
+  CHECK(run({"print", shop.job, "--log", shop.path("bench.toml"), "--port", shop.path("none")}).code == 2);
+  CHECK(run({"doctor", "--profile", shop.path("bench.toml"), "--log", shop.path("bench.toml")}).code == 2);
+  CHECK(run({"dry-run", shop.job, "--log", shop.path("r"), "--report", shop.path("r")}).code == 2);
+  CHECK(test::read_text(shop.job) == before);
+  CHECK(test::read_text(shop.path("bench.toml")) == test::sample_profile);
 }
 
 TEST_CASE("A simulator moves no faster than its profile's axes") {

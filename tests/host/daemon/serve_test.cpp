@@ -253,6 +253,24 @@ TEST_CASE("a job that cannot be printed says why, and the next can") {
   bench.await_job(sound, "done");
 }
 
+TEST_CASE("what was queued is what is printed, though another job of its name is sent after it") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve();
+  bench.folder().write("plate.svg", test::sample_drawing);
+  bench.folder().write("bench.toml", test::sample_profile);
+  bench.folder().write("own.toml", test::sample_job);
+  CHECK(bench.command({"queue", "--upload", bench.path("own.toml")}).out == "1 upload:own/own.toml\n");
+  bench.folder().write("own.toml", test::replaced(test::sample_job, "flow = 3.0", "flow = 1.0"));
+  CHECK(bench.command({"queue", "--upload", bench.path("own.toml")}).out == "2 upload:own-2/own.toml\n");
+  CHECK(test::read_text(bench.path("state/files/own/own.toml")) == test::sample_job);
+  CHECK(bench.status(bench.request("PUT", "/api/files/own/own.toml", "x")) == 409);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_job(1, "done");
+  CHECK(bench.ask("GET", "/api/status")["last"]["job"]["state"] == "done");
+  CHECK(bench.status(bench.request("PUT", "/api/files/own/own.toml", "x")) == 201);
+}
+
 TEST_CASE("a user's own job is sent along with its files") {
   DaemonBench bench;
   bench.start_printer("0");

@@ -79,7 +79,7 @@ const std::vector<Case> spoilt_jobs = {
      {"line 8", "part.seed_distance", "0.49 mm", "1 mm wide", "0.5 and 4"}},
     {"flow = 3.0", "seed_distance = 4.1", {"line 8", "part.seed_distance", "4.1 mm", "leave out one"}},
     {"flow = 3.0", "flow = 5.1", {"line 8", "part.flow", "5.1 mm³/s", "at most 5", "max_flow"}},
-    {"flow = 3.0", "flow = 0", {"line 8", "part.flow", "above 0"}},
+    {"flow = 3.0", "flow = 0", {"line 8", "part.flow", "0.01"}},
     {"flow = 3.0", "flow = \"fast\"", {"line 8", "part.flow", "\"auto\""}},
     {"flow = 3.0", "perimeters = -1", {"line 8", "part.perimeters", "-1"}},
     {"flow = 3.0", "perimeters = 1.5", {"line 8", "part.perimeters", "whole number"}},

@@ -45,11 +45,11 @@ std::optional<double> awaited(const ForetoldTimes& times, std::size_t begin, std
   return times.between(begin, end);
 }
 
-/// A pyramid with a square foot of 16 mm, cut off at half its height of 16 mm.
+/// A pyramid with a square foot of 10 mm, cut off at half its height of 8 mm.
 std::string frustum() {
   std::ostringstream stl;
-  const double foot[4][3] = {{0, 0, 0}, {16, 0, 0}, {16, 16, 0}, {0, 16, 0}};
-  const double top[4][3] = {{4, 4, 8}, {12, 4, 8}, {12, 12, 8}, {4, 12, 8}};
+  const double foot[4][3] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  const double top[4][3] = {{2.5, 2.5, 4}, {7.5, 2.5, 4}, {7.5, 7.5, 4}, {2.5, 7.5, 4}};
   const auto facet = [&](const double* a, const double* b, const double* c) {
     stl << "facet normal 0 0 0\nouter loop\n";
     for (const double* p : {a, b, c}) stl << "vertex " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
@@ -112,8 +112,11 @@ TEST_CASE("The time that is left of a part that tapers is right from its second 
   bench.print([&](Session& session, const SessionEvent&) {
     const SessionStatus status = session.status();
     if (status.state == SessionState::finishing && end == 0) end = status.elapsed;
-    if (status.state == SessionState::printing && status.layer > 1 && status.left)
-      told.emplace_back(status.elapsed, *status.left);
+    if (status.state != SessionState::printing || status.layer <= 1 || !status.left) return;
+    told.emplace_back(status.elapsed, *status.left);
+    if (status.layer < 6) CHECK(status.lookahead > 0);  // planned, though the encoder has it
+    // Of the layer that is being sent, the end may still be withheld.
+    CHECK(status.layer + status.lookahead_layers <= status.layers + 1);
   });
   REQUIRE(told.size() > 20);
   const double whole = end - told.front().first;

@@ -43,6 +43,18 @@ TEST_CASE("records come back as they were appended") {
   CHECK(test::read_text(folder / "r") == file_of(three));
 }
 
+TEST_CASE("a record that is dropped was never there") {
+  const test::TempFolder folder;
+  RecordWriter writer(folder / "r", 0);
+  writer.append(three[0]);
+  writer.append("that could not be synced");
+  writer.drop_last();
+  CHECK(test::read_text(folder / "r") == file_of({three[0]}));
+  writer.append(three[1]);
+  writer.append(three[2]);
+  CHECK(test::read_text(folder / "r") == file_of(three));
+}
+
 TEST_CASE("a file torn at any byte gives the whole records before, and can be gone on with") {
   const test::TempFolder folder;
   const std::string whole = file_of(three);

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "host/spool/chunk_reader.hpp"
+#include "host/spool/journal.hpp"
 #include "tests/host/support/print_bench.hpp"
 
 using namespace unicursal;
@@ -90,11 +91,11 @@ const std::vector<std::string> garbling{"--fault", "merge:0.002",    "--fault", 
 
 TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice") {
   kill_and_resume(0, 2, 1);
-  kill_and_resume(100, 3, 2);
+  kill_and_resume(100, 1, 2);
 }
 
 TEST_CASE("the same over a line that garbles what passes") {
-  kill_and_resume(100, 3, 3, garbling);
+  kill_and_resume(100, 1, 3, garbling);
 }
 
 TEST_CASE("200 kills at random moments leave the part as it would have been", "[long]") {
@@ -181,6 +182,26 @@ TEST_CASE("a cable that was pulled and put back costs nothing") {
   INFO(resumed.out << resumed.err);
   REQUIRE(resumed.code == 0);
   check_equal(bench.seen(), whole);
+}
+
+TEST_CASE("a print whose host dies while it is held aside goes on at its height") {
+  const Seen whole = undisturbed(0).seen;
+  Bench bench(0, {"--fault", "say://action:pause@line=700"});
+  Child host(bench.print());
+  Bench::wait_for([&] { return bench.begun(); }, host);
+  const auto journal = [&] { return host::read_journal(bench.print_folder() / "journal"); };
+  Bench::wait_for([&] { return journal().aside; }, host);
+  REQUIRE(host.running());
+  kill(host.id(), SIGKILL);
+  host.wait();
+  const std::uint64_t held = journal().handed;
+  const Outcome resumed = bench.resume_anyway();
+  INFO(resumed.out << resumed.err);
+  REQUIRE(resumed.code == 0);
+  const Seen seen = bench.seen();
+  CHECK(ends_like(seen.lines, whole.lines, held));
+  CHECK(seen.report["layers"].size() == whole.report["layers"].size());
+  CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
 TEST_CASE("a print that was stopped and parked can be taken up again") {
