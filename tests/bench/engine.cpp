@@ -5,7 +5,8 @@
 //                      layers, those included that the hot printer needs before its first bead, which quality
 //                      was given up, and the host's memory at layer 10 and at most
 //   start JOB…         `print` on a printer that is hot and homed: time to the first extruding move, less
-//                      what the same lines take when they are sent without any thinking
+//                      what the printer takes for the lines before it (from the first of them on the wire to
+//                      its last ok: homing, the bed's and the nozzle's last degrees)
 //   live MINUTES JOB…  by the clock on the wall: starvation, and what each kind of thread takes of a core
 //
 // The figures vary with the computer and with what else it does. s, MiB.
@@ -196,13 +197,10 @@ class HotPrinter {
       nap(look_again);
     }
     send();  // heats, homes and primes
-    own_seconds_ = send();
   }
 
   std::string port() const { return folder_ / "port"; }
   std::string path(const std::string& name) const { return folder_ / name; }
-  /// s that the printer itself takes from the first line of a print to the first extruding move.
-  double own_seconds() const { return own_seconds_; }
   Transcript& transcript() { return transcript_; }
   /// Ends it.
   json seen() {
@@ -212,19 +210,16 @@ class HotPrinter {
   }
 
  private:
-  double send() {
+  void send() {
     asio::io_context loop{1};
     host::Link link(loop.get_executor(), host::open_port(port(), profile_.baud), {});
     std::exception_ptr failure;
-    double seconds = 0;
     asio::co_spawn(
         loop,
         [&]() -> asio::awaitable<void> {
           co_await link.connect();
-          const auto begun = Clock::now();
           co_await link.send(lines_);
           co_await link.drain();
-          seconds = since(begun);
         },
         [&](std::exception_ptr thrown) {
           failure = thrown;
@@ -233,7 +228,6 @@ class HotPrinter {
     loop.run();
     if (failure) std::rethrow_exception(failure);
     transcript_.extruding();
-    return seconds;
   }
 
   test::TempFolder folder_;
@@ -241,7 +235,6 @@ class HotPrinter {
   const std::vector<std::string> lines_;
   Child printer_;
   Transcript transcript_;
-  double own_seconds_ = 0;
 };
 
 /// Processor seconds of a process by the name of its threads; the first thread runs the link, "link".
@@ -266,19 +259,38 @@ std::map<std::string, double> thread_seconds(pid_t process) {
   return seconds;
 }
 
+/// s that the printer took for what a print sent it before the first extruding move, by its serial log.
+double printers_own(const std::string& log) {
+  std::istringstream stream(test::read_text(log));
+  std::optional<double> begun;
+  double last_ok = 0, time = 0;
+  char way = 0;
+  for (std::string line; stream >> time >> way && std::getline(stream, line);) {
+    if (way == '<') {
+      if (line.starts_with(" ok")) last_ok = time;
+      continue;
+    }
+    if (line.starts_with(" N") && !begun) begun = time;
+    if (line.find(" G1 ") != std::string::npos && line.find(" X") != std::string::npos &&
+        line.find(" E") != std::string::npos)
+      return last_ok - begun.value_or(time);
+  }
+  throw std::runtime_error("the serial log tells of no extruding move");
+}
+
 /// `minutes`: of printing, after the first extruding move; 0: none.
 void print(const std::string& job, double minutes) {
   HotPrinter printer(job);
   const auto begun = Clock::now();
-  Child host({"print", job, "--port", printer.port(), "--spool", printer.path("spool"), "--report",
-              printer.path("report.json")});
+  const std::string log = printer.path("line.log");
+  Child host({"print", job, "--port", printer.port(), "--log", log, "--spool", printer.path("spool"),
+              "--report", printer.path("report.json")});
   printer.transcript().await_next(host);
-  const double first = since(begun);
+  const double first = since(begun), own = printers_own(log);
   fmt::print(
       "{:<16} first extruding move {:.2f} s after `print`; the printer's own part {:.2f} s; added by the "
-      "host "
-      "{:.2f} s\n",
-      name_of(job), first, printer.own_seconds(), first - printer.own_seconds());
+      "host {:.2f} s\n",
+      name_of(job), first, own, first - own);
   std::fflush(stdout);
   if (minutes == 0) return;
   const auto before = thread_seconds(host.id());

@@ -74,8 +74,10 @@ TEST_CASE("temperatures") {
 TEST_CASE("the rest of the vocabulary") {
   parsed<reply::Start>("start");
   parsed<reply::Wait>("wait");
-  parsed<reply::Busy>("echo:busy: processing");
-  parsed<reply::Busy>("busy:processing");
+  CHECK_FALSE(parsed<reply::Busy>("echo:busy: processing").for_user);
+  CHECK_FALSE(parsed<reply::Busy>("busy:processing").for_user);
+  CHECK(parsed<reply::Busy>("echo:busy: paused for user").for_user);
+  CHECK(parsed<reply::Busy>("echo:busy: paused for input").for_user);
   CHECK(parsed<reply::Skip>("skip 1").line == 1u);
   CHECK(parsed<reply::Action>("//action:out_of_filament T0").text == "out_of_filament T0");
   CHECK(parsed<reply::Echo>("echo:Unknown command: \"M9999\"").unknown_command);

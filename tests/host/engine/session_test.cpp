@@ -356,6 +356,24 @@ TEST_CASE("What it tells of itself holds together") {
   CHECK(bench.last().left == 0);
 }
 
+TEST_CASE("A nozzle that is held before its first move cools, too, and is hot before it goes on") {
+  SessionBench bench;
+  bench.settings.pause_heat = PauseHeat::lower;
+  bench.settings.longest_pause = 60;
+  const StreamResult result = bench.print([](Session& session, const SessionEvent& event) {
+    if (event.kind == Kind::state && session.status().state == SessionState::heating) session.pause();
+  });
+  CHECK(result.ending == Ending::completed);
+  CHECK(result.pauses == 1);
+  const std::vector<std::string> lines = bench.executed();
+  const auto cooled = std::find(lines.begin(), lines.end(), "M104 S150");
+  const auto hot = std::find(cooled, lines.end(), "M109 S210");
+  const auto laid = std::find_if(lines.begin(), lines.end(),
+                                 [](const std::string& line) { return line.starts_with("G1 X"); });
+  REQUIRE(hot != lines.end());
+  CHECK(hot < laid);
+}
+
 TEST_CASE("Heaters are cold or the firmware has killed itself, however a print ends") {
   const std::string fault =
       GENERATE("", "reset@line=300", "thermistor@line=300", "fatal:Something broke@line=300",
