@@ -224,6 +224,9 @@ PrintPlan Daemon::plan_of(const QueuedJob& job) const {
 
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {
   queue_.enter(id, state, reason);
+  const QueuedJob* entered = queue_.find(id);
+  if (entered && last_.contains("job") && last_["job"].value("id", id + 1) == id)
+    last_["job"] = to_json(*entered);
   std::string trouble;
   try {
     co_await save();
@@ -254,8 +257,6 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   current_.reset();
   notify_service("STATUS=idle");
   co_await enter(id, ending, reason);
-  const QueuedJob* ended = queue_.find(id);
-  if (ended && !last_.is_null()) last_["job"] = to_json(*ended);
   if (when_idle_) when_idle_();
 }
 
