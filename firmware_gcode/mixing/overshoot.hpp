@@ -6,8 +6,8 @@
 // Method: the answer of tanks is linear, so that what comes out of a sequence of inflows is a sum of shifted
 // step responses. The pulses' mixtures and volumes are found by a pattern search from a coarse grid; the
 // measure is that of the schedule (misplaced plastic, and once more what is taken for another material). No
-// nozzle is quite what its profile says, so that the mean over nozzles like it is what counts: of a fifth
-// less and a fifth more volume, and of other numbers of tanks. Source: input shaping of linear systems
+// nozzle is quite what its profile says, so that the mean over nozzles like it is what counts: of 15 %
+// less and 15 % more volume, and of other numbers of tanks. Source: input shaping of linear systems
 // (control engineering); the paper has nothing of the kind.
 #pragma once
 
