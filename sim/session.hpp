@@ -11,7 +11,7 @@
 
 #include "sim/line/terminal.hpp"
 #include "sim/printer.hpp"
-#include "sim/simulator.hpp"
+#include "sim/simulator_options.hpp"
 #include "sim/stop_signals.hpp"
 
 namespace unicursal::sim {

@@ -9,6 +9,7 @@
 
 #include "sim/bed/bead_pictures.hpp"
 #include "sim/bed/deposit.hpp"
+#include "sim/bed/raster.hpp"
 #include "sim/lockstep.hpp"
 #include "sim/motion/motion_log.hpp"
 #include "sim/motion/motion_picture.hpp"
@@ -16,7 +17,6 @@
 #include "sim/nozzle/feed_log.hpp"
 #include "sim/nozzle/nozzle.hpp"
 #include "sim/printer.hpp"
-#include "sim/raster.hpp"
 #include "sim/report.hpp"
 #include "sim/session.hpp"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/geometry/nearest_kernel.hpp"
+#include "core/geometry/predicates.hpp"
 #include "core/geometry/segment_grid.hpp"
 #include "core/geometry/segment_rows.hpp"
-#include "core/graph/voronoi.hpp"
 
 namespace unicursal::core {
 namespace {

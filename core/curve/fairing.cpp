@@ -12,8 +12,8 @@
 #include "core/curve/retraction.hpp"
 #include "core/curve/shape_terms.hpp"
 #include "core/geometry/lattice.hpp"
-#include "core/geometry/quasi_newton.hpp"
-#include "core/parallel.hpp"
+#include "core/numeric/parallel.hpp"
+#include "core/numeric/quasi_newton.hpp"
 
 namespace unicursal::core {
 namespace {

@@ -18,8 +18,8 @@
 #include "core/curve/curve.hpp"
 #include "core/field/direction_field.hpp"
 #include "core/geometry/polygon.hpp"
-#include "core/pace.hpp"
-#include "core/parallel.hpp"
+#include "core/numeric/parallel.hpp"
+#include "core/numeric/step_budget.hpp"
 
 namespace unicursal::core {
 
@@ -44,7 +44,7 @@ struct FairingOptions {
   std::vector<OrientationZone> zones;  ///< of the orientation objectives
   double evenness = 1;         ///< weight of (53) in isotropic zones, square bead widths; compare γ_Obj (54)
   double likeness = 0.006;     ///< the same in anisotropic zones
-  Another another;             ///< asked before each iteration
+  MayContinue another;         ///< asked before each iteration
   double smoothness = 0.04;    ///< γ_Lap in units of area ÷ vertices (31)
   Workers* workers = nullptr;  ///< that share the work; the result is the same for any number of them
 };

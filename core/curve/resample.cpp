@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/curve/clearance.hpp"
+#include "core/geometry/predicates.hpp"
 #include "core/geometry/segment_grid.hpp"
-#include "core/graph/voronoi.hpp"
 
 namespace unicursal::core {
 namespace {

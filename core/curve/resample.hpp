@@ -3,7 +3,7 @@
 
 #include "core/curve/curve.hpp"
 #include "core/geometry/border_index.hpp"
-#include "core/parallel.hpp"
+#include "core/numeric/parallel.hpp"
 
 namespace unicursal::core {
 

@@ -14,7 +14,7 @@
 
 #include "core/cycle/tour.hpp"
 #include "core/cycle/tour_order.hpp"
-#include "core/geometry/random.hpp"
+#include "core/numeric/random.hpp"
 
 namespace unicursal::core {
 

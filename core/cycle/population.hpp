@@ -9,7 +9,7 @@
 namespace unicursal::core {
 
 /// Improves a tour in place with one random stream. Called from several threads.
-using Evolve = std::function<ShuffleReport(Tour&, Random&, const Another&)>;
+using Evolve = std::function<ShuffleReport(Tour&, Random&, const MayContinue&)>;
 
 /// Edges that one tour has and the other has not (the paper's distance between cycles). Precondition: both
 /// are tours of the same graph.

@@ -28,7 +28,7 @@ class Run {
     report_.before = objective_.value();
   }
 
-  ShuffleReport go(const Another& another) {
+  ShuffleReport go(const MayContinue& another) {
     if (options_.rule == ShuffleOptions::Rule::annealing) {
       anneal(another);
     } else {
@@ -42,7 +42,7 @@ class Run {
   Tour release() && { return std::move(tour_).release(); }
 
  private:
-  void anneal(const Another& another) {
+  void anneal(const MayContinue& another) {
     const double ratio = options_.cold / options_.hot;
     for (int k = 0; k < options_.sweeps; ++k) {
       if (another && !another()) break;
@@ -53,7 +53,7 @@ class Run {
     quench();
   }
 
-  void algorithm_1(const Another& another) {
+  void algorithm_1(const MayContinue& another) {
     const auto stops = static_cast<double>(tour_.tour().stop_count());
     // (1) scales the objective to [0, 1]: the squared angle is at most π²/4.
     const double scale = 1 / (objective_.edge_length() * stops * std::numbers::pi * std::numbers::pi / 4);
@@ -120,7 +120,7 @@ ShuffleReport shuffle(Tour& tour, const DemandAt& demand, const RunCost& run_cos
                       const ShuffleOptions& options, Random& random) {
   const auto free = static_cast<std::size_t>(std::count(tour.free.begin(), tour.free.end(), 1));
   if (free < fewest_stops) return {};
-  const auto evolve = [&](Tour& one, Random& source, const Another& another) {
+  const auto evolve = [&](Tour& one, Random& source, const MayContinue& another) {
     Run run(one, demand, run_cost, options, source);
     const ShuffleReport report = run.go(another);
     if (report.after <= report.before) one = std::move(run).release();

@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "core/cycle/cycle_objective.hpp"
-#include "core/pace.hpp"
+#include "core/numeric/step_budget.hpp"
 
 namespace unicursal::core {
 
@@ -28,7 +28,7 @@ struct ShuffleOptions {
   unsigned threads = 1;  ///< of the population; the result does not depend on it
 
   ObjectiveWeights weights;
-  Another another;  ///< asked before each sweep; with a population before each generation
+  MayContinue another;  ///< asked before each sweep; with a population before each generation
 };
 
 struct ShuffleReport {

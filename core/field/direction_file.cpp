@@ -16,8 +16,8 @@
 
 #include "core/error.hpp"
 #include "core/field/direction_field.hpp"
-#include "core/model/file_bytes.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/file_bytes.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 namespace {

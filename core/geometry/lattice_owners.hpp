@@ -17,7 +17,7 @@
 #include "core/geometry/lattice.hpp"
 #include "core/geometry/near_lists.hpp"
 #include "core/geometry/segment.hpp"
-#include "core/parallel.hpp"
+#include "core/numeric/parallel.hpp"
 
 namespace unicursal::core {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.hpp"
-#include "core/parallel.hpp"
+#include "core/numeric/parallel.hpp"
 
 namespace unicursal::core {
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/geometry/border_index.hpp"
+#include "core/geometry/predicates.hpp"
 #include "core/graph/needle_diagram.hpp"
 #include "core/graph/needles.hpp"
 

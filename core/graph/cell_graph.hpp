@@ -13,10 +13,10 @@
 
 #include "core/field/direction_field.hpp"
 #include "core/geometry/polygon.hpp"
-#include "core/geometry/random.hpp"
 #include "core/graph/planar_graph.hpp"
 #include "core/graph/seeds.hpp"
 #include "core/graph/voronoi.hpp"
+#include "core/numeric/random.hpp"
 
 namespace unicursal::core {
 

@@ -1,4 +1,5 @@
 #include "core/graph/needle_diagram.hpp"
+#include "core/geometry/predicates.hpp"
 
 #include <algorithm>
 #include <array>

@@ -19,7 +19,7 @@
 #include "core/geometry/border_index.hpp"
 #include "core/geometry/lattice.hpp"
 #include "core/geometry/lattice_owners.hpp"
-#include "core/geometry/quasi_newton.hpp"
+#include "core/numeric/quasi_newton.hpp"
 
 namespace unicursal::core {
 

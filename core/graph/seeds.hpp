@@ -7,7 +7,7 @@
 
 #include "core/geometry/lattice_owners.hpp"
 #include "core/geometry/polygon.hpp"
-#include "core/geometry/random.hpp"
+#include "core/numeric/random.hpp"
 
 namespace unicursal::core {
 

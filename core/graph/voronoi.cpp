@@ -61,9 +61,4 @@ Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
   return result;
 }
 
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return static_cast<int>(CGAL::orientation(Kernel::Point_2(a.x(), a.y()), Kernel::Point_2(b.x(), b.y()),
-                                            Kernel::Point_2(c.x(), c.y())));
-}
-
 }  // namespace unicursal::core

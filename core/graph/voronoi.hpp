@@ -29,7 +29,4 @@ struct Voronoi {
 /// Cells within `box` are complete: far sites are added so that nothing near it runs to infinity.
 Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box);
 
-/// Sign of the area of the triangle a, b, c, exact for doubles; +1 counter-clockwise, 0 collinear.
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
-
 }  // namespace unicursal::core

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/model/stl_reader.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 

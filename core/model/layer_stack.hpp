@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/model/part.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 

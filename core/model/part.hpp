@@ -78,7 +78,4 @@ class Part {
   virtual const std::vector<std::string>& warnings() const = 0;
 };
 
-/// Reads and checks the files. Throws FileError or ModelError.
-std::unique_ptr<const Part> read_part(const PartSource& source);
-
 }  // namespace unicursal::core

@@ -14,8 +14,8 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/model/file_bytes.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/file_bytes.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/geometry/polygon.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 

@@ -6,7 +6,7 @@
 
 #include "core/model/malformed.hpp"
 #include "core/model/number_scanner.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 namespace {

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/model/file_bytes.hpp"
 #include "core/model/malformed.hpp"
 #include "core/model/outline.hpp"
 #include "core/model/svg_frame.hpp"
 #include "core/model/svg_path.hpp"
 #include "core/model/svg_shapes.hpp"
 #include "core/model/svg_style.hpp"
+#include "core/text/file_bytes.hpp"
 
 namespace unicursal::core {
 namespace {

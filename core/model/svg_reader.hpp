@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/geometry/region.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/geometry/region.hpp"
-#include "core/model/wording.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 

@@ -4,7 +4,8 @@
 #include "core/curve/curve.hpp"
 #include "core/field/direction_field.hpp"
 #include "core/geometry/segment_diagram.hpp"
-#include "core/planner/plan_island.hpp"
+#include "core/model/part.hpp"
+#include "core/planner/island_plan.hpp"
 
 namespace unicursal::core {
 

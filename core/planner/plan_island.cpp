@@ -10,7 +10,7 @@
 #include "core/curve/clearance.hpp"
 #include "core/curve/evenness.hpp"
 #include "core/geometry/segment_diagram.hpp"
-#include "core/planner/draft.hpp"
+#include "core/planner/fill_region.hpp"
 #include "core/planner/measure.hpp"
 #include "core/planner/stages.hpp"
 #include "core/planner/stopwatch.hpp"
@@ -97,7 +97,7 @@ IslandPlan IslandPlanner::plan(const Island& island, double z, const PlanOptions
                   *demands,
                   settings(options.preset, options.quality),
                   Random(options.seed),
-                  Pace(options.enough, recorded),
+                  StepBudget(options.enough, recorded),
                   std::move(times),
                   Workers(options.threads)};
   work.plan.unfilled_area = parts.too_thin;

@@ -3,7 +3,7 @@
 
 #include "core/curve/fairing.hpp"
 #include "core/cycle/shuffle.hpp"
-#include "core/planner/plan_island.hpp"
+#include "core/planner/island_plan.hpp"
 
 namespace unicursal::core {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/print/mixture.hpp"
 
 namespace unicursal::gcode {
 

@@ -15,9 +15,9 @@ double cost_of(const Palette& palette, const ChamberModel& chamber, std::size_t 
                const Overshoot* hurried_by, const Rivals& rivals) {
   const double volume = room * (chamber.dead_volume + chamber.mixing_volume) + 1;
   Forecast forecast(palette, chamber);
-  forecast.add(Piece{volume, from, 0.5, 0, false, 0, rivals});  // fills the chamber
-  forecast.add(Piece{volume, from, 0.5, 1, false, 0, rivals});
-  forecast.add(Piece{volume, to, 0.5, 1, false, 0, rivals});
+  forecast.add(WantedBead{volume, from, 0.5, 0, false, 0, rivals});  // fills the chamber
+  forecast.add(WantedBead{volume, from, 0.5, 1, false, 0, rivals});
+  forecast.add(WantedBead{volume, to, 0.5, 1, false, 0, rivals});
   forecast.add(Switch{0, palette.shade(from, 0.5)});
   double at = 2 * volume - (hurried_by ? chamber.dead_volume + hurried_by->lead : chamber.delay(0.5));
   for (std::size_t i = 0; hurried_by && i < hurried_by->pulses.size(); ++i) {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_gcode/mixing/chamber.hpp"
 #include "firmware_gcode/mixing/overshoot.hpp"
 #include "firmware_gcode/mixing/palette.hpp"
-#include "firmware_gcode/mixing/response.hpp"
 
 namespace unicursal::gcode {
 

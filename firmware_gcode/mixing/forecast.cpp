@@ -13,23 +13,10 @@ constexpr double counts = 1;  ///< the least weight of what counts
 
 }  // namespace
 
-LayerMixing& LayerMixing::operator+=(const LayerMixing& more) {
-  changes += more.changes;
-  switches += more.switches;
-  passed_over += more.passed_over;
-  passed_over_volume += more.passed_over_volume;
-  misplaced += more.misplaced;
-  wrong += more.wrong;
-  crossings += more.crossings;
-  short_crossings += more.short_crossings;
-  shortest_crossing = std::min(shortest_crossing, more.shortest_crossing);
-  return *this;
-}
-
 Forecast::Forecast(const Palette& palette, const ChamberModel& chamber)
     : palette_(palette), chamber_(chamber), wanted_(palette), tanks_(chamber, inflow_) {}
 
-void Forecast::add(const Piece& piece) {
+void Forecast::add(const WantedBead& piece) {
   wanted_.add(piece);
 }
 

@@ -5,34 +5,18 @@
 
 #include <cstddef>
 #include <deque>
-#include <limits>
 #include <vector>
 
 #include "firmware_gcode/mixing/schedule.hpp"
+#include "firmware_gcode/print/layer_mixing.hpp"
 
 namespace unicursal::gcode {
-
-struct LayerMixing {
-  std::size_t layer = 0;
-  std::size_t changes = 0;      ///< of material that the path wants
-  std::size_t switches = 0;     ///< that the printer is told
-  std::size_t passed_over = 0;  ///< visits of a material too short to show
-  double passed_over_volume = 0;
-  double misplaced = 0;             ///< plastic that will lie in the wrong zone
-  double wrong = 0;                 ///< where what arrives is nearer to another material of the layer
-  std::size_t crossings = 0;        ///< of zones that take up changes, from one material to another
-  std::size_t short_crossings = 0;  ///< that hold less than the mixing volume
-  double shortest_crossing = std::numeric_limits<double>::infinity();
-
-  /// Everything but the layer's index.
-  LayerMixing& operator+=(const LayerMixing& more);
-};
 
 class Forecast {
  public:
   Forecast(const Palette& palette, const ChamberModel& chamber);
 
-  void add(const Piece& piece);
+  void add(const WantedBead& piece);
   /// In order.
   void add(const Switch& next);
   /// The layers that lie wholly before this volume; nothing is switched any more up to there.

@@ -14,11 +14,6 @@ Mixture between(const Mixture& a, const Mixture& b, double part) {
 
 }  // namespace
 
-double Gradient::part_at(const core::Vec2& place, double z) const {
-  const double way = along[0] * place.x() + along[1] * place.y() + along[2] * z;
-  return std::clamp((way - begin) / (end - begin), 0.0, 1.0);
-}
-
 Palette::Palette(const std::vector<Material>& materials,
                  const std::function<Mixture(const Mixture&)>& written)
     : written_(written) {

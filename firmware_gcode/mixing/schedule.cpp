@@ -333,7 +333,7 @@ Schedule::Schedule(const Palette& palette, const ScheduleOptions& options)
 Schedule::~Schedule() = default;
 Schedule::Schedule(Schedule&&) noexcept = default;
 
-void Schedule::add(const Piece& piece) {
+void Schedule::add(const WantedBead& piece) {
   state_->wanted.add(piece);
 }
 

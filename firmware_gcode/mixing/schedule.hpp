@@ -18,9 +18,9 @@
 #include <memory>
 #include <vector>
 
+#include "firmware_gcode/mixing/chamber.hpp"
 #include "firmware_gcode/mixing/overshoot.hpp"
 #include "firmware_gcode/mixing/palette.hpp"
-#include "firmware_gcode/mixing/response.hpp"
 #include "firmware_gcode/mixing/wanted.hpp"
 
 namespace unicursal::gcode {
@@ -46,7 +46,7 @@ class Schedule {
   ~Schedule();
   Schedule(Schedule&&) noexcept;
 
-  void add(const Piece& piece);
+  void add(const WantedBead& piece);
   /// Nothing more will come: all becomes certain.
   void end();
   /// The switches that have become certain since the last call, in order; the first of all is at 0.

@@ -20,7 +20,7 @@ double WantedRun::part_at(double volume) const {
   return found == parts.end() ? parts.back().second : found->second;
 }
 
-void Wanted::add(const Piece& piece) {
+void Wanted::add(const WantedBead& piece) {
   if (piece.volume <= 0) return;
   const bool same = !runs_.empty() && runs_.back().material == piece.material &&
                     runs_.back().weight == piece.weight && runs_.back().layer == piece.layer;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "firmware_gcode/mixing/chamber.hpp"
 #include "firmware_gcode/mixing/palette.hpp"
-#include "firmware_gcode/mixing/response.hpp"
 
 namespace unicursal::gcode {
 
@@ -15,7 +15,7 @@ namespace unicursal::gcode {
 using Rivals = std::shared_ptr<const std::vector<std::size_t>>;
 
 /// A bead, as far as mixing is concerned.
-struct Piece {
+struct WantedBead {
   double volume = 0;
   std::size_t material = 0;
   double part = 0;             ///< of a gradient: how far along, 0…1
@@ -44,7 +44,7 @@ class Wanted {
  public:
   explicit Wanted(const Palette& palette) : palette_(palette) {}
 
-  void add(const Piece& piece);
+  void add(const WantedBead& piece);
   /// Up to where it is known.
   double end() const { return end_; }
   std::size_t first() const { return first_; }

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 

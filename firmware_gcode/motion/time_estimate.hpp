@@ -13,7 +13,7 @@
 #include <functional>
 
 #include "firmware_gcode/motion/junction.hpp"
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 

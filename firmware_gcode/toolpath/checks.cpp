@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "firmware_gcode/mixing/response.hpp"
-#include "firmware_gcode/toolpath/bounds.hpp"
+#include "firmware_gcode/mixing/chamber.hpp"
+#include "firmware_gcode/print/bounds.hpp"
 
 namespace unicursal::gcode {
 namespace {

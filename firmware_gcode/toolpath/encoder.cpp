@@ -18,16 +18,16 @@
 #include "firmware_gcode/mixing/overshoot.hpp"
 #include "firmware_gcode/mixing/schedule.hpp"
 #include "firmware_gcode/mixing/tool_table.hpp"
+#include "firmware_gcode/motion/held_flow.hpp"
+#include "firmware_gcode/motion/laying_speed.hpp"
+#include "firmware_gcode/review/review.hpp"
+#include "firmware_gcode/route/detour.hpp"
+#include "firmware_gcode/route/route.hpp"
+#include "firmware_gcode/route/simplify.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
-#include "firmware_gcode/toolpath/detour.hpp"
-#include "firmware_gcode/toolpath/held_flow.hpp"
 #include "firmware_gcode/toolpath/job_frame.hpp"
 #include "firmware_gcode/toolpath/move_writer.hpp"
-#include "firmware_gcode/toolpath/pace.hpp"
 #include "firmware_gcode/toolpath/prime_line.hpp"
-#include "firmware_gcode/toolpath/review.hpp"
-#include "firmware_gcode/toolpath/route.hpp"
-#include "firmware_gcode/toolpath/simplify.hpp"
 #include "firmware_gcode/toolpath/skirt.hpp"
 
 namespace unicursal::gcode {
@@ -78,7 +78,7 @@ core::Box grown(core::Box box, double by) {
 }
 
 /// The leg as a path of its own: from its start, in its direction.
-core::BeadPath turned(const core::BeadPath& path, const Leg& leg) {
+core::BeadPath turned(const core::BeadPath& path, const Traversal& leg) {
   core::BeadPath result;
   core::Vec2 from = path.start(leg.start);
   for (std::size_t k = 0; k < path.size(); ++k) {
@@ -114,7 +114,7 @@ struct Encoder::State {
   void plan_skirt(const RoutedLayer& routed);
   void plan_path(const PlacedLayer& layer, const core::BeadPath& path, const Rivals& rivals);
   void warn(const std::string& reason, const std::string& consequence);
-  void want(const Piece& piece);
+  void want(const WantedBead& piece);
 
   Chunk write_certain();
   void warn_of_crossings(Chunk& chunk);
@@ -139,7 +139,7 @@ struct Encoder::State {
   Lines start_lines, end_lines;
   ToolTable tools;
   MoveWriter writer;
-  Pace pace;
+  LayingSpeed pace;
   Review review;
   Route route;
   Schedule schedule;
@@ -217,7 +217,7 @@ std::size_t Encoder::State::material_at(const core::BeadPath& path, std::size_t 
   return settings.zone_materials[path.beads[bead].zone];
 }
 
-void Encoder::State::want(const Piece& piece) {
+void Encoder::State::want(const WantedBead& piece) {
   schedule.add(piece);
   forecast.add(piece);
 }
@@ -234,28 +234,28 @@ void Encoder::State::plan(const RoutedLayer& routed) {
   const PlacedLayer& of = routed.layer;
   steps.push_back(BeginLayer{of.index, of.top, of.height, flow_for(routed)});
   std::vector<std::size_t> materials;
-  for (const Leg& leg : routed.legs) {
+  for (const Traversal& leg : routed.traversals) {
     const core::BeadPath& path = of.paths[leg.path];
     for (std::size_t i = 0; i < path.size(); ++i) materials.push_back(material_at(path, i));
   }
   std::sort(materials.begin(), materials.end());
   materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
   const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(materials));
-  if (!routed.legs.empty()) {
+  if (!routed.traversals.empty()) {
     if (!std::exchange(primed, true)) {
       plan_prime(routed);
       plan_skirt(routed);
     }
     steps.push_back(Remark{";TYPE:Solid infill"});
   }
-  for (const Leg& leg : routed.legs) plan_path(of, turned(of.paths[leg.path], leg), rivals);
+  for (const Traversal& leg : routed.traversals) plan_path(of, turned(of.paths[leg.path], leg), rivals);
   steps.push_back(EndLayer{});
 }
 
 /// An automatic one is chosen when the first layer that prints comes, together with those that wait behind
 /// it.
 double Encoder::State::flow_for(const RoutedLayer& routed) {
-  if (!settings.automatic_flow || settings.speed || routed.legs.empty()) return pace.flow();
+  if (!settings.automatic_flow || settings.speed || routed.traversals.empty()) return pace.flow();
   const PlacedLayer fill = simplified(routed.layer);
   if (pace.open()) {
     std::vector<PlacedLayer> window{fill};
@@ -274,7 +274,7 @@ double Encoder::State::flow_for(const RoutedLayer& routed) {
 
 /// What is primed with is what is needed next.
 void Encoder::State::plan_prime(const RoutedLayer& routed) {
-  const Leg& first = routed.legs.front();
+  const Traversal& first = routed.traversals.front();
   const core::BeadPath& path = routed.layer.paths[first.path];
   prime_material = material_at(path, bead_of(path, first, 0));
   const auto line =

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "firmware_gcode/dialect/dialect.hpp"
-#include "firmware_gcode/toolpath/encoder.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 

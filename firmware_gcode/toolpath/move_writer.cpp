@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "firmware_gcode/dialect/number.hpp"
-#include "firmware_gcode/toolpath/bounds.hpp"
-#include "firmware_gcode/toolpath/speeds.hpp"
+#include "firmware_gcode/motion/speeds.hpp"
+#include "firmware_gcode/print/bounds.hpp"
 
 namespace unicursal::gcode {
 namespace {

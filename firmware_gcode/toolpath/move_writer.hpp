@@ -15,8 +15,8 @@
 
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/dialect/dialect.hpp"
-#include "firmware_gcode/toolpath/chunk.hpp"
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/chunk.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 

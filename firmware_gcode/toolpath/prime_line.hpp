@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/geometry/polygon.hpp"
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/curve/bead_path.hpp"
-#include "firmware_gcode/toolpath/encoder.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 

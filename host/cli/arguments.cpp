@@ -1,4 +1,5 @@
 #include "host/cli/arguments.hpp"
+#include "sim/simulator.hpp"
 
 #include <fmt/format.h>
 

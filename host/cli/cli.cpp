@@ -14,7 +14,7 @@
 #include "host/cli/show.hpp"
 #include "host/cli/version.hpp"
 #include "host/daemon/state_folder.hpp"
-#include "host/engine/session.hpp"
+#include "host/engine/session_types.hpp"
 #include "host/link/link.hpp"
 
 namespace unicursal::host {
@@ -363,7 +363,8 @@ class CommandLine {
     app->add_option("--pixel", pixel_, "mm per picture pixel")
         ->check(finite_number(0.01, 10))
         ->type_name("MM");
-    app->add_option("--rasters", rasters_, "write every layer as laid to this file or pipe (sim/raster.hpp)")
+    app->add_option("--rasters", rasters_,
+                    "write every layer as laid to this file or pipe (sim/bed/raster.hpp)")
         ->type_name("FILE");
     app->add_flag("--once", once_, "end when a host has used the line and closed it");
     baud_given_ =

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "core/planner/plan_island.hpp"
+#include "core/planner/island_plan.hpp"
 #include "host/cli/cli.hpp"
 #include "host/daemon/serve.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
-#include "host/engine/session.hpp"
+#include "host/engine/session_types.hpp"
 #include "host/tune/strip_print.hpp"
-#include "sim/simulator.hpp"
+#include "sim/simulator_options.hpp"
 
 namespace unicursal::host {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/common.hpp"
 #include "host/cli/show.hpp"
-#include "host/cli/words.hpp"
 #include "host/report/curve_file.hpp"
 #include "host/report/picture_writer.hpp"
 #include "host/report/stage_pictures.hpp"

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/common.hpp"
 #include "host/cli/show.hpp"
-#include "host/cli/words.hpp"
-#include "host/engine/lockstep_clock.hpp"
-#include "host/engine/simulator_process.hpp"
+#include "host/dry_run/lockstep_clock.hpp"
+#include "host/dry_run/simulator_process.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
@@ -71,7 +71,7 @@ LookaheadOptions pace_for(const DryRunCommand& command, const PreparedJob& prepa
   LookaheadOptions options = paced(lookahead_options(prepared), settings.clock);
   if (!is_virtual(command)) return options;
   options.pace.reset();
-  if (command.charge > 0) options.pace = Pace{{}, command.charge};
+  if (command.charge > 0) options.pace = PlanningClock{{}, command.charge};
   return options;
 }
 

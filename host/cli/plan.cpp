@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/common.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/show.hpp"
-#include "host/cli/words.hpp"
-#include "host/report/draft.hpp"
+#include "host/files/whole_file.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {

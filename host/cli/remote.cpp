@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/model/file_bytes.hpp"
+#include "core/text/file_bytes.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/show.hpp"
 #include "host/daemon/client.hpp"
 #include "host/daemon/job_files.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/job/load_job.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/common.hpp"
 #include "host/cli/show.hpp"
-#include "host/cli/words.hpp"
 #include "host/engine/restart.hpp"
 #include "host/report/summary.hpp"
 #include "host/spool/spool.hpp"

@@ -7,9 +7,10 @@
 
 #include "core/error.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/common.hpp"
 #include "host/cli/show.hpp"
-#include "host/cli/words.hpp"
 #include "host/job/profile.hpp"
+#include "sim/simulator.hpp"
 
 namespace unicursal::host {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "host/daemon/access.hpp"
 #include "host/daemon/daemon.hpp"
-#include "host/daemon/http_server.hpp"
+#include "host/http/http_server.hpp"
 
 namespace unicursal::host {
 

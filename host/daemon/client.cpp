@@ -9,8 +9,8 @@
 #include <asio/write.hpp>
 #include <charconv>
 
-#include "host/daemon/http_server.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/http/http_server.hpp"
 
 namespace unicursal::host {
 namespace {

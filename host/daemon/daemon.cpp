@@ -12,6 +12,7 @@
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/engine/session_json.hpp"
+#include "host/job/load_job.hpp"
 #include "host/job/profile.hpp"
 
 namespace unicursal::host {

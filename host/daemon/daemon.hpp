@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "host/daemon/event_stream.hpp"
 #include "host/daemon/job_files.hpp"
 #include "host/daemon/print.hpp"
 #include "host/daemon/queue.hpp"
+#include "host/http/event_stream.hpp"
 
 namespace unicursal::host {
 

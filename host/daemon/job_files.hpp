@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "host/daemon/http_message.hpp"
+#include "host/http/http_message.hpp"
 
 namespace unicursal::host {
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "host/job/load_job.hpp"
 #include "host/link/link.hpp"
 
 namespace unicursal::host {

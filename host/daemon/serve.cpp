@@ -7,9 +7,9 @@
 #include <csignal>
 
 #include "host/daemon/api.hpp"
-#include "host/daemon/http_server.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/http/http_server.hpp"
 
 namespace unicursal::host {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "host/engine/printer_check.hpp"
-#include "host/link/signal.hpp"
+#include "host/loop/signal.hpp"
 
 namespace unicursal::host {
 namespace {

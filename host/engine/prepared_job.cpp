@@ -1,4 +1,5 @@
 #include "host/engine/prepared_job.hpp"
+#include "core/model/read_part.hpp"
 
 #include <fmt/format.h>
 

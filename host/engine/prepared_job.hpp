@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/model/part.hpp"
-#include "firmware_gcode/toolpath/encoder.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
 #include "host/job/job.hpp"
 #include "host/lookahead/lookahead.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware_gcode/toolpath/lead_in.hpp"
+#include "firmware_gcode/interruption/lead_in.hpp"
 #include "host/spool/spool_error.hpp"
 
 namespace unicursal::host {
@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t planned_lines = 20;
 
 std::vector<std::string> commands(std::vector<std::string> lines) {
-  std::erase_if(lines, [](const std::string& line) { return !is_command(line); });
+  gcode::keep_commands(lines);
   return lines;
 }
 

@@ -139,7 +139,7 @@ void Run::count(const gcode::Chunk& chunk) {
   totals_.print_seconds += chunk.seconds;
   totals_.volume += chunk.volume;
   totals_.materials.at(chunk.prime_material).prime += chunk.prime_volume;
-  for (const std::string& line : chunk.lines) totals_.lines += is_command(line) ? 1 : 0;
+  for (const std::string& line : chunk.lines) totals_.lines += gcode::is_command(line) ? 1 : 0;
   for (const auto& [mixture, volume] : chunk.mixture_volumes) gcode::add(totals_.fed, mixture, volume);
   for (const gcode::LayerMixing& mixing : chunk.mixing) totals_.mixing += mixing;
   encoding_warnings_.insert(encoding_warnings_.end(), chunk.warnings.begin(), chunk.warnings.end());
@@ -199,10 +199,6 @@ void Run::write_report(const nlohmann::json& extra) {
   }
   rest.update(extra);
   log_->finish(rest);
-}
-
-bool is_command(const std::string& line) {
-  return !line.empty() && line.front() != ';';
 }
 
 double peak_memory() {

@@ -85,9 +85,6 @@ class Run {
   DepositCheck* check_ = nullptr;
 };
 
-/// Whether the firmware gets this line; comments and blank lines belong in files.
-bool is_command(const std::string& line);
-
 /// The greatest memory that this process has held, MiB; 0 where the system does not tell.
 double peak_memory();
 

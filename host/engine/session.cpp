@@ -271,7 +271,7 @@ asio::awaitable<void> Session::State::get_hot() {
 
 asio::awaitable<void> Session::State::send_pieces() {
   while (!stopped) {
-    std::optional<Piece> piece = co_await next_piece();
+    std::optional<PrintStep> piece = co_await next_piece();
     if (!piece || stopped || !co_await keep(std::move(piece->record), piece->chunk)) break;
     const gcode::Chunk& chunk = piece->chunk;
     chunk_seconds = chunk.seconds;
@@ -286,8 +286,8 @@ asio::awaitable<void> Session::State::send_pieces() {
   }
 }
 
-/// The first layer is no measure for the others: it has its own speed, and a skirt. What primes is no part of a
-/// layer.
+/// The first layer is no measure for the others: it has its own speed, and a skirt. What primes is no part of
+/// a layer.
 void Session::State::time_layers(const gcode::Chunk& chunk) {
   if (source.flow() > 0) unfinished_seconds -= chunk.prime_volume / source.flow();
   for (const gcode::LayerShare& share : chunk.layers) {
@@ -300,11 +300,11 @@ void Session::State::time_layers(const gcode::Chunk& chunk) {
 
 /// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile, and
 /// what is charged for planning passes afterwards.
-asio::awaitable<std::optional<Piece>> Session::State::next_piece() {
+asio::awaitable<std::optional<PrintStep>> Session::State::next_piece() {
   const TimePoint asked = clock->now();
   tell_position();
   co_await until_ready();
-  std::optional<Piece> piece = source.next();
+  std::optional<PrintStep> piece = source.next();
   if (piece) co_await until(TimePoint(duration(piece->ready_at)));
   waited += seconds(clock->now() - asked);
   co_return piece;
@@ -370,7 +370,7 @@ asio::awaitable<void> Session::State::park() {
     link.cool_down();
     throw;
   }
-  std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
+  gcode::keep_commands(chunk.lines);
   co_await send_last(std::move(chunk));
 }
 
@@ -436,13 +436,13 @@ StreamResult Session::State::result(const std::exception_ptr& error) {
 
 // ---- from outside
 
-Pace pace_by(std::shared_ptr<Clock> clock) {
+PlanningClock planning_clock(std::shared_ptr<Clock> clock) {
   return {[clock = std::move(clock)] { return seconds(clock->now().time_since_epoch()); }, 1};
 }
 
 LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock) {
   options.horizon = look_ahead;
-  options.pace = pace_by(clock);
+  options.pace = planning_clock(clock);
   return options;
 }
 

@@ -208,7 +208,7 @@ asio::awaitable<void> Session::State::wait_held() {
 
 /// Told to the journal before they are sent: a printer that asks for one of them wants the print's next line.
 asio::awaitable<void> Session::State::interpose(std::vector<std::string> lines) {
-  std::erase_if(lines, [](const std::string& line) { return !is_command(line); });
+  gcode::keep_commands(lines);
   const std::uint64_t before = link.statistics().lines;
   extra += lines.size();
   interposing = true;

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "firmware_gcode/toolpath/modal_state.hpp"
-#include "firmware_gcode/toolpath/pause.hpp"
+#include "firmware_gcode/interruption/modal_state.hpp"
+#include "firmware_gcode/interruption/pause.hpp"
 #include "host/engine/session.hpp"
-#include "host/link/signal.hpp"
+#include "host/loop/signal.hpp"
 
 namespace unicursal::host {
 
@@ -44,7 +44,7 @@ struct Session::State {
   asio::awaitable<void> get_hot();
   asio::awaitable<void> send_pieces();
   void time_layers(const gcode::Chunk& chunk);
-  asio::awaitable<std::optional<Piece>> next_piece();
+  asio::awaitable<std::optional<PrintStep>> next_piece();
   asio::awaitable<void> until_ready();
   asio::awaitable<void> until(TimePoint ready);
   void tell_position();

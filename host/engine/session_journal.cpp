@@ -36,7 +36,7 @@ void Session::State::end_journal(const StreamResult& ended) {
 /// Strips the chunk of its comments, and spools it. Returns why it could not be done, if so.
 asio::awaitable<std::string> Session::State::try_to_keep(SpooledChunk& record, gcode::Chunk& chunk) {
   if (spool) record.begun = layers_begun_in(chunk.lines);
-  std::erase_if(chunk.lines, [](const std::string& line) { return !is_command(line); });
+  gcode::keep_commands(chunk.lines);
   if (!spool) co_return std::string();
   record.lines = chunk.lines;
   co_return co_await write(record);

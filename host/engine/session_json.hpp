@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "host/engine/session.hpp"
+#include "host/engine/session_types.hpp"
 
 namespace unicursal::host {
 

@@ -22,9 +22,9 @@ std::vector<NamedMixture> PlannedSource::mixtures() const {
   return mixtures;
 }
 
-std::optional<Piece> PlannedSource::next() {
+std::optional<PrintStep> PlannedSource::next() {
   std::optional<PlannedLayer> layer = lookahead_.wait();
-  Piece piece;
+  PrintStep piece;
   if (!layer) {
     if (std::exchange(ended_, true)) return std::nullopt;
     piece.record.kind = SpooledChunk::Kind::rest;
@@ -55,9 +55,9 @@ void PlannedSource::cancel() {
   lookahead_.cancel();
 }
 
-std::optional<Piece> FinishedSource::next() {
+std::optional<PrintStep> FinishedSource::next() {
   if (taken_ == print_.body.size()) return std::nullopt;
-  return Piece{print_.body[taken_++], {}, 0};
+  return PrintStep{print_.body[taken_++], {}, 0};
 }
 
 Waiting FinishedSource::waiting() const {

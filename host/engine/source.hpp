@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/geometry/polygon.hpp"
-#include "firmware_gcode/toolpath/chunk.hpp"
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/chunk.hpp"
+#include "firmware_gcode/print/printer.hpp"
 #include "host/engine/run.hpp"
 #include "host/lookahead/foretold_times.hpp"
 #include "host/lookahead/lookahead.hpp"
@@ -19,7 +19,7 @@
 namespace unicursal::host {
 
 /// A stretch of the print.
-struct Piece {
+struct PrintStep {
   gcode::Chunk chunk;
   SpooledChunk record;  ///< for the spool, but for its lines
   double ready_at = 0;  ///< s of the clock before which it would not have been there, in virtual time
@@ -49,7 +49,7 @@ class Source {
   virtual bool ready() const = 0;
   virtual void on_ready(std::function<void()> listener) = 0;
   /// The next piece, or nothing after the last and after cancel(). Precondition: ready.
-  virtual std::optional<Piece> next() = 0;
+  virtual std::optional<PrintStep> next() = 0;
   /// Parks and cools, wherever the printer has stopped in what was sent.
   virtual gcode::Chunk finish() = 0;
   /// No further piece is needed.
@@ -85,7 +85,7 @@ class PlannedSource final : public Source {
   gcode::Chunk start() override { return run_.start(); }
   bool ready() const override { return lookahead_.ready(); }
   void on_ready(std::function<void()> listener) override { lookahead_.on_ready(std::move(listener)); }
-  std::optional<Piece> next() override;
+  std::optional<PrintStep> next() override;
   gcode::Chunk finish() override { return run_.finish(); }
   void cancel() override;
   void printed(double now, double left) override { lookahead_.printed(now, left); }
@@ -126,7 +126,7 @@ class FinishedSource final : public Source {
   gcode::Chunk start() override { return print_.start; }
   bool ready() const override { return true; }
   void on_ready(std::function<void()>) override {}
-  std::optional<Piece> next() override;
+  std::optional<PrintStep> next() override;
   gcode::Chunk finish() override { return print_.finish; }
   void cancel() override { taken_ = print_.body.size(); }
   void printed(double, double) override {}

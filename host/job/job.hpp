@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/model/part.hpp"
-#include "firmware_gcode/toolpath/encoder.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
 #include "host/job/profile.hpp"
 
 namespace unicursal::host {
@@ -53,12 +53,5 @@ struct Job {
   Profile profile;
   std::vector<std::string> warnings;  ///< keys that are accepted but not followed yet, one sentence each
 };
-
-/// Reads and checks a job and the profile it names, or `profile` instead. File names in a job are relative
-/// to it. Throws JobError, core::FileError, core::DataError.
-Job load_job(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile = {});
-
-/// The bead width that seeds at distance `d` (mm, the paper's d) come out with, mm.
-double bead_width_from_seed_distance(double d);
 
 }  // namespace unicursal::host

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "firmware_gcode/toolpath/bounds.hpp"
+#include "firmware_gcode/print/bounds.hpp"
 
 namespace unicursal::host {
 namespace {

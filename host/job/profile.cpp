@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware_gcode/mixing/mixture.hpp"
-#include "firmware_gcode/mixing/response.hpp"
-#include "firmware_gcode/toolpath/bounds.hpp"
+#include "firmware_gcode/mixing/chamber.hpp"
+#include "firmware_gcode/print/bounds.hpp"
+#include "firmware_gcode/print/mixture.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
 #include "host/job/nearest.hpp"
 #include "host/job/settings_file.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::host {
 

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "host/files/whole_file.hpp"
 #include "host/job/job.hpp"
-#include "host/report/draft.hpp"
 
 namespace unicursal::host {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/model/part.hpp"
-#include "firmware_gcode/toolpath/encoder.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
 #include "host/job/settings_file.hpp"
 
 namespace unicursal::host {

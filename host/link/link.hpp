@@ -24,7 +24,7 @@
 
 #include "firmware_gcode/reply/identity.hpp"
 #include "firmware_gcode/reply/reply.hpp"
-#include "host/link/clock.hpp"
+#include "host/loop/clock.hpp"
 
 namespace unicursal::host {
 

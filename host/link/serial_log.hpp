@@ -23,7 +23,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/link/clock.hpp"
+#include "host/loop/clock.hpp"
 
 namespace unicursal::host {
 

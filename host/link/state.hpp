@@ -39,7 +39,7 @@
 #include "host/link/ledger.hpp"
 #include "host/link/line_splitter.hpp"
 #include "host/link/link.hpp"
-#include "host/link/signal.hpp"
+#include "host/loop/signal.hpp"
 
 namespace unicursal::host {
 

@@ -21,20 +21,11 @@
 
 #include "core/model/part.hpp"
 #include "core/planner/plan_island.hpp"
+#include "host/lookahead/planned_layer.hpp"
 
 namespace unicursal::host {
 
-struct PlannedLayer {
-  core::Layer layer;
-  std::vector<core::IslandPlan> plans;  ///< one for each island, in the same order
-  double cpu_seconds = 0;               ///< that slicing and planning it have cost
-  /// Of the optimisers' steps that its islands would have taken had nobody hurried, by area; 1 when none was
-  /// cut.
-  double effort = 1;
-  double ready_at = 0;  ///< s, in virtual time: when it would have been there
-};
-
-struct Pace {
+struct PlanningClock {
   std::function<double()> now;  ///< s of the printer's clock, from any thread; empty in virtual time
   double charge = 1;            ///< in virtual time: s that a second of planning takes
 };
@@ -49,9 +40,9 @@ struct LookaheadOptions {
   /// s of printing that are planned ahead, where the flow is known; but always one layer more than threads,
   /// so that these have work. 0: as many layers as may be open.
   double horizon = 0;
-  std::size_t ahead = 0;     ///< layers that may be open or waiting; 0: default_ahead(), or most_ahead
-  std::optional<Pace> pace;  ///< absent: every island takes as long as it needs
-  bool patient = false;      ///< it does so with a pace as well: the nozzle may wait
+  std::size_t ahead = 0;  ///< layers that may be open or waiting; 0: default_ahead(), or most_ahead
+  std::optional<PlanningClock> pace;  ///< absent: every island takes as long as it needs
+  bool patient = false;               ///< it does so with a pace as well: the nozzle may wait
 };
 
 /// Layers that may be open when there is no horizon in seconds.
@@ -60,18 +51,6 @@ constexpr std::size_t default_ahead(std::size_t threads) {
 }
 /// And when there is one: what bounds memory for layers that print in no time.
 inline constexpr std::size_t most_ahead = 64;
-
-/// Layers that are planned and not yet taken.
-struct Waiting {
-  std::size_t layers = 0;
-  double seconds = 0;  ///< of printing
-};
-
-/// What planning has cost so far.
-struct PlanningEffort {
-  double seconds = 0;      ///< during which at least one thread was slicing or planning
-  double cpu_seconds = 0;  ///< of all threads together
-};
 
 /// The seed of one island's random jitter: layers differ, so that gaps do not line up through the height.
 std::uint64_t island_seed(std::uint64_t job_seed, std::size_t layer, std::size_t island);

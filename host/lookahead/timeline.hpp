@@ -18,7 +18,7 @@ inline double thread_cpu_seconds() {
 /// For the thread that made it.
 class Timeline {
  public:
-  explicit Timeline(const std::optional<Pace>& pace) : pace_(pace) {}
+  explicit Timeline(const std::optional<PlanningClock>& pace) : pace_(pace) {}
 
   /// A step begins, which could not before `earliest`.
   void begin(double earliest) {
@@ -42,7 +42,7 @@ class Timeline {
  private:
   bool is_virtual() const { return pace_ && !pace_->now; }
 
-  const std::optional<Pace>& pace_;
+  const std::optional<PlanningClock>& pace_;
   double virtual_ = 0, cpu_ = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
-#include "host/report/draft.hpp"
+#include "host/files/whole_file.hpp"
 
 namespace unicursal::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/lookahead/lookahead.hpp"
+#include "host/lookahead/planned_layer.hpp"
 #include "host/report/curve_picture.hpp"
 
 namespace unicursal::host {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/picture/image.hpp"
-#include "firmware_gcode/toolpath/encoder.hpp"
-#include "host/lookahead/lookahead.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
+#include "host/lookahead/planned_layer.hpp"
 #include "host/report/canvas.hpp"
 
 namespace unicursal::host {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware_gcode/mixing/response.hpp"
+#include "firmware_gcode/mixing/chamber.hpp"
 #include "host/report/deposit_pictures.hpp"
 
 namespace unicursal::host {

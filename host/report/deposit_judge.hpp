@@ -12,7 +12,7 @@
 #include "firmware_gcode/mixing/palette.hpp"
 #include "host/report/deposit_findings.hpp"
 #include "host/report/scan.hpp"
-#include "sim/raster.hpp"
+#include "sim/bed/raster.hpp"
 
 namespace unicursal::host {
 

@@ -8,7 +8,7 @@
 
 #include "core/picture/image.hpp"
 #include "host/report/scan.hpp"
-#include "sim/raster.hpp"
+#include "sim/bed/raster.hpp"
 
 namespace unicursal::host {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/planner/plan_island.hpp"
-#include "host/lookahead/lookahead.hpp"
+#include "core/planner/island_plan.hpp"
+#include "host/lookahead/planned_layer.hpp"
 
 namespace unicursal::host {
 

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 
-#include "host/report/draft.hpp"
+#include "host/files/whole_file.hpp"
 
 namespace unicursal::host {
 namespace {

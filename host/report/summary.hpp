@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/lookahead/planned_layer.hpp"
 #include "host/report/deposit_findings.hpp"
 #include "host/report/motion_findings.hpp"
 #include "host/report/totals.hpp"

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "firmware_gcode/print/layer_mixing.hpp"
 #include "host/report/figures.hpp"
 #include "host/report/volumes.hpp"
 

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware_gcode/toolpath/encoder.hpp"
+#include "firmware_gcode/print/chunk.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
 
 namespace unicursal::host {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_gcode/toolpath/modal_state.hpp"
+#include "firmware_gcode/interruption/modal_state.hpp"
 #include "host/spool/journal.hpp"
 #include "host/spool/record_file.hpp"
 #include "host/spool/spooled_chunk.hpp"

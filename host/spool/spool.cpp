@@ -12,7 +12,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/report/draft.hpp"
+#include "host/files/whole_file.hpp"
+#include "host/job/load_job.hpp"
 #include "host/spool/bytes.hpp"
 #include "host/spool/spool_error.hpp"
 

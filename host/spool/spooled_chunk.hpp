@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/planner/plan_island.hpp"
-#include "firmware_gcode/toolpath/encoder.hpp"
+#include "core/planner/island_plan.hpp"
+#include "firmware_gcode/print/print_settings.hpp"
 
 namespace unicursal::host {
 

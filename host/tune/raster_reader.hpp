@@ -7,7 +7,7 @@
 
 #include "host/tune/reading.hpp"
 #include "host/tune/strip_print.hpp"
-#include "sim/raster.hpp"
+#include "sim/bed/raster.hpp"
 
 namespace unicursal::host {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "host/tune/response.hpp"
 #include "host/tune/strip.hpp"
+#include "host/tune/transition_fit.hpp"
 
 namespace unicursal::host {
 

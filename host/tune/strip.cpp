@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "host/tune/digits.hpp"
-#include "host/tune/response.hpp"
 #include "host/tune/strip_sizes.hpp"
+#include "host/tune/transition_fit.hpp"
 
 namespace unicursal::host {
 namespace {

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.hpp"
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::host {
 

@@ -7,12 +7,12 @@
 
 #include "firmware_gcode/dialect/dialect.hpp"
 #include "firmware_gcode/mixing/calibration.hpp"
+#include "firmware_gcode/motion/speeds.hpp"
+#include "firmware_gcode/review/review.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
 #include "firmware_gcode/toolpath/job_frame.hpp"
 #include "firmware_gcode/toolpath/move_writer.hpp"
-#include "firmware_gcode/toolpath/review.hpp"
-#include "firmware_gcode/toolpath/speeds.hpp"
-#include "host/tune/response.hpp"
+#include "host/tune/transition_fit.hpp"
 
 namespace unicursal::host {
 namespace {

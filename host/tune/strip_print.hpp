@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "firmware_gcode/mixing/mixture.hpp"
+#include "firmware_gcode/print/mixture.hpp"
 #include "host/engine/stream.hpp"
 #include "host/tune/strip.hpp"
 

@@ -1,7 +1,7 @@
 // How large everything on the strip is, for one printer. mm, mm², mm³.
 #pragma once
 
-#include "firmware_gcode/toolpath/printer.hpp"
+#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::host {
 

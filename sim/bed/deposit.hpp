@@ -9,9 +9,9 @@
 #include <limits>
 #include <vector>
 
+#include "sim/bed/raster.hpp"
 #include "sim/bed/spread.hpp"
 #include "sim/nozzle/nozzle.hpp"
-#include "sim/raster.hpp"
 
 namespace unicursal::sim {
 

@@ -16,8 +16,8 @@
 #include <memory>
 #include <vector>
 
+#include "sim/bed/raster.hpp"
 #include "sim/nozzle/nozzle.hpp"
-#include "sim/raster.hpp"
 
 namespace unicursal::sim {
 

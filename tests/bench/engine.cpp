@@ -27,6 +27,7 @@
 #include <sstream>
 
 #include "host/job/job.hpp"
+#include "host/job/load_job.hpp"
 #include "host/link/link.hpp"
 #include "tests/host/support/child_process.hpp"
 

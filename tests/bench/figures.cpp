@@ -11,6 +11,7 @@
 
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/run.hpp"
+#include "host/job/load_job.hpp"
 
 namespace {
 

@@ -23,6 +23,7 @@
 
 #include "core/geometry/region.hpp"
 #include "host/engine/run.hpp"
+#include "host/job/load_job.hpp"
 #include "host/report/motion_findings.hpp"
 #include "sim/bed/deposit.hpp"
 #include "sim/firmware/repetier.hpp"
@@ -165,7 +166,7 @@ sim::Machine machine_of(const gcode::Printer& printer, std::optional<double> acc
 
 void send(sim::Firmware& firmware, const gcode::Chunk& chunk) {
   for (const std::string& line : chunk.lines) {
-    if (!host::is_command(line)) continue;
+    if (!gcode::is_command(line)) continue;
     firmware.receive(line + "\n");
     while (firmware.blocked()) firmware.advance(*firmware.next_event());
   }

@@ -25,8 +25,8 @@
 #include <thread>
 
 #include "host/cli/cli.hpp"
-#include "host/engine/lockstep_clock.hpp"
-#include "host/engine/simulator_process.hpp"
+#include "host/dry_run/lockstep_clock.hpp"
+#include "host/dry_run/simulator_process.hpp"
 #include "host/link/link.hpp"
 
 using namespace unicursal::host;

@@ -17,8 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "firmware_gcode/toolpath/route.hpp"
+#include "firmware_gcode/route/route.hpp"
 #include "host/engine/run.hpp"
+#include "host/job/load_job.hpp"
 #include "sim/bed/deposit.hpp"
 #include "sim/firmware/repetier.hpp"
 #include "sim/motion/move_sinks.hpp"
@@ -136,7 +137,7 @@ sim::Machine machine_of(const gcode::Printer& printer) {
 
 void send(sim::Firmware& firmware, const gcode::Chunk& chunk) {
   for (const std::string& line : chunk.lines) {
-    if (!host::is_command(line)) continue;
+    if (!gcode::is_command(line)) continue;
     firmware.receive(line + "\n");
     while (firmware.blocked()) firmware.advance(*firmware.next_event());
   }

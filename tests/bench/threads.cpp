@@ -14,6 +14,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/engine/prepared_job.hpp"
+#include "host/job/load_job.hpp"
 
 namespace {
 

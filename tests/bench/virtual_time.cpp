@@ -12,10 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "firmware_gcode/print/chunk.hpp"
 #include "host/cli/cli.hpp"
-#include "host/engine/lockstep_clock.hpp"
-#include "host/engine/run.hpp"
-#include "host/engine/simulator_process.hpp"
+#include "host/dry_run/lockstep_clock.hpp"
+#include "host/dry_run/simulator_process.hpp"
 #include "host/link/link.hpp"
 
 using namespace unicursal::host;
@@ -29,7 +29,7 @@ std::vector<std::string> read_commands(const char* file) {
   for (std::string line; std::getline(stream, line);) {
     line = line.substr(0, line.find(';'));
     while (line.ends_with(' ')) line.pop_back();
-    if (is_command(line)) commands.push_back(line);
+    if (unicursal::gcode::is_command(line)) commands.push_back(line);
   }
   return commands;
 }

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <string>
 
-#include "core/geometry/random.hpp"
+#include "core/numeric/random.hpp"
 
 namespace unicursal::test {
 

@@ -23,9 +23,11 @@
 
 #include "core/error.hpp"
 #include "core/field/direction_file.hpp"
-#include "core/model/file_bytes.hpp"
+#include "core/model/read_part.hpp"
 #include "core/planner/plan_island.hpp"
+#include "core/text/file_bytes.hpp"
 #include "host/job/job.hpp"
+#include "host/job/load_job.hpp"
 #include "tests/core/support/plan_faults.hpp"
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"

@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "host/daemon/api.hpp"
-#include "host/daemon/http_server.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/http/http_server.hpp"
 #include "tests/fuzz/damage.hpp"
 #include "tests/host/support/raw_http.hpp"
 #include "tests/host/support/sample_job.hpp"

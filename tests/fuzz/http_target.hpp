@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/geometry/random.hpp"
+#include "core/numeric/random.hpp"
 
 namespace unicursal::test {
 

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/model/file_bytes.hpp"
+#include "core/text/file_bytes.hpp"
 #include "firmware_gcode/reply/identity.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 #include "host/doctor/examine.hpp"

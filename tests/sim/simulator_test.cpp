@@ -7,8 +7,8 @@
 
 #include "child.hpp"
 #include "folder.hpp"
+#include "sim/bed/raster.hpp"
 #include "sim/nozzle/chamber.hpp"
-#include "sim/raster.hpp"
 
 using namespace unicursal::sim;
 using nlohmann::json;

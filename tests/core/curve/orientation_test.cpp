@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/curve/evenness.hpp"
-#include "core/geometry/random.hpp"
+#include "core/numeric/random.hpp"
 
 using namespace unicursal::core;
 

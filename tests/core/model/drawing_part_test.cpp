@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.hpp"
+#include "core/model/read_part.hpp"
 #include "model_support.hpp"
 
 using namespace unicursal::core;

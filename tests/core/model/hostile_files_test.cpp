@@ -3,7 +3,7 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "core/model/file_bytes.hpp"
+#include "core/text/file_bytes.hpp"
 #include "model_support.hpp"
 
 using namespace unicursal::core;

@@ -2,6 +2,7 @@
 #include <future>
 
 #include "core/error.hpp"
+#include "core/model/read_part.hpp"
 #include "model_support.hpp"
 
 using namespace unicursal::core;

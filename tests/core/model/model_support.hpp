@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/model/part.hpp"
+#include "core/model/read_part.hpp"
 #include "core/model/stl_reader.hpp"
 
 namespace unicursal::core {

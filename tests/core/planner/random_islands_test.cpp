@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <future>
 
+#include "core/planner/plan_island.hpp"
 #include "tests/core/support/plan_faults.hpp"
 
 using namespace unicursal::core;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/planner/plan_island.hpp"
+#include "core/planner/island_plan.hpp"
 
 namespace unicursal::core::test {
 

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/geometry/random.hpp"
 #include "core/geometry/region.hpp"
 #include "core/model/part.hpp"
+#include "core/numeric/random.hpp"
 
 namespace unicursal::core::test {
 

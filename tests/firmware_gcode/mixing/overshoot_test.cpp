@@ -24,13 +24,13 @@ const std::vector<Material> three = {{"orange", Mixture({0.5, 0.5, 0})},
 const std::vector<Material> tints = {{"warm", Mixture({0.5, 0.3, 0.2})}, {"cold", Mixture({0.2, 0.3, 0.5})}};
 const std::vector<Material> pure = {{"blue", Mixture({1, 0, 0})}, {"red", Mixture({0, 1, 0})}};
 
-std::vector<Piece> pieces_of(const Palette& palette,
-                             const std::vector<std::pair<std::size_t, double>>& visits) {
+std::vector<WantedBead> pieces_of(const Palette& palette,
+                                  const std::vector<std::pair<std::size_t, double>>& visits) {
   std::vector<std::size_t> all(palette.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const Rivals rivals = std::make_shared<const std::vector<std::size_t>>(all);
   constexpr double bead = 0.1;
-  std::vector<Piece> pieces{{20, visits.front().first, 0, 0.02, false, 0, rivals}};  // fills the chamber
+  std::vector<WantedBead> pieces{{20, visits.front().first, 0, 0.02, false, 0, rivals}};  // fills the chamber
   for (const auto& [material, volume] : visits) {
     for (double done = 0; done < volume; done += bead)
       pieces.push_back({bead, material, 0, 1, false, 0, rivals});
@@ -38,19 +38,19 @@ std::vector<Piece> pieces_of(const Palette& palette,
   return pieces;
 }
 
-std::vector<Switch> scheduled(const Palette& palette, const std::vector<Piece>& pieces,
+std::vector<Switch> scheduled(const Palette& palette, const std::vector<WantedBead>& pieces,
                               const ChamberModel& profile, const Overshoots* overshoots) {
   Schedule schedule(palette, {profile, 0.5, true, overshoots});
-  for (const Piece& piece : pieces) schedule.add(piece);
+  for (const WantedBead& piece : pieces) schedule.add(piece);
   schedule.end();
   return schedule.take();
 }
 
 /// What the switches come to in a nozzle that need not be the profile's.
-LayerMixing laid(const Palette& palette, const std::vector<Piece>& pieces,
+LayerMixing laid(const Palette& palette, const std::vector<WantedBead>& pieces,
                  const std::vector<Switch>& switches, const ChamberModel& nozzle) {
   Forecast forecast(palette, nozzle);
-  for (const Piece& piece : pieces) forecast.add(piece);
+  for (const WantedBead& piece : pieces) forecast.add(piece);
   for (const Switch& each : switches) forecast.add(each);
   return forecast.rest().back();
 }
@@ -183,7 +183,7 @@ TEST_CASE("what is decided with pulses does not depend on how the path comes in 
     }
     certain = schedule.certain();
   };
-  for (const Piece& piece : pieces) {
+  for (const WantedBead& piece : pieces) {
     schedule.add(piece);
     if (random() % 5 == 0) take();
   }

@@ -35,8 +35,9 @@ struct Visit {
   double volume;
 };
 
-std::vector<Piece> pieces_of(const std::vector<Visit>& visits, const Palette& palette, double bead = 0.07) {
-  std::vector<Piece> pieces;
+std::vector<WantedBead> pieces_of(const std::vector<Visit>& visits, const Palette& palette,
+                                  double bead = 0.07) {
+  std::vector<WantedBead> pieces;
   const Rivals rivals = all_of(palette);
   pieces.push_back({primed, visits.front().material, 0, 0.02, false, 0, rivals});
   for (const Visit& visit : visits) {
@@ -48,24 +49,24 @@ std::vector<Piece> pieces_of(const std::vector<Visit>& visits, const Palette& pa
   return pieces;
 }
 
-std::vector<Switch> scheduled(const Palette& palette, const std::vector<Piece>& pieces,
+std::vector<Switch> scheduled(const Palette& palette, const std::vector<WantedBead>& pieces,
                               const ScheduleOptions& options = {}) {
   Schedule schedule(palette, options);
-  for (const Piece& piece : pieces) schedule.add(piece);
+  for (const WantedBead& piece : pieces) schedule.add(piece);
   schedule.end();
   return schedule.take();
 }
 
-LayerMixing forecast_of(const Palette& palette, const std::vector<Piece>& pieces,
+LayerMixing forecast_of(const Palette& palette, const std::vector<WantedBead>& pieces,
                         const std::vector<Switch>& switches, const ChamberModel& chamber) {
   Forecast forecast(palette, chamber);
-  for (const Piece& piece : pieces) forecast.add(piece);
+  for (const WantedBead& piece : pieces) forecast.add(piece);
   for (const Switch& s : switches) forecast.add(s);
   return forecast.rest().front();
 }
 
-double loss_of(const Palette& palette, const std::vector<Piece>& pieces, const std::vector<Switch>& switches,
-               const ChamberModel& chamber) {
+double loss_of(const Palette& palette, const std::vector<WantedBead>& pieces,
+               const std::vector<Switch>& switches, const ChamberModel& chamber) {
   const LayerMixing mixing = forecast_of(palette, pieces, switches, chamber);
   return mixing.misplaced + mixing.wrong;
 }
@@ -241,7 +242,7 @@ TEST_CASE("a zone that takes up changes takes all of them if it can hold them") 
   const ChamberModel chamber{2.1, 4.0, 3};
   for (double width : {3.0, 5.0, 7.0, 12.0}) {
     auto pieces = pieces_of({{0, 30}, {2, width}, {1, 30}, {2, width}, {1, 20}}, palette);
-    for (Piece& piece : pieces) {
+    for (WantedBead& piece : pieces) {
       if (piece.material == 2) piece.weight = 0.02, piece.takes_changes = true;
     }
     const auto mixing =
@@ -261,9 +262,9 @@ TEST_CASE("a gradient arrives where it is wanted, in steps that nobody sees") {
   const Palette palette = palette_of(materials);
   CHECK(palette.steps_of(2) == Palette::steps + 1);
   const ChamberModel chamber{2.1, 4.0, 3};
-  std::vector<Piece> pieces = pieces_of({{0, 20}}, palette);
+  std::vector<WantedBead> pieces = pieces_of({{0, 20}}, palette);
   for (int i = 0; i < 1000; ++i) pieces.push_back({0.1, 2, (i + 0.5) / 1000, 1, false, 0, pieces[0].rivals});
-  for (const Piece& piece : pieces_of({{1, 20}}, palette)) {
+  for (const WantedBead& piece : pieces_of({{1, 20}}, palette)) {
     if (piece.weight == 1) pieces.push_back(piece);
   }
   const auto switches = scheduled(palette, pieces, {chamber, 0.5, true});

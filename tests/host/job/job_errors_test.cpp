@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "host/job/job.hpp"
+#include "host/job/load_job.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "host/engine/prepared_job.hpp"
+#include "host/job/load_job.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
 

@@ -31,7 +31,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "host/link/signal.hpp"
+#include "host/loop/signal.hpp"
 #include "virtual_printer.hpp"
 
 using namespace unicursal;

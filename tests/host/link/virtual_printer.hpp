@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "host/engine/lockstep_clock.hpp"
+#include "host/dry_run/lockstep_clock.hpp"
 #include "host/link/link.hpp"
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/temp_folder.hpp"

@@ -183,7 +183,7 @@ TEST_CASE("Nobody hurries before the printer needs something, and without a pace
   LookaheadOptions options = options_for(0, 3, 1);
   options.flow = 1.5;
   SECTION("not told yet") {
-    options.pace = Pace{{}, 1e6};
+    options.pace = PlanningClock{{}, 1e6};
   }
   SECTION("no pace") {}
   const auto full = all_of(part, options_for(0, 3, 1));
@@ -200,7 +200,7 @@ TEST_CASE("Once a layer is taken, the next has as long as that one prints") {
   const Stack part(2);
   LookaheadOptions options = options_for(0, 2, 1);
   options.flow = 1e-3;  // mm³/s: hours for a layer
-  options.pace = Pace{[] { return 0.0; }, 1};
+  options.pace = PlanningClock{[] { return 0.0; }, 1};
   Lookahead lookahead(part, options);
   lookahead.printed(0, 0);
   CHECK(lookahead.wait()->effort < 1);  // the printer stands still
@@ -212,7 +212,7 @@ TEST_CASE("On a computer that is too slow layers take less effort, say so, and a
   LookaheadOptions options = options_for(0, 12, 1);
   options.flow = 1.5;
   options.horizon = 100;
-  options.pace = Pace{{}, 1e5};
+  options.pace = PlanningClock{{}, 1e5};
   Lookahead lookahead(part, options);
   double now = 0, least = 1, ready = 0;
   lookahead.printed(now, 0);
@@ -238,7 +238,7 @@ TEST_CASE(
   LookaheadOptions options = options_for(0, 2, 1);
   options.flow = 1.5;
   Lookahead unhurried(part, options);
-  options.pace = Pace{{}, 1e5};
+  options.pace = PlanningClock{{}, 1e5};
   options.patient = true;
   Lookahead patient(part, options);
   patient.printed(0, 0);
@@ -256,7 +256,7 @@ TEST_CASE("What the effort of a hurried island was gives the same curve again") 
   const Stack part(1);
   LookaheadOptions options = options_for(0, 1, 1);
   options.flow = 1.5;
-  options.pace = Pace{{}, 1e5};
+  options.pace = PlanningClock{{}, 1e5};
   Lookahead lookahead(part, options);
   lookahead.printed(0, 0);
   const auto layer = lookahead.wait();

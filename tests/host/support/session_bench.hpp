@@ -12,9 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "host/engine/lockstep_clock.hpp"
+#include "host/dry_run/lockstep_clock.hpp"
 #include "host/engine/session.hpp"
 #include "host/job/job.hpp"
+#include "host/job/load_job.hpp"
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
@@ -49,7 +50,7 @@ class SessionBench {
     host::LookaheadOptions planning = host::lookahead_options(prepared_);
     planning.plan.quality = 0.1;  // nobody looks at the curves
     if (charge) {
-      planning.pace = host::Pace{{}, *charge};
+      planning.pace = host::PlanningClock{{}, *charge};
       planning.threads = 1;
     }
     host::Lookahead lookahead(*prepared_.part, planning);

@@ -1,0 +1,13 @@
+// From model files to a part that slices itself.
+#pragma once
+
+#include <memory>
+
+#include "core/model/part.hpp"
+
+namespace unicursal::core {
+
+/// Reads and checks the files. Throws FileError or ModelError.
+std::unique_ptr<const Part> read_part(const PartSource& source);
+
+}  // namespace unicursal::core

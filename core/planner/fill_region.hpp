@@ -1,0 +1,53 @@
+// From a fillable region to a closed curve: the stages of the paper's Figure 2 in a row.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/numeric/parallel.hpp"
+#include "core/numeric/random.hpp"
+#include "core/numeric/step_budget.hpp"
+#include "core/planner/demands.hpp"
+#include "core/planner/fillable.hpp"
+#include "core/planner/island_plan.hpp"
+#include "core/planner/preset.hpp"
+#include "core/planner/stages.hpp"
+
+namespace unicursal::core {
+
+/// What all stages of one island share.
+struct IslandWork {
+  const Island& island;
+  const std::vector<Zone>& zones;
+  const PlanOptions& options;
+  const Demands& demands;
+  Settings settings;
+  Random random;
+  StepBudget pace;
+  IslandPlan plan;  ///< times and figures gather here
+  Workers workers;
+
+  double width() const { return options.bead_width; }
+};
+
+/// A closed curve on its way through the stages.
+struct Draft {
+  Curve curve;
+  std::size_t split_and_reconnect = 0, doubled_edges = 0;
+  bool faired = false;
+  int perimeters = 0;                    ///< contours laid
+  std::vector<CycleStages> cycles = {};  ///< what the curve was made from, if the options want it kept
+};
+
+/// mm: half the least width that can be laid.
+double half_width(const PlanOptions& options);
+
+/// At least 5 vertices, simple, inside.
+bool sound(const Curve& curve, const Polygon& region, double bead_width);
+
+/// One closed curve through the region, with the contours that the options ask for. With `by_material` each
+/// material gets its own curve where there is room, and they are joined. Nothing when not even a contour
+/// fits.
+std::optional<Draft> draft(const FillableRegion& part, bool by_material, IslandWork& work);
+
+}  // namespace unicursal::core

@@ -1,0 +1,133 @@
+#include "firmware_gcode/interruption/aside.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string_view>
+
+#include "firmware_gcode/dialect/number.hpp"
+
+namespace unicursal::gcode {
+namespace {
+
+constexpr double rise = 10;           ///< mm; more than any part curls up
+constexpr double part_clearance = 5;  ///< mm between the part and what is squeezed out beside it
+constexpr double edge_inset = 5;      ///< mm from the bed's edge
+
+std::string position(double value) {
+  return short_number(value, 3);
+}
+
+constexpr double rounding = 0.015;  ///< between equal shares that add up to one in two decimals
+
+/// Of M163 S0 P.3333; below 0 in any other line.
+double share_in(const std::string& line) {
+  const auto at = line.find(" P");
+  return line.starts_with("M163 ") && at != std::string::npos ? std::strtod(line.c_str() + at + 2, nullptr)
+                                                              : -1;
+}
+
+/// The virtual tool whose mixture is made of equal shares: it draws filament back from all inlets alike.
+std::optional<int> tool_of_equal_shares(const ModalState& state) {
+  for (const auto& [tool, lines] : state.tools) {
+    const double first = share_in(lines.front());
+    const bool equal = std::all_of(lines.begin(), lines.end() - 1, [&](const std::string& line) {
+      return std::abs(share_in(line) - first) < rounding;
+    });
+    if (lines.size() > 2 && first > 0 && equal) return tool;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<core::Vec2> place_beside(const Printer& printer, const core::Box& extent) {
+  const double x = printer.bed[0] - edge_inset, y = printer.bed[1] - edge_inset;
+  const std::array<core::Vec2, 4> corners{core::Vec2(edge_inset, edge_inset), core::Vec2(x, edge_inset),
+                                          core::Vec2(edge_inset, y), core::Vec2(x, y)};
+  const auto distance = [&](const core::Vec2& p) {
+    const core::Vec2 nearest = p.cwiseMax(extent.min).cwiseMin(extent.max);
+    return (p - nearest).norm();
+  };
+  const auto best = std::max_element(corners.begin(), corners.end(),
+                                     [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  return distance(*best) >= part_clearance ? std::optional(*best) : std::nullopt;
+}
+
+double rise_aside(const Printer& printer, double height) {
+  return std::clamp(printer.bed[2] - height, 0.0, rise);
+}
+
+AsideWriter::AsideWriter(const Printer& printer, const ModalState& state, double drawn)
+    : printer_(printer), state_(state), equal_(tool_of_equal_shares(state)), drawn_(drawn) {}
+
+void AsideWriter::lines(const std::vector<std::string>& more) {
+  chunk_.lines.insert(chunk_.lines.end(), more.begin(), more.end());
+}
+
+void AsideWriter::select(std::optional<int> tool) {
+  if (tool && *tool >= 0) line("T{}", *tool);
+}
+
+void AsideWriter::heat() {
+  const std::string bed = short_number(state_.bed, 1), nozzle = short_number(state_.nozzle, 1);
+  lines({"M140 S" + bed, "M104 S" + nozzle, "M190 S" + bed, "M109 S" + nozzle});
+}
+
+void AsideWriter::travel(const core::Vec2& to) {
+  const double speed = std::min(printer_.max_speed[0], printer_.max_speed[1]);
+  line("G0 X{} Y{} F{}", position(to.x()), position(to.y()), short_number(60 * speed, 0));
+}
+
+void AsideWriter::height(double z) {
+  line("G1 Z{} F{}", position(z), short_number(60 * printer_.max_speed[2], 0));
+}
+
+void AsideWriter::draw_back() {
+  const double missing = printer_.retraction_length - drawn_;
+  if (missing <= 0) return;
+  draw(-missing);
+  drawn_ = printer_.retraction_length;
+}
+
+void AsideWriter::squeeze(double volume, double flow) {
+  draw(drawn_);
+  select(state_.tool);
+  filament(volume / filament_area(), flow / filament_area());
+  chunk_.volume += volume;
+  chunk_.prime_volume += volume;
+  drawn_ = 0;
+}
+
+void AsideWriter::approach() {
+  travel({*state_.position[0], *state_.position[1]});
+  height(*state_.position[2]);
+  draw(drawn_ - state_.drawn_back);
+  drawn_ = state_.drawn_back;
+  select(state_.tool);  // draw() may have changed it
+  if (state_.fan > 0) line("M106 S{}", short_number(state_.fan, 0));
+  if (state_.feed) line("G1 F{}", short_number(*state_.feed, 0));
+}
+
+void AsideWriter::draw(double length) {
+  if (length == 0) return;
+  select(equal_);
+  filament(length, printer_.retraction_speed);
+}
+
+void AsideWriter::filament(double length, double speed) {
+  constexpr double longest = 50;  // mm at once; firmwares refuse too much
+  const double pieces = std::max(1.0, std::ceil(std::abs(length) / longest));
+  if (scaled(length / pieces, 5) == 0) return;
+  for (double piece = 0; piece < pieces; ++piece) {
+    line("G1 E{} F{}", short_number(length / pieces, 5), short_number(std::max(60 * speed, 1.0), 0));
+  }
+}
+
+double AsideWriter::filament_area() const {
+  return std::numbers::pi / 4 * printer_.filament_diameter * printer_.filament_diameter;
+}
+
+}  // namespace unicursal::gcode

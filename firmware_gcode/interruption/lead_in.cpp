@@ -1,0 +1,65 @@
+#include "firmware_gcode/interruption/lead_in.hpp"
+
+#include <cassert>
+
+#include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/interruption/aside.hpp"
+#include "firmware_gcode/toolpath/job_frame.hpp"
+
+namespace unicursal::gcode {
+namespace {
+
+constexpr double transitions = 2;  ///< of plastic squeezed out: as the prime line at a print's beginning
+
+void heat(AsideWriter& writer, const ModalState& state) {
+  writer.lines({stay_watchful(), "M220 S" + short_number(state.speed_factor, 1),
+                "M221 S" + short_number(state.flow_factor, 1)});
+  writer.heat();
+}
+
+void find_position(AsideWriter& writer, const Printer& printer, double height) {
+  const double up = rise_aside(printer, height);
+  writer.lines({"G21", "G91"});
+  writer.height(up);
+  writer.lines({"G90", "G92 Z" + short_number(height + up, 3), "G28 X Y"});
+  writer.lines(modes());
+  writer.lines(calibration(printer));
+}
+
+void mixtures(AsideWriter& writer, const ModalState& state) {
+  for (const auto& [tool, definition] : state.tools) writer.lines(definition);
+  writer.lines(state.collected());
+  writer.select(state.tool);
+}
+
+void squeeze_out(AsideWriter& writer, const Printer& printer, const LeadIn& to) {
+  const auto place = place_beside(printer, to.extent);
+  if (!place) {
+    writer.chunk().warnings.push_back(
+        "the part leaves no place on the bed beside it, so nothing is squeezed out before the print goes "
+        "on; the first beads may come out thin or in a former colour");
+    return;
+  }
+  writer.travel(*place);
+  writer.squeeze(transitions * (printer.dead_volume + printer.mixing_volume), to.flow);
+  writer.draw_back();
+}
+
+}  // namespace
+
+double lead_in_rise(const Printer& printer, double height) {
+  return rise_aside(printer, height);
+}
+
+Chunk lead_in(const Printer& printer, const LeadIn& to) {
+  assert(to.state.position[0] && to.state.position[1] && to.state.position[2] && !to.state.relative);
+  AsideWriter writer(printer, to.state, to.drawn);
+  heat(writer, to.state);
+  find_position(writer, printer, to.height);
+  mixtures(writer, to.state);
+  squeeze_out(writer, printer, to);
+  writer.approach();
+  return writer.take();
+}
+
+}  // namespace unicursal::gcode

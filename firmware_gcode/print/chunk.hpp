@@ -1,0 +1,48 @@
+// The encoder's product: a stretch of finished firmware text with what it means.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "firmware_gcode/print/layer_mixing.hpp"
+#include "firmware_gcode/print/mixture.hpp"
+
+namespace unicursal::gcode {
+
+/// Lines carry no number, no checksum and no newline; comment lines (starting with ';') belong in files
+/// only and must not be sent over the wire.
+struct MixtureVolume {
+  Mixture mixture;
+  double volume = 0;  ///< mm³
+};
+
+void add(std::vector<MixtureVolume>& volumes, const Mixture& mixture, double volume);
+
+/// A layer's share of a chunk.
+struct LayerShare {
+  std::size_t layer = 0;
+  double volume = 0;   ///< mm³ along beads
+  double seconds = 0;  ///< estimated
+  bool last = false;   ///< nothing of the layer is left for later chunks
+};
+
+struct Chunk {
+  std::vector<std::string> lines;
+  double seconds = 0;  ///< estimated printing time
+  double volume = 0;   ///< mm³ extruded along beads, prime line included, retractions not
+  /// The same by mixture that the feeders are told, each once.
+  std::vector<MixtureVolume> mixture_volumes;
+  double prime_volume = 0;            ///< mm³ of `volume` that went into the prime line and the skirt
+  std::size_t prime_material = 0;     ///< index as in PrintSettings::materials, of the prime volume
+  std::vector<LayerShare> layers;     ///< that the lines belong to, in order; none for the start and the end
+  std::vector<LayerMixing> mixing;    ///< what the schedule will make of layers that have become certain
+  std::vector<std::string> warnings;  ///< what a person should know before printing, one sentence each
+};
+
+/// Whether the firmware gets this line; comments and blank lines belong in files.
+bool is_command(const std::string& line);
+/// Takes out the lines that belong in files only.
+void keep_commands(std::vector<std::string>& lines);
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,121 @@
+#include "host/http/event_stream.hpp"
+
+#include <array>
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/redirect_error.hpp>
+#include <asio/use_awaitable.hpp>
+#include <asio/write.hpp>
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto ping_interval = 20s;
+constexpr auto patience = 15s;  ///< for one write to get through, and for the client's good-bye
+constexpr std::uint16_t try_again_later = 1013;
+
+}  // namespace
+
+EventStream::EventStream(asio::ip::tcp::socket socket)
+    : socket_(std::move(socket)), wake_(socket_.get_executor()), silence_(socket_.get_executor()) {}
+
+asio::awaitable<void> EventStream::run(std::string first) {
+  const auto self = shared_from_this();
+  asio::co_spawn(
+      socket_.get_executor(), [self]() -> asio::awaitable<void> { co_await self->write(); }, asio::detached);
+  co_await read(std::move(first));
+  abort();  // others may still hold this object, and with it the socket
+}
+
+void EventStream::send(const std::string& text) {
+  if (closing_) return;
+  if (waiting_.size() >= most_waiting) return close(try_again_later);
+  put(encode({Frame::Kind::text, text}));
+}
+
+void EventStream::close(std::uint16_t code) {
+  if (closing_) return;
+  put(close_frame(code));
+  closing_ = true;
+}
+
+void EventStream::put(std::string bytes) {
+  waiting_.push_back(std::move(bytes));
+  wake_.cancel();
+}
+
+void EventStream::abort() {
+  open_ = false;
+  asio::error_code ignored;
+  socket_.close(ignored);
+  wake_.cancel();
+  silence_.cancel();
+}
+
+/// Sends what waits, and a ping when nothing has for a while.
+asio::awaitable<void> EventStream::write() {
+  const auto self = shared_from_this();
+  asio::error_code error;
+  while (open_ && !error) {
+    if (waiting_.empty()) {
+      if (closing_) break;
+      wake_.expires_after(ping_interval);
+      asio::error_code cut;
+      co_await wake_.async_wait(asio::redirect_error(asio::use_awaitable, cut));
+      if (!cut && open_ && waiting_.empty()) put(encode({Frame::Kind::ping, {}}));
+      continue;
+    }
+    const std::string bytes = std::move(waiting_.front());
+    waiting_.pop_front();
+    silence_.expires_after(patience);
+    silence_.async_wait([self](const asio::error_code& cut) {
+      if (!cut) self->abort();
+    });
+    co_await asio::async_write(socket_, asio::buffer(bytes),
+                               asio::redirect_error(asio::use_awaitable, error));
+    silence_.cancel();
+  }
+  if (error || !open_) co_return abort();
+  // The client has its time to say good-bye as well.
+  silence_.expires_after(patience);
+  silence_.async_wait([self](const asio::error_code& cut) {
+    if (!cut) self->abort();
+  });
+}
+
+asio::awaitable<void> EventStream::read(std::string first) {
+  FrameReader frames;
+  frames.add(first);
+  std::array<char, 2048> bytes{};
+  asio::error_code error;
+  bool talking = true;
+  while (talking && !error) {
+    try {
+      while (const auto frame = frames.next()) take(*frame);
+    } catch (const WebSocketError& broken) {
+      close(broken.code());
+      talking = false;
+    }
+    if (!talking || !open_) break;
+    const std::size_t size = co_await socket_.async_read_some(
+        asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
+    frames.add({bytes.data(), size});
+  }
+  // What was to be said still is; the writer has a deadline for it.
+  while (!talking && open_ && !error) {
+    co_await socket_.async_read_some(asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
+  }
+  silence_.cancel();
+}
+
+void EventStream::take(const Frame& frame) {
+  if (frame.kind == Frame::Kind::ping && waiting_.size() < most_waiting && !closing_)
+    put(encode({Frame::Kind::pong, frame.payload}));
+  if (frame.kind == Frame::Kind::close) {
+    close(1000);
+  }
+}
+
+}  // namespace unicursal::host

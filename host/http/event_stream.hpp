@@ -1,0 +1,44 @@
+// One client's WebSocket: texts go out in order, and a client that does not keep up is let go, so that it
+// costs neither memory nor the others' time. Everything belongs to the loop's thread.
+#pragma once
+
+#include <asio/awaitable.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/steady_timer.hpp>
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "host/http/websocket.hpp"
+
+namespace unicursal::host {
+
+class EventStream : public std::enable_shared_from_this<EventStream> {
+ public:
+  /// Texts that may wait for a client.
+  static constexpr std::size_t most_waiting = 256;
+
+  explicit EventStream(asio::ip::tcp::socket socket);
+
+  /// Until either side closes. `first`: bytes that came behind the handshake.
+  asio::awaitable<void> run(std::string first);
+  void send(const std::string& text);
+  /// Says good-bye with this code (RFC 6455, 7.4.1); what waits is still sent.
+  void close(std::uint16_t code);
+  bool open() const { return open_; }
+
+ private:
+  asio::awaitable<void> write();
+  asio::awaitable<void> read(std::string first);
+  void take(const Frame& frame);
+  void put(std::string bytes);
+  void abort();
+
+  asio::ip::tcp::socket socket_;
+  asio::steady_timer wake_, silence_;
+  std::deque<std::string> waiting_;
+  bool open_ = true;
+  bool closing_ = false;
+};
+
+}  // namespace unicursal::host

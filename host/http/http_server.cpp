@@ -1,0 +1,311 @@
+#include "host/http/http_server.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/redirect_error.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/use_awaitable.hpp>
+#include <asio/write.hpp>
+#include <charconv>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+using asio::ip::tcp;
+
+constexpr std::size_t most_connections = 64;
+constexpr auto head_patience =
+    10s;  ///< from the first byte of a request, or the last answer, to its blank line
+constexpr auto body_patience = 10s;                 ///< and beyond that, at least:
+constexpr std::uint64_t slowest_body = 256 * 1024;  ///< bytes/s
+constexpr std::uint64_t large_body = 1024 * 1024;   ///< bytes
+constexpr auto answer_patience = 30s;               ///< for the client to take an answer
+constexpr auto farewell = 2s;  ///< in which a refused client's bytes are still taken, lest it miss the answer
+constexpr std::size_t longest_farewell = 4 * 1024 * 1024;  ///< bytes
+
+constexpr std::string_view end_of_head = "\r\n\r\n";
+
+}  // namespace
+
+class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(tcp::socket socket, HttpServer& server)
+      : socket_(std::move(socket)), deadline_(socket_.get_executor()), server_(server), all_(server.shared_) {
+    all_->connections.insert(this);
+  }
+  ~Connection() { all_->connections.erase(this); }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  asio::awaitable<void> run();
+  void close() {
+    asio::error_code ignored;
+    socket_.close(ignored);
+    if (events_) events_->close(1001);
+  }
+
+ private:
+  asio::awaitable<bool> serve_one();
+  asio::awaitable<std::optional<RequestHead>> read_head();
+  asio::awaitable<void> read_body(Request& request);
+  asio::awaitable<bool> read_some();
+  asio::awaitable<void> write(std::string bytes);
+  asio::awaitable<void> refuse(Response response);
+  asio::awaitable<Response> answered(Request request);
+  asio::awaitable<void> stream_events(RequestHead head);
+  void expire_after(asio::steady_timer::duration patience);
+
+  tcp::socket socket_;
+  asio::steady_timer deadline_;
+  HttpServer& server_;
+  const std::shared_ptr<Shared> all_;
+  std::shared_ptr<EventStream> events_;
+  std::string buffer_;
+  bool expired_ = false;
+};
+
+/// While it lives, nobody else may send a large body: together they would fill the memory.
+class HttpServer::LargeBody {
+ public:
+  explicit LargeBody(std::shared_ptr<Shared> all) : all_(std::move(all)) {
+    if (!all_) return;
+    if (all_->large_body) {
+      all_.reset();
+      throw HttpError(503, "another file is being sent; try again in a moment");
+    }
+    all_->large_body = true;
+  }
+  ~LargeBody() {
+    if (all_) all_->large_body = false;
+  }
+  LargeBody(const LargeBody&) = delete;
+  LargeBody& operator=(const LargeBody&) = delete;
+
+ private:
+  std::shared_ptr<Shared> all_;
+};
+
+void HttpServer::Connection::expire_after(asio::steady_timer::duration patience) {
+  expired_ = false;
+  deadline_.expires_after(patience);
+  deadline_.async_wait([this, self = shared_from_this()](const asio::error_code& cut) {
+    if (cut) return;
+    expired_ = true;
+    asio::error_code ignored;
+    socket_.cancel(ignored);
+  });
+}
+
+/// False at the end of what comes.
+asio::awaitable<bool> HttpServer::Connection::read_some() {
+  std::array<char, 16 * 1024> bytes;
+  asio::error_code error;
+  const std::size_t size =
+      co_await socket_.async_read_some(asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
+  if (expired_) throw HttpError(408, "the request did not come in time");
+  buffer_.append(bytes.data(), size);
+  co_return !error;
+}
+
+/// Nothing when the client has left between two requests.
+asio::awaitable<std::optional<RequestHead>> HttpServer::Connection::read_head() {
+  expire_after(head_patience);
+  std::size_t end = buffer_.find(end_of_head);
+  while (end == std::string::npos) {
+    if (buffer_.size() > longest_head) throw HttpError(431, "the request's head is too long");
+    bool more = false;
+    try {
+      more = co_await read_some();
+    } catch (const HttpError&) {
+      if (buffer_.empty()) co_return std::nullopt;  // a connection kept for later, not a slow request
+      throw;
+    }
+    if (!more) co_return std::nullopt;
+    end = buffer_.find(end_of_head);
+  }
+  if (end > longest_head) throw HttpError(431, "the request's head is too long");
+  RequestHead head = parse_request(std::string_view(buffer_).substr(0, end));
+  buffer_.erase(0, end + end_of_head.size());
+  co_return head;
+}
+
+asio::awaitable<void> HttpServer::Connection::read_body(Request& request) {
+  const std::uint64_t length = request.content_length;
+  expire_after(body_patience + std::chrono::seconds(length / slowest_body));
+  while (buffer_.size() < length) {
+    const bool more = co_await read_some();
+    if (!more) throw HttpError(400, "the body ends too soon");
+  }
+  std::string rest = buffer_.substr(length);
+  buffer_.resize(length);
+  request.body = std::exchange(buffer_, std::move(rest));
+}
+
+asio::awaitable<void> HttpServer::Connection::write(std::string bytes) {
+  expire_after(answer_patience);
+  asio::error_code error;
+  co_await asio::async_write(socket_, asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
+  deadline_.cancel();
+  if (error) throw asio::system_error(error);
+}
+
+/// Answers, and takes what still comes for a moment: closing at once would reset the connection, and the
+/// client would never see the answer.
+asio::awaitable<void> HttpServer::Connection::refuse(Response response) {
+  co_await write(to_text(response, false));
+  asio::error_code error;
+  socket_.shutdown(tcp::socket::shutdown_send, error);
+  std::array<char, 16 * 1024> bytes;
+  expire_after(farewell);
+  for (std::size_t taken = 0; !error && taken < longest_farewell;) {
+    taken += co_await socket_.async_read_some(asio::buffer(bytes),
+                                              asio::redirect_error(asio::use_awaitable, error));
+  }
+  deadline_.cancel();
+}
+
+asio::awaitable<Response> HttpServer::Connection::answered(Request request) {
+  std::optional<Response> failed;
+  try {
+    co_return co_await server_.handler_.answer(std::move(request));
+  } catch (const HttpError& refused) {
+    failed = error_response(refused.status(), refused.what());
+  } catch (const std::exception& error) {
+    failed = error_response(500, error.what());
+  }
+  co_return std::move(*failed);
+}
+
+asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head) {
+  const auto key = head.header("sec-websocket-key");
+  if (!key || !is_websocket_key(*key) || !head.lists("connection", "upgrade") ||
+      !head.lists("upgrade", "websocket") || head.header("sec-websocket-version") != "13")
+    throw HttpError(426, "events come by WebSocket, version 13");
+  Response response;
+  response.status = 101;
+  response.headers = {
+      {"Upgrade", "websocket"}, {"Connection", "Upgrade"}, {"Sec-WebSocket-Accept", accept_key(*key)}};
+  if (head.lists("sec-websocket-protocol", "unicursal.v1"))
+    response.headers.emplace_back("Sec-WebSocket-Protocol", "unicursal.v1");
+  co_await write(to_text(response, true));
+  events_ = std::make_shared<EventStream>(std::move(socket_));
+  server_.handler_.join(events_);
+  co_await events_->run(std::move(buffer_));
+}
+
+/// Whether another request may follow.
+asio::awaitable<bool> HttpServer::Connection::serve_one() {
+  std::optional<RequestHead> head = co_await read_head();
+  if (!head) co_return false;
+  const std::uint64_t most = server_.handler_.admit(*head);
+  if (server_.handler_.wants_events(*head)) {
+    co_await stream_events(std::move(*head));
+    co_return false;
+  }
+  if (head->content_length > most)
+    throw HttpError(413, fmt::format("the body is too large; here it has {} bytes at most", most));
+  Request request;
+  static_cast<RequestHead&>(request) = std::move(*head);
+  const LargeBody large(request.content_length > large_body ? all_ : nullptr);
+  if (request.content_length > 0 && request.lists("expect", "100-continue"))
+    co_await write("HTTP/1.1 100 Continue\r\n\r\n");
+  co_await read_body(request);
+  deadline_.cancel();
+  const bool keep = request.keep_alive;
+  const Response response = co_await answered(std::move(request));
+  co_await write(to_text(response, keep));
+  co_return keep;
+}
+
+asio::awaitable<void> HttpServer::Connection::run() {
+  const auto self = shared_from_this();
+  std::optional<Response> refusal;
+  try {
+    if (all_->connections.size() > most_connections)
+      throw HttpError(503, "too many connections; try again later");
+    bool more = true;
+    while (more) more = co_await serve_one();
+  } catch (const HttpError& refused) {
+    refusal = error_response(refused.status(), refused.what());
+    if (refused.status() == 401) refusal->headers.emplace_back("WWW-Authenticate", "Bearer");
+  } catch (const std::exception&) {
+    // The client is gone.
+  }
+  try {
+    if (refusal) co_await refuse(std::move(*refusal));
+  } catch (const std::exception&) {
+  }
+  deadline_.cancel();
+}
+
+HttpServer::HttpServer(asio::io_context& loop, const tcp::endpoint& at, HttpHandler& handler)
+    : loop_(loop), acceptor_(loop), handler_(handler) {
+  asio::error_code error;
+  acceptor_.open(at.protocol(), error);
+  if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor_.bind(at, error);
+  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  if (error) {
+    throw core::DataError(
+        "", "--listen",
+        fmt::format("{}:{} cannot be listened on ({})", at.address().to_string(), at.port(), error.message()),
+        "choose another port, or end the program that has it");
+  }
+  asio::co_spawn(
+      loop_, [this]() -> asio::awaitable<void> { co_await accept(); }, asio::detached);
+}
+
+HttpServer::~HttpServer() = default;
+
+asio::awaitable<void> HttpServer::accept() {
+  asio::steady_timer pause(loop_);
+  while (acceptor_.is_open()) {
+    asio::error_code error;
+    tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
+    if (error == asio::error::operation_aborted || !acceptor_.is_open()) co_return;
+    if (error) {  // out of descriptors, say: it passes
+      pause.expires_after(100ms);
+      co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, error));
+      continue;
+    }
+    asio::error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    const auto connection = std::make_shared<Connection>(std::move(socket), *this);
+    asio::co_spawn(
+        loop_, [connection]() -> asio::awaitable<void> { co_await connection->run(); }, asio::detached);
+  }
+}
+
+void HttpServer::stop() {
+  asio::error_code ignored;
+  acceptor_.close(ignored);
+  for (Connection* connection : shared_->connections) connection->close();
+}
+
+tcp::endpoint parse_endpoint(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  const auto wrong = [&] {
+    return core::DataError("", "--listen", "\"" + text + "\" is no address and port",
+                           "write for example 127.0.0.1:8377 or [::1]:8377");
+  };
+  if (colon == std::string::npos) throw wrong();
+  std::string host = text.substr(0, colon);
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+  if (host == "localhost") host = "127.0.0.1";
+  unsigned short port = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + colon + 1, end, port);
+  asio::error_code bad;
+  const auto address = asio::ip::make_address(host, bad);
+  if (bad || error != std::errc() || stop != end) throw wrong();
+  return {address, port};
+}
+
+}  // namespace unicursal::host

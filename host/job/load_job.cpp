@@ -1,0 +1,226 @@
+#include "host/job/load_job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "host/job/print_keys.hpp"
+#include "host/job/settings_file.hpp"
+#include "host/job/zones.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr double least_flow = 0.01, most_flow = 1000;  ///< mm³/s; below, moves are slower than firmwares can
+
+/// Spacing of the curve ÷ distance of the seeds; the inverse of what the planner takes (tests/bench/spacing).
+constexpr double bead_width_per_seed_distance = 1 / 1.4;
+
+/// Far above anything printable, so that a slip of the keyboard is told here and not by a full memory.
+constexpr double greatest_length = 10000;  // mm
+
+constexpr double least_layer_height = 0.02;  ///< mm; below what the z axes of such printers can step
+
+/// Seed distances that a given bead width goes with, in bead widths; outside, one of the two is a slip.
+constexpr double least_seed_distance = 0.5;
+constexpr double greatest_seed_distance = 4;
+
+const char* const place_remedy = "write \"center\", \"as-is\" or [x, y] in mm on the bed";
+
+std::vector<std::filesystem::path> read_files(const Section& part) {
+  const char* const remedy = "name an SVG or STL file, or several STL files in a list";
+  const toml::node* node = part.find("file");
+  if (!node) part.fail("file", "is missing", remedy);
+  const std::filesystem::path folder = part.file().parent_path();
+  if (!node->is_array()) return {folder / part.text("file", remedy)};
+  std::vector<std::filesystem::path> files;
+  for (const toml::node& item : *node->as_array()) {
+    const std::optional<std::string> name = item.value<std::string>();
+    if (!name) part.fail("file", "holds something that is no text", remedy);
+    files.push_back(folder / *name);
+  }
+  if (files.empty()) part.fail("file", "is an empty list", remedy);
+  return files;
+}
+
+bool is_drawing(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".svg";
+}
+
+double read_layer_height(const Section& part, const char* key, double nozzle) {
+  const std::string remedy = fmt::format("write for example {} = 0.2", key);
+  const double height = part.number(key, {0, greatest_length, true, "mm"}, remedy);
+  if (height < least_layer_height) {
+    part.fail(key, fmt::format("is {} mm, thinner than any printer can lay", height), remedy);
+  }
+  if (height > nozzle) {
+    part.fail(key,
+              fmt::format("is {} mm, more than the nozzle's opening of {} mm: beads would not stick", height,
+                          nozzle),
+              "lower it, or choose a profile with another nozzle");
+  }
+  return height;
+}
+
+core::PartSource read_source(const Section& part, double nozzle) {
+  core::PartSource source;
+  source.files = read_files(part);
+  const Range length{0, greatest_length, true, "mm"};
+  source.layer_height = read_layer_height(part, "layer_height", nozzle);
+  if (part.has("first_layer_height")) {
+    source.first_layer_height = read_layer_height(part, "first_layer_height", nozzle);
+  }
+  const bool drawing = std::any_of(source.files.begin(), source.files.end(), is_drawing);
+  if (drawing || part.has("height")) {
+    source.height =
+        part.number("height", length, "write how high the drawing is to become, for example height = 1.0");
+  }
+  return source;
+}
+
+Placement read_place(const Section& part) {
+  Placement place;
+  const toml::node* node = part.find("place");
+  if (!node) return place;
+  if (!node->is_array()) {
+    if (!node->is_string()) part.fail("place", "is neither a name nor a point", place_remedy);
+    const std::string name = part.choice("place", *node, {"center", "as-is"});
+    place.kind = name == "center" ? Placement::Kind::center : Placement::Kind::as_is;
+    return place;
+  }
+  const auto point =
+      part.numbers_or<2>("place", {0, 0}, between(-greatest_length, greatest_length, "mm"), place_remedy);
+  place.kind = Placement::Kind::at;
+  place.point = {point[0], point[1]};
+  return place;
+}
+
+std::optional<double> read_deposit(const Section& part, const gcode::Printer& printer) {
+  const toml::node* node = part.find("deposit");
+  if (!node) return {};
+  if (!node->is_table()) {
+    part.choice("deposit", *node, {"fill"});
+    return {};
+  }
+  const Section deposit = part.section("deposit", {"width"}, "write \"fill\" or { width = 0.4 }");
+  const Range range{0, printer.bead_width_range[1], true, "mm"};
+  return deposit.number("width", range, "write a width that the nozzle can lay");
+}
+
+void check_seed_distance(const Section& part, double distance, double bead_width) {
+  const double least = least_seed_distance * bead_width, greatest = greatest_seed_distance * bead_width;
+  if (distance >= least && distance <= greatest) return;
+  part.fail(
+      "seed_distance",
+      fmt::format("is {:g} mm, which does not go with beads {:g} mm wide: between {:g} and {:g} mm does",
+                  distance, bead_width, least, greatest),
+      "leave out one of the two, or correct it");
+}
+
+void read_bead_width(const Section& part, Job& job) {
+  const char* const remedy = "write for example bead_width = 0.45";
+  const Range length{0, greatest_length, true, "mm"};
+  if (part.has("seed_distance")) {
+    job.seed_distance = part.number("seed_distance", length, "write the paper's d in mm, or leave it out");
+  }
+  if (!part.has("bead_width") && job.seed_distance) {
+    job.bead_width = bead_width_from_seed_distance(*job.seed_distance);
+  } else {
+    job.bead_width = part.number("bead_width", length, remedy);
+  }
+  const auto [least, greatest] = job.profile.printer.bead_width_range;
+  if (job.bead_width < least || job.bead_width > greatest) {
+    part.fail(part.has("bead_width") ? "bead_width" : "seed_distance",
+              fmt::format("asks for beads {} mm wide, but the printer lays {} to {} mm", job.bead_width,
+                          least, greatest),
+              "choose a width in that range, or a profile with another nozzle");
+  }
+  if (job.seed_distance) check_seed_distance(part, *job.seed_distance, job.bead_width);
+}
+
+void read_flow(const Section& part, Job& job) {
+  const double greatest = job.profile.printer.max_flow;
+  job.flow = std::min(job.flow, greatest);
+  const toml::node* node = part.find("flow");
+  if (!node) return;
+  if (node->is_string()) {
+    part.choice("flow", *node, {"auto"});
+    job.automatic_flow = true;
+    return;
+  }
+  job.flow = part.number("flow", between(least_flow, most_flow, "mm³/s"), "write for example flow = 2.0");
+  if (job.flow > greatest) {
+    part.fail("flow", fmt::format("is {} mm³/s, but the printer melts at most {} mm³/s", job.flow, greatest),
+              "lower it, or raise extruder.max_flow in the profile if that is wrong");
+  }
+}
+
+void read_perimeters(const Section& part, Job& job) {
+  const double count =
+      part.number_or("perimeters", 0, between(0, 100, ""), "write a whole number of contours");
+  job.perimeters = static_cast<int>(count);
+  if (count != job.perimeters) part.fail("perimeters", "is no whole number", "write for example 1");
+}
+
+void read_seam(const Section& part, Job& job) {
+  const toml::node* node = part.find("seam");
+  if (!node) return;
+  const std::string seam =
+      part.choice("seam", *node, {"hidden", "scattered", "aligned", "none-extra-travel"});
+  if (seam == "scattered") job.seam = gcode::Seam::scattered;
+  if (seam == "aligned") job.seam = gcode::Seam::aligned;
+  if (seam == "none-extra-travel") job.seam = gcode::Seam::nearest;
+}
+
+std::filesystem::path profile_path(const Section& root, const std::optional<std::filesystem::path>& chosen) {
+  if (chosen) return *chosen;
+  const std::filesystem::path path =
+      root.file().parent_path() /
+      root.text("printer", "name a profile in the job, or give one with --profile");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    root.fail("printer", fmt::format("names {}, which does not exist", path.string()),
+              "check the path, or give a profile with --profile");
+  }
+  return path;
+}
+
+}  // namespace
+
+double bead_width_from_seed_distance(double d) {
+  return bead_width_per_seed_distance * d;
+}
+
+Job load_job(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile) {
+  const SettingsFile file(path);
+  const Section root = file.root({"printer", "part", "zone", "mixture"});
+  Job job;
+  job.file = path;
+  job.profile = load_profile(profile_path(root, profile));
+  const Section part =
+      root.section("part",
+                   {"file", "height", "layer_height", "first_layer_height", "bead_width", "seed_distance",
+                    "flow", "speed", "first_layer_speed", "perimeters", "deposit", "place", "seam",
+                    "change_before_border", "skirt", "fan", "temperatures"},
+                   "write [part] and below it file, layer_height and bead_width");
+  job.source = read_source(part, job.profile.printer.nozzle);
+  job.place = read_place(part);
+  job.line_width = read_deposit(part, job.profile.printer);
+  read_bead_width(part, job);
+  read_flow(part, job);
+  read_print_keys(part, job);
+  read_perimeters(part, job);
+  read_seam(part, job);
+  job.change_before_border = part.number_or("change_before_border", 0.5, between(0.05, 0.95, ""),
+                                            "write the share of a change that may fall before its border");
+  ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders);
+  job.source.zones = std::move(zones.zones);
+  job.materials = std::move(zones.materials);
+  return job;
+}
+
+}  // namespace unicursal::host

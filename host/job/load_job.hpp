@@ -1,0 +1,18 @@
+// Reads a job file. Lengths in mm.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "host/job/job.hpp"
+
+namespace unicursal::host {
+
+/// Reads and checks a job and the profile it names, or `profile` instead. File names in a job are relative
+/// to it. Throws JobError, core::FileError, core::DataError.
+Job load_job(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile = {});
+
+/// The bead width that seeds at distance `d` (mm, the paper's d) come out with, mm.
+double bead_width_from_seed_distance(double d);
+
+}  // namespace unicursal::host
