@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "firmware_gcode/reply/reply.hpp"
+#include "core/text/printable.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/show.hpp"
@@ -91,7 +91,7 @@ class CommandLine {
     for (const CLI::App* known : app_.get_subcommands({})) {
       if (known->check_name(argv[1])) return;
     }
-    throw core::DataError("", "", "there is no command \"" + gcode::printable(argv[1]) + "\"",
+    throw core::DataError("", "", "there is no command \"" + core::printable(argv[1]) + "\"",
                           "unicursal --help lists what there is");
   }
 

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/text/printable.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 #include "host/cli/show.hpp"
 #include "host/engine/session_json.hpp"
@@ -84,12 +85,12 @@ void Display::show(const Session& session, const SessionEvent& event) {
     if (!often || is_due(event_interval)) write(event, session.status());
     return;
   }
-  if (is_news(event)) return say(gcode::printable(event.text));
+  if (is_news(event)) return say(core::printable(event.text));
   const bool changed = event.kind == SessionEvent::Kind::state;
   if (changed || !terminal_ || is_due(redraw_interval)) {
     const SessionStatus status = session.status();
     if (changed && !status.reason.empty() && !has_ended(status.state))
-      say(fmt::format("{}: {}", name(status.state), gcode::printable(status.reason)));
+      say(fmt::format("{}: {}", name(status.state), core::printable(status.reason)));
     draw(status);
   }
 }

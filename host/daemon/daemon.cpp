@@ -8,7 +8,7 @@
 #include <asio/use_awaitable.hpp>
 #include <utility>
 
-#include "firmware_gcode/reply/reply.hpp"
+#include "core/text/printable.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/engine/session_json.hpp"
@@ -96,7 +96,7 @@ json Daemon::status() const {
 json Daemon::printer() const {
   json printer = {{"version", 1}, {"busy", busy()}};
   if (options_.port) printer["port"] = *options_.port;
-  if (!firmware_.empty()) printer["firmware"] = gcode::printable(firmware_);
+  if (!firmware_.empty()) printer["firmware"] = core::printable(firmware_);
   const Profile* profile = profile_ ? &*profile_ : nullptr;
   if (current_ && current_->print) profile = &current_->print->prepared().job.profile;
   if (!profile) return printer;
@@ -275,7 +275,7 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   Session& session = current_->print->begin(loop_.get_executor());
   session.on_event([this](const SessionEvent& event) { told(event); });
   co_await enter(id, QueuedJob::State::printing, {});
-  notify_service("STATUS=printing " + gcode::printable(job.name));
+  notify_service("STATUS=printing " + core::printable(job.name));
   const StreamResult result = co_await session.run();
   firmware_ = result.firmware;
   ending = state_after(result.ending);
@@ -341,7 +341,7 @@ void Daemon::told(const SessionEvent& event) {
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
   if (!session || clients_.empty()) return;
   SessionEvent shown = event;
-  shown.text = event.kind == SessionEvent::Kind::printer ? gcode::printable(event.text) : event.text;
+  shown.text = event.kind == SessionEvent::Kind::printer ? core::printable(event.text) : event.text;
   broadcast(to_json(shown, session->status()));
 }
 

@@ -17,7 +17,7 @@
 #include <memory>
 #include <system_error>
 
-#include "firmware_gcode/reply/reply.hpp"
+#include "core/text/printable.hpp"
 #include "host/link/find_port.hpp"
 #include "host/link/line_rate.hpp"
 
@@ -73,7 +73,7 @@ class Descriptor {
     default:
       why = std::string(std::strerror(error)) + "; check the cable and the printer's power";
   }
-  throw PortError(gcode::printable(path) + ": " + why);
+  throw PortError(core::printable(path) + ": " + why);
 }
 
 /// Where /dev/serial/by-id points, by device.
@@ -89,7 +89,7 @@ std::map<fs::path, std::string> stable_names() {
 }
 
 std::string text(const char* from) {
-  return from == nullptr ? std::string() : gcode::printable(from);
+  return from == nullptr ? std::string() : core::printable(from);
 }
 
 /// Changes nothing about the port; without one, whoever opens it next will tell why.
@@ -143,7 +143,7 @@ int open_real(sp_port* port, const std::string& path, unsigned baud) {
   if (sp_set_config(port, config.get()) != SP_OK) {
     throw PortError(
         fmt::format("{}: the port cannot run at {} baud; correct the rate in the printer's profile",
-                    gcode::printable(path), baud));
+                    core::printable(path), baud));
   }
   keep_dtr(handle);
   hasten(handle);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "core/text/printable.hpp"
 #include "host/link/state.hpp"
 
 namespace unicursal::host {
@@ -33,7 +34,7 @@ void Link::State::hear(std::string_view line) {
   std::visit([this](const auto& what) { take(what); }, reply);
   if (probing && std::holds_alternative<reply::Error>(reply)) return;  // asked for
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
-    listener(printable(line));
+    listener(core::printable(line));
   }
 }
 
@@ -87,11 +88,11 @@ void Link::State::take(const reply::Resend& resend) {
 void Link::State::take(const reply::Error& error) {
   if (error.last_line) return asked_for(*error.last_line + 1);
   if (!error.halted) {
-    last_error = printable(error.text);
+    last_error = core::printable(error.text);
     ++refusals;
     return;
   }
-  fail("the printer has stopped itself (" + (last_error.empty() ? printable(error.text) : last_error) +
+  fail("the printer has stopped itself (" + (last_error.empty() ? core::printable(error.text) : last_error) +
        "); see to the cause, then switch it off and on again");
 }
 
@@ -144,7 +145,7 @@ void Link::State::take(const reply::TemperatureReport& report) {
 }
 
 void Link::State::take(const reply::Firmware& told) {
-  firmware = printable(told.text, 1000);
+  firmware = core::printable(told.text, 1000);
   auto promised = std::move(identity.capabilities);
   identity = identify(told.text);
   identity.capabilities = std::move(promised);

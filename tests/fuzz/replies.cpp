@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/text/file_bytes.hpp"
+#include "core/text/printable.hpp"
 #include "firmware_gcode/reply/identity.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 #include "host/doctor/examine.hpp"
@@ -60,7 +61,7 @@ bool is_printable(std::string_view text) {
 
 void check(const std::string& line) {
   require(line.size() <= host::LineSplitter::longest, "a line grew beyond its bound");
-  require(is_printable(gcode::printable(line)), "text was shown that cannot be");
+  require(is_printable(core::printable(line)), "text was shown that cannot be");
   const gcode::Reply reply = gcode::parse_reply(line);
   const auto* ok = std::get_if<gcode::reply::Ok>(&reply);
   const auto* report = std::get_if<gcode::reply::TemperatureReport>(&reply);
