@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "core/text/wording.hpp"
 #include "host/job/print_keys.hpp"
 #include "host/job/settings_file.hpp"
 #include "host/job/zones.hpp"
@@ -45,10 +45,7 @@ std::vector<std::filesystem::path> read_files(const Section& part) {
 }
 
 bool is_drawing(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".svg";
+  return core::lower(file.extension().string()) == ".svg";
 }
 
 double read_layer_height(const Section& part, const char* key, double nozzle) {
