@@ -1,5 +1,5 @@
-// The drawings of the operations show edges of the tour as rows of * and other edges as rows of dots. Edges that
-// do not matter, such as the diagonals of rhombuses, are left out.
+// The drawings of the operations show edges of the tour as rows of * and other edges as rows of dots. Edges
+// that do not matter, such as the diagonals of rhombuses, are left out.
 #include "core/cycle/local_operations.hpp"
 
 #include <algorithm>
