@@ -21,6 +21,10 @@ using namespace unicursal::core;
 constexpr double near_the_field = 0.3;  ///< rad
 constexpr int runs = 5;
 
+bool inner(const CellGraph& graph, EdgeIndex e) {
+  return graph.face(PlanarGraph::forward(e)) != outside && graph.face(PlanarGraph::backward(e)) != outside;
+}
+
 struct Sample {
   std::string name;
   Polygon domain;
@@ -50,10 +54,6 @@ Sample square() {
   pattern.kind = PatternKind::angle;
   pattern.angle = std::numbers::pi / 6;
   return sample_of("square", {{0, 0}, {40, 0}, {40, 40}, {0, 40}}, pattern);
-}
-
-bool inner(const CellGraph& graph, EdgeIndex e) {
-  return graph.face(PlanarGraph::forward(e)) != outside && graph.face(PlanarGraph::backward(e)) != outside;
 }
 
 /// Share of the inner edges' length near the field, and mean squared angle to it, rad².
