@@ -43,7 +43,7 @@ void apply(const CurveCommand& command, core::PlanOptions& options) {
   if (command.replay) options.recorded = effort_in(*command.replay);
   if (!command.budget) return;
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(*command.budget);
-  options.enough = [end] { return std::chrono::steady_clock::now() >= end; };
+  options.budget_spent = [end] { return std::chrono::steady_clock::now() >= end; };
 }
 
 PlannedLayer plan_one(const PreparedJob& prepared, const CurveCommand& command, core::Stages* stages) {

@@ -1,5 +1,6 @@
-#include "core/field/grid_distance.hpp"
+#include "core/numeric/grid_distance.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace unicursal::core {
@@ -7,10 +8,11 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Replaces f(i) by the least f(k) + (i − k)² over k, along one line; keeps its work space between lines.
+/// Replaces f(i) by the least f(k) + (i − k)² over all k of a line. One object serves many lines, so that its
+/// memory is reused.
 class LowerEnvelope {
  public:
-  /// `f` starts the line, whose `count` values are `stride` apart.
+  /// `f` is the first of the line's `count` values, which are `stride` apart.
   void apply(double* f, std::size_t count, std::size_t stride) {
     build(f, count, stride);
     if (parabolas_.empty()) return;
@@ -26,7 +28,7 @@ class LowerEnvelope {
  private:
   struct Parabola {
     double apex, base;
-    double from;  ///< lowest of all from here on, until the next begins
+    double from;  ///< the parabola is the lowest from here to the start of the next one
   };
 
   void build(const double* f, std::size_t count, std::size_t stride) {
@@ -55,12 +57,13 @@ class LowerEnvelope {
 
 }  // namespace
 
-std::vector<double> distance_to_marked(const Grid& grid, const std::vector<std::uint8_t>& marked) {
-  std::vector<double> result(grid.size());
-  for (std::size_t k = 0; k < grid.size(); ++k) result[k] = marked[k] != 0 ? 0 : infinite;
+std::vector<double> distance_to_marked(std::size_t lines, std::size_t length,
+                                       const std::vector<std::uint8_t>& marked) {
+  std::vector<double> result(lines * length);
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = marked[k] != 0 ? 0 : infinite;
   LowerEnvelope envelope;
-  for (std::size_t c = 0; c < grid.columns; ++c) envelope.apply(&result[c * grid.rows], grid.rows, 1);
-  for (std::size_t r = 0; r < grid.rows; ++r) envelope.apply(&result[r], grid.columns, grid.rows);
+  for (std::size_t line = 0; line < lines; ++line) envelope.apply(&result[line * length], length, 1);
+  for (std::size_t k = 0; k < length; ++k) envelope.apply(&result[k], lines, length);
   for (double& d : result) d = std::sqrt(d);
   return result;
 }
