@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "core/error.hpp"
-#include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 
 namespace unicursal::host {

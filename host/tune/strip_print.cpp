@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/motion/speeds.hpp"
 #include "firmware_gcode/review/review.hpp"

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
 
