@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/text/wording.hpp"
-#include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 
 namespace unicursal::host {

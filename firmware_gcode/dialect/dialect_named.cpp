@@ -1,4 +1,4 @@
-#include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 
 #include "core/error.hpp"
 #include "firmware_gcode/dialect/marlin.hpp"
