@@ -41,24 +41,6 @@ std::uint64_t heat_lines(const std::vector<std::string>& lead_in) {
   return static_cast<std::uint64_t>(lead_in.rend() - last);
 }
 
-/// The layer, counted from 0, that is printed when so much of the chunk's time has passed.
-std::optional<std::size_t> layer_at(const gcode::Chunk& chunk, double fraction) {
-  if (chunk.layers.empty()) return std::nullopt;
-  double left = fraction * chunk.seconds;
-  for (const gcode::LayerShare& share : chunk.layers) {
-    left -= share.seconds;
-    if (left < 0) return share.layer;
-  }
-  return chunk.layers.back().layer;
-}
-
-/// Of which nothing is left for later chunks.
-std::size_t whole_layers(const gcode::Chunk& chunk) {
-  if (chunk.layers.empty()) return chunk.seconds > 0 ? 1 : 0;
-  return static_cast<std::size_t>(std::count_if(chunk.layers.begin(), chunk.layers.end(),
-                                                [](const gcode::LayerShare& share) { return share.last; }));
-}
-
 LinkOptions on_clock(const StreamSettings& settings) {
   LinkOptions options = settings.link;
   options.clock = settings.clock;
@@ -103,7 +85,7 @@ Session::State::State(asio::any_io_executor on, int descriptor, Source& of, Stre
       if (const auto alive = weak.lock()) (*alive)->wake.notify();
     });
   });
-  if (settings.continuation) layers_before = spool->extent().layers;
+  if (settings.continuation) progress = Progress::resumed(spool->extent().layers);
   if (spool) keep_journal();
 }
 
@@ -227,7 +209,6 @@ asio::awaitable<void> Session::State::send_spooled() {
   modal = state_at(spool->chunks(), leg, first);
   heating = first < hot;
   homeless = heating && !leg.lead_in.empty();
-  replaying = true;
   enter(heating ? SessionState::heating : SessionState::printing);
   while (!stopped) {
     // What leads back to the part is gone through as a whole.
@@ -236,14 +217,13 @@ asio::awaitable<void> Session::State::send_spooled() {
     std::vector<std::string> lines =
         reader.next(heating ? std::min<std::uint64_t>(batch, hot - place) : batch);
     if (lines.empty()) break;
-    layers_begun = reader.layers_begun();
-    layer_fraction = reader.fraction();
+    progress.replay(reader.layers_begun(), reader.fraction());
     co_await hand(std::move(lines));
     if (heating && place >= hot) co_await get_hot();
     homeless = homeless && stopped;
   }
-  heating = replaying = false;
-  layer_fraction = 0;
+  heating = false;
+  progress.end_replay();
   co_await catch_up();
   if (catching_up_failed) std::rethrow_exception(catching_up_failed);
 }
@@ -274,27 +254,10 @@ asio::awaitable<void> Session::State::send_pieces() {
     std::optional<PrintStep> piece = co_await next_piece();
     if (!piece || stopped || !co_await keep(std::move(piece->record), piece->chunk)) break;
     const gcode::Chunk& chunk = piece->chunk;
-    chunk_seconds = chunk.seconds;
-    whole = whole_layers(chunk);
-    time_layers(chunk);
-    layers_begun = layer_at(chunk, 0).value_or(layers_begun);
+    progress.begin_chunk(chunk, source.flow());
     co_await send(chunk);
     if (stopped) break;
-    seconds_sent += std::exchange(chunk_seconds, no_time);
-    layers_sent += std::exchange(whole, 0U);
-    layer_fraction = 0;
-  }
-}
-
-/// The first layer is no measure for the others: it has its own speed, and a skirt. What primes is no part of
-/// a layer.
-void Session::State::time_layers(const gcode::Chunk& chunk) {
-  if (source.flow() > 0) unfinished_seconds -= chunk.prime_volume / source.flow();
-  for (const gcode::LayerShare& share : chunk.layers) {
-    unfinished_seconds += share.seconds;
-    if (!share.last) continue;
-    if (share.layer > 0) later_seconds += unfinished_seconds;
-    unfinished_seconds = 0;
+    progress.end_chunk();
   }
 }
 
@@ -328,7 +291,7 @@ asio::awaitable<void> Session::State::until(TimePoint ready) {
 
 /// What the printer still has in its queue is left out: it is little, and on the safe side.
 void Session::State::tell_position() {
-  const double left = chunk_seconds * (1 - layer_fraction) * 100 / speed_percent;
+  const double left = progress.chunk_seconds_left() * 100 / speed_percent;
   source.printed(seconds(clock->now().time_since_epoch()), left);
 }
 
@@ -388,10 +351,7 @@ asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
   for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
     if (!own) co_await between();
     if (stopped && !ending()) co_return;
-    if (!own) {
-      layer_fraction = static_cast<double>(i) / static_cast<double>(chunk.lines.size());
-      layers_begun = layer_at(chunk, layer_fraction).value_or(layers_begun);
-    }
+    if (!own) progress.sent(static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
     const std::size_t end = std::min(i + batch, chunk.lines.size());
     co_await hand({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                    chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});

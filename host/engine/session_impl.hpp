@@ -13,6 +13,7 @@
 
 #include "firmware_gcode/interruption/modal_state.hpp"
 #include "firmware_gcode/interruption/pause.hpp"
+#include "host/engine/progress.hpp"
 #include "host/engine/session.hpp"
 #include "host/loop/signal.hpp"
 
@@ -43,7 +44,6 @@ struct Session::State {
   asio::awaitable<void> start();
   asio::awaitable<void> get_hot();
   asio::awaitable<void> send_pieces();
-  void time_layers(const gcode::Chunk& chunk);
   asio::awaitable<std::optional<PrintStep>> next_piece();
   asio::awaitable<void> until_ready();
   asio::awaitable<void> until(TimePoint ready);
@@ -73,7 +73,7 @@ struct Session::State {
   gcode::Pause pause_here() const;
   bool placed() const;
   /// Whether the nozzle stands where plastic was laid.
-  bool laying() const { return layers_before > 0 || seconds_sent > 0; }
+  bool laying() const { return progress.has_laid(); }
   bool held() const { return state == SessionState::pausing || state == SessionState::paused; }
   bool ending() const { return state == SessionState::finishing || state == SessionState::cancelling; }
   bool to_be_interrupted() const { return stopped || aborted; }
@@ -97,7 +97,7 @@ struct Session::State {
   void tell(SessionEvent::Kind kind, const std::string& text = {}) const;
   void warn(const std::string& sentence);
   SessionStatus status() const;
-  double seconds_left() const;
+  Ahead ahead() const;
   std::string mixture() const;
 
   asio::thread_pool disk{1};
@@ -153,21 +153,11 @@ struct Session::State {
   std::uint64_t place = 0;  ///< before which everything was handed to the link
   std::uint64_t extra = 0;  ///< lines handed that are none of the leg's
   bool interposing = false;
-  bool anew = true;               ///< the next numbering is the first
-  Anchor numbered;                ///< `place` counts all lines of this session
-  std::size_t layers_before = 0;  ///< that the spool held when this session began
-  std::size_t layers_begun = 0;
-  bool replaying = false;           ///< what is sent comes from the spool
-  mutable double told_percent = 0;  ///< it never falls, though a layer may take longer than was foretold
-  double layer_fraction = 0;        ///< of the chunk that is being sent
-  double seconds_sent = 0, chunk_seconds = 0;  ///< of the chunks before, of the one that is being sent
-  double unfinished_seconds = 0;               ///< of these, a layer's that ends in a later chunk
-  double later_seconds = 0;                    ///< and those of whole layers, but for the print's first
-  std::size_t layers_sent = 0;                 ///< whose seconds are in `seconds_sent`
-  std::size_t whole = 0;                       ///< layers that end in the chunk that is being sent
+  bool anew = true;  ///< the next numbering is the first
+  Anchor numbered;   ///< `place` counts all lines of this session
+  Progress progress;
 };
 
-constexpr double no_time = 0;
 constexpr auto pause_when_hot = "it is held as soon as it is hot";
 
 /// Whatever was thrown, as a sentence for a person.

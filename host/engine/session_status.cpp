@@ -125,26 +125,9 @@ void Session::State::warn(const std::string& sentence) {
   tell(SessionEvent::Kind::notice, "Warning: " + sentence);
 }
 
-/// Layers that are not sent yet are taken to last as the flow foretells, by as much more as those did that
-/// were; where nothing is foretold, as long as those before them on average.
-double Session::State::seconds_left() const {
-  if (replaying) {
-    const double this_layer = source.foretold(layers_begun, layers_begun + 1).value_or(0);
-    return source.foretold(layers_begun, source.layers()).value_or(0) - layer_fraction * this_layer;
-  }
-  const double at_hand = chunk_seconds * (1 - layer_fraction);
-  const std::size_t done = layers_before + layers_sent + whole;
-  if (const auto rest = source.foretold(done, source.layers())) {
-    const double later = source.foretold(std::max<std::size_t>(layers_before, 1), done).value_or(0);
-    const double stretch = later > 0 && later_seconds > 0 ? later_seconds / later : 1;
-    return at_hand + std::max(stretch * *rest - unfinished_seconds, no_time);
-  }
-  const Waiting waiting = source.waiting();
-  const std::size_t known = layers_sent + whole + waiting.layers;
-  const double sum = seconds_sent + chunk_seconds + waiting.seconds;
-  const double mean = known > 0 ? sum / static_cast<double>(known) : sum;
-  const std::size_t unknown = source.layers() - std::min(source.layers(), layers_before + known);
-  return at_hand + waiting.seconds + mean * static_cast<double>(unknown);
+Ahead Session::State::ahead() const {
+  return {source.layers(), source.waiting(),
+          [this](std::size_t begin, std::size_t end) { return source.foretold(begin, end); }};
 }
 
 /// By the tool in use and what was last stored into it.
@@ -172,18 +155,11 @@ SessionStatus Session::State::status() const {
   status.state = state;
   status.reason = pause_wanted && state == SessionState::heating ? pause_when_hot : reason;
   status.layers = source.layers();
-  const bool begun = chunk_seconds > 0 || layers_begun > 0 || layers_sent > 0;
-  status.layer = begun ? std::min(layers_begun + 1, status.layers) : 0;
-  status.layer_fraction = layer_fraction;
-  if (begun) {
-    const double left = seconds_left();
-    double sent = seconds_sent + chunk_seconds * layer_fraction;
-    if (settings.continuation)
-      sent = std::max(source.foretold(0, source.layers()).value_or(0) - left, no_time);
-    status.left = has_ended(state) ? 0 : left;
-    const double rest = state == SessionState::done ? 0 : left;
-    if (sent + rest > 0) told_percent = std::max(told_percent, 100 * sent / (sent + rest));
-    status.percent = told_percent;
+  status.layer = progress.layer(status.layers);
+  status.layer_fraction = progress.fraction();
+  if (progress.has_begun()) {
+    status.left = has_ended(state) ? 0 : progress.seconds_left(ahead());
+    status.percent = progress.percent(ahead(), state == SessionState::done);
   }
   status.elapsed = std::chrono::duration<double>(clock->now() - began).count();
   status.temperatures = temperatures;
