@@ -1,8 +1,9 @@
-#include "host/engine/session.hpp"
+#include "host/engine/session_impl.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <asio/bind_executor.hpp>
 #include <asio/co_spawn.hpp>
 #include <asio/post.hpp>
@@ -11,7 +12,7 @@
 
 #include "host/engine/printer_check.hpp"
 #include "host/engine/rejoining.hpp"
-#include "host/engine/session_impl.hpp"
+#include "host/engine/seconds.hpp"
 #include "host/link/serial_log.hpp"
 #include "host/spool/chunk_reader.hpp"
 
@@ -47,14 +48,6 @@ LinkOptions on_clock(const StreamSettings& settings) {
   return options;
 }
 
-double seconds(Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
-Duration duration(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
 }  // namespace
 
 std::string sentence(const std::exception_ptr& error) {
@@ -77,16 +70,17 @@ Session::State::State(asio::any_io_executor on, int descriptor, Source& of, Stre
       spool(settings.spool),
       clock(settings.clock),
       wake(on, clock),
-      self(std::make_shared<State*>(this)),
-      link(on, descriptor, on_clock(settings)) {
+      alive(std::make_shared<State*>(this)),
+      link(on, descriptor, on_clock(settings)),
+      progress(settings.continuation ? Progress::resumed(spool->extent().layers) : Progress()),
+      places(link, spool),
+      holding({link, wake, source, settings, places, printer, announcer, intent, progress}) {
   link.on_message([this](const std::string& line) { hear(line); });
-  source.on_ready([on, weak = std::weak_ptr(self)] {
+  source.on_ready([on, weak = std::weak_ptr(alive)] {
     asio::post(on, [weak] {
-      if (const auto alive = weak.lock()) (*alive)->wake.notify();
+      if (const auto state = weak.lock()) (*state)->wake.notify();
     });
   });
-  if (settings.continuation) progress = Progress::resumed(spool->extent().layers);
-  if (spool) keep_journal();
 }
 
 Session::State::~State() {
@@ -97,29 +91,28 @@ Session::State::~State() {
 // ---- the way through a print
 
 asio::awaitable<void> Session::State::print() {
-  print_begun = settings.continuation.has_value();
+  result.begun = settings.continuation.has_value();
   co_await begin();
-  print_begun = true;
-  if (lost) co_return;
+  result.begun = true;
+  if (result.lost) co_return;
   std::exception_ptr error;
   try {
     if (settings.continuation) co_await send_spooled();
     if (!settings.continuation || spool->extent().start_lines == 0) co_await start();
-    co_await send_pieces();
-    if (aborted) throw LinkError("the print was stopped at once");
-    if (!stopped) co_await between();  // a pause that was asked for in the last lines
+    co_await send_steps();
+    co_await holding.between_batches();  // a pause that was asked for in the last lines
   } catch (const LinkError&) {
     throw;
   } catch (...) {
     error = std::current_exception();
   }
-  // Whatever went wrong, the printer is hot by now and has to be left cold.
-  if (stopped || error) {
-    stopped = !error;
-    enter(SessionState::cancelling, error ? sentence(error) : stop_reason);
+  if (intent.aborted()) throw LinkError("the print was stopped at once");
+  // The printer is hot by now and must be left cold, even after an error.
+  if (intent.stopped() || error) {
+    announcer.enter(SessionState::cancelling, error ? sentence(error) : intent.reason());
     co_await park();
   } else {
-    enter(SessionState::finishing);
+    announcer.enter(SessionState::finishing);
     co_await finish();
   }
   if (error) throw PrintError(sentence(error) + "; the print was ended there");
@@ -136,28 +129,30 @@ asio::awaitable<void> Session::State::begin() {
 }
 
 void Session::State::check_firmware() {
-  const gcode::Identity& printer = link.identity();
-  if (const auto why = mismatch(printer, source.printer().firmware)) {
-    unfit = true;
+  const gcode::Identity& identity = link.identity();
+  if (const auto why = mismatch(identity, source.printer().firmware)) {
+    result.unfit = true;
     const std::string remedy = settings.continuation
                                    ? "go on where the print was begun, or print the job anew"
-                                   : correction(printer, settings.profile);
+                                   : correction(identity, settings.profile);
     throw LinkError(fmt::format("this printer cannot be used: {}; {}", *why, remedy));
   }
-  if (const auto strange = strangeness(printer)) warn(*strange);
+  if (const auto strange = strangeness(identity)) announcer.warn(*strange);
 }
 
-/// Some firmwares say ok when a line has come, and answer when it is run; what they answer to the second
+/// Some firmwares say ok when a line has come, and answer when they run it. What they answer to the second
 /// question comes behind what they say to the first.
 asio::awaitable<void> Session::State::check_mixing() {
   std::vector<std::string> questions{mixing_question, "M105"};
-  temperatures = {};
-  co_await interpose(std::move(questions));
+  printer.temperatures = {};
+  co_await places.interpose(std::move(questions));
   co_await link.drain();
-  const std::function<bool()> answered = [this] { return !mixes || temperatures.nozzle || temperatures.bed; };
+  const std::function<bool()> answered = [this] {
+    return !printer.mixes || printer.temperatures.nozzle || printer.temperatures.bed;
+  };
   co_await wake.wait(clock->now() + late_answer, answered);
-  if (mixes) co_return;
-  unfit = true;
+  if (printer.mixes) co_return;
+  result.unfit = true;
   throw LinkError(fmt::format("this printer cannot be used: {}", does_not_mix));
 }
 
@@ -167,20 +162,17 @@ asio::awaitable<void> Session::State::rejoin() {
   try {
     found = co_await link.rejoin(number_beyond(before));
   } catch (const PrinterReset& error) {
-    lost = Lost{error.what(), std::nullopt};
+    result.lost = Lost{error.what(), std::nullopt};
     co_return;
   }
   check_firmware();
-  lost = lost_since(before, found, spool->chunks(), spool->extent());
-  if (lost) co_return;
-  spool->journal().begin_session();
-  first = place = *before.place_of(found.next);
-  anew = false;
-  spool->journal().anchor({found.next, first}, true);
-  numbered = {found.next, 0};
+  result.lost = lost_since(before, found, spool->chunks(), spool->extent());
+  if (result.lost) co_return;
+  places.rejoin({found.next, *before.place_of(found.next)});
   link.go_on(found.next);
 }
 
+/// Until this is over the source belongs to another thread.
 void Session::State::begin_to_catch_up() {
   caught_up = false;
   const auto work = [this]() -> asio::awaitable<void> {
@@ -194,110 +186,109 @@ void Session::State::begin_to_catch_up() {
                  }));
 }
 
-/// Until then the source's run belongs to another thread.
 asio::awaitable<void> Session::State::catch_up() {
   const std::function<bool()> done = [this] { return caught_up; };
   co_await wake.wait(TimePoint::max(), done);
 }
 
-/// What is spooled from here on in this leg.
+/// Sends what is spooled from here on in this leg.
 asio::awaitable<void> Session::State::send_spooled() {
   begin_to_catch_up();
   const Leg& leg = settings.continuation->leg ? *settings.continuation->leg : spool->before().leg;
   const std::uint64_t hot = leg.lead_in.empty() ? spool->extent().start_lines : heat_lines(leg.lead_in);
-  LegReader reader(spool->chunks(), leg, first);
-  modal = state_at(spool->chunks(), leg, first);
-  heating = first < hot;
-  homeless = heating && !leg.lead_in.empty();
-  enter(heating ? SessionState::heating : SessionState::printing);
-  while (!stopped) {
-    // What leads back to the part is gone through as a whole.
-    if (!heating && place >= leg.lead_in.size()) co_await between();
-    if (stopped) break;
+  LegReader reader(spool->chunks(), leg, places.begin());
+  printer.expected = state_at(spool->chunks(), leg, places.begin());
+  bool& heating = printer.may_wait_for_heat;
+  heating = places.begin() < hot;
+  printer.must_not_move = heating && !leg.lead_in.empty();
+  announcer.enter(heating ? SessionState::heating : SessionState::printing);
+  while (!intent.ends()) {
+    // The lines that lead back to the part are not interrupted.
+    if (!heating && places.next() >= leg.lead_in.size()) co_await holding.between_batches();
+    if (intent.ends()) break;
     std::vector<std::string> lines =
-        reader.next(heating ? std::min<std::uint64_t>(batch, hot - place) : batch);
+        reader.next(heating ? std::min<std::uint64_t>(batch, hot - places.next()) : batch);
     if (lines.empty()) break;
     progress.replay(reader.layers_begun(), reader.fraction());
-    co_await hand(std::move(lines));
-    if (heating && place >= hot) co_await get_hot();
-    homeless = homeless && stopped;
+    co_await send_batch(std::move(lines));
+    if (heating && places.next() >= hot) co_await get_hot();
+    printer.must_not_move = printer.must_not_move && intent.ends();
   }
   heating = false;
   progress.end_replay();
+  if (intent.aborted()) co_return;
   co_await catch_up();
   if (catching_up_failed) std::rethrow_exception(catching_up_failed);
 }
 
 asio::awaitable<void> Session::State::start() {
-  if (stopped) co_return;
+  if (intent.ends()) co_return;
   gcode::Chunk chunk = source.start();
-  if (!co_await keep({}, chunk)) co_return;
-  heating = true;
-  enter(SessionState::heating);
+  if (!co_await spool_chunk({}, chunk)) co_return;
+  printer.may_wait_for_heat = true;
+  announcer.enter(SessionState::heating);
   if (source.printer().start_gcode.find("M85") != std::string::npos)
-    warn(
+    announcer.warn(
         "the profile's start lines set M85; it is set again after them, since nothing else cools the printer "
         "when this computer fails");
   co_await send(chunk);
   co_await get_hot();
 }
 
-/// A command has to know whether that is so.
+/// Returns when the printer is hot.
 asio::awaitable<void> Session::State::get_hot() {
-  if (!stopped) co_await link.drain();
-  heating = false;
-  if (!stopped && !pause_wanted) enter(SessionState::printing);
+  if (!intent.ends()) co_await link.drain();
+  printer.may_wait_for_heat = false;
+  if (!intent.ends() && !intent.paused_by_session()) announcer.enter(SessionState::printing);
 }
 
-asio::awaitable<void> Session::State::send_pieces() {
-  while (!stopped) {
-    std::optional<PrintStep> piece = co_await next_piece();
-    if (!piece || stopped || !co_await keep(std::move(piece->record), piece->chunk)) break;
-    const gcode::Chunk& chunk = piece->chunk;
-    progress.begin_chunk(chunk, source.flow());
-    co_await send(chunk);
-    if (stopped) break;
+asio::awaitable<void> Session::State::send_steps() {
+  while (!intent.ends()) {
+    std::optional<PrintStep> step = co_await next_step();
+    if (!step || intent.ends() || !co_await spool_chunk(std::move(step->record), step->chunk)) break;
+    progress.begin_chunk(step->chunk, source.flow());
+    co_await send(step->chunk);
+    if (intent.ends()) break;
     progress.end_chunk();
   }
 }
 
 /// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile, and
-/// what is charged for planning passes afterwards.
-asio::awaitable<std::optional<PrintStep>> Session::State::next_piece() {
+/// the time that is charged for planning passes afterwards.
+asio::awaitable<std::optional<PrintStep>> Session::State::next_step() {
   const TimePoint asked = clock->now();
-  tell_position();
-  co_await until_ready();
-  std::optional<PrintStep> piece = source.next();
-  if (piece) co_await until(TimePoint(duration(piece->ready_at)));
-  waited += seconds(clock->now() - asked);
-  co_return piece;
+  report_position();
+  co_await wait_until_planned();
+  std::optional<PrintStep> step = source.next();
+  if (step) co_await wait_until(TimePoint(duration(step->ready_at)));
+  result.waited += seconds(clock->now() - asked);
+  co_return step;
 }
 
-asio::awaitable<void> Session::State::until_ready() {
+asio::awaitable<void> Session::State::wait_until_planned() {
   Need planned;
   planned.why = fell_behind;
   planned.come = [this] { return source.ready(); };
   planned.at_work = true;
-  co_await wait_for(planned);
+  co_await holding.wait_for(planned);
 }
 
-asio::awaitable<void> Session::State::until(TimePoint ready) {
+asio::awaitable<void> Session::State::wait_until(TimePoint ready) {
   Need planned;
   planned.why = fell_behind;
   planned.come = [this, ready] { return clock->now() >= ready; };
   planned.at = ready;
-  co_await wait_for(planned);
+  co_await holding.wait_for(planned);
 }
 
-/// What the printer still has in its queue is left out: it is little, and on the safe side.
-void Session::State::tell_position() {
-  const double left = progress.chunk_seconds_left() * 100 / speed_percent;
-  source.printed(seconds(clock->now().time_since_epoch()), left);
+/// What the printer still has in its queue is left out: it is little, and the error is on the safe side.
+void Session::State::report_position() {
+  report_printed(source, *clock, progress.chunk_seconds_left() * 100 / printer.speed_percent);
 }
 
 asio::awaitable<void> Session::State::finish() {
   if (settings.continuation && spool->extent().finished) {
-    parked = true;
+    result.parked = true;
     co_return co_await link.drain();
   }
   gcode::Chunk chunk;
@@ -309,23 +300,23 @@ asio::awaitable<void> Session::State::finish() {
   }
   SpooledChunk record;
   record.kind = SpooledChunk::Kind::finish;
-  if (const std::string problem = co_await try_to_keep(record, chunk); !problem.empty()) {
-    // The part is done: it is not to lie below a hot nozzle until there is room.
-    tell(SessionEvent::Kind::notice, "Error: the end of the print is sent without being kept: " + problem);
-    co_return co_await send_last(std::move(chunk));
+  if (const std::string problem = co_await try_to_spool(record, chunk); !problem.empty()) {
+    // The part is done: it must not lie below a hot nozzle until there is room.
+    announcer.notice("Error: the end of the print is sent without being kept: " + problem);
+    co_return co_await send_end(std::move(chunk));
   }
-  parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
+  result.parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
   co_await send(chunk);
   co_await link.drain();
-  note_progress();
+  places.record_progress();
 }
 
-/// Before its end: these lines are none of the print's own.
+/// Ends the print before its last layer: these lines do not belong to the print.
 asio::awaitable<void> Session::State::park() {
   co_await catch_up();
   gcode::Chunk chunk;
   try {
-    if (homeless)
+    if (printer.must_not_move)
       chunk.lines = {"M104 S0", "M140 S0", "M107"};
     else
       chunk = source.finish();
@@ -334,67 +325,64 @@ asio::awaitable<void> Session::State::park() {
     throw;
   }
   gcode::keep_commands(chunk.lines);
-  co_await send_last(std::move(chunk));
+  co_await send_end(std::move(chunk));
 }
 
-asio::awaitable<void> Session::State::send_last(gcode::Chunk chunk) {
-  note_progress();
-  if (spool) spool->journal().park(chunk.lines);
-  parking = true;
-  parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
+asio::awaitable<void> Session::State::send_end(gcode::Chunk chunk) {
+  places.leave_print(chunk.lines);
+  result.parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
   co_await send(chunk);
   co_await link.drain();
 }
 
 asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
-  const bool own = heating || ending();  // commands wait until it is hot, or come too late
+  // While the printer heats commands have to wait, and at the end they come too late.
+  const bool whole = printer.may_wait_for_heat || announcer.is_ending();
   for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
-    if (!own) co_await between();
-    if (stopped && !ending()) co_return;
-    if (!own) progress.sent(static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
+    if (!whole) co_await holding.between_batches();
+    if (intent.ends() && !announcer.is_ending()) co_return;
+    if (!whole) progress.sent(static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
     const std::size_t end = std::min(i + batch, chunk.lines.size());
-    co_await hand({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
-                   chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
+    co_await send_batch({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
+                         chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
   }
 }
 
-asio::awaitable<void> Session::State::hand(std::vector<std::string> lines) {
-  for (const std::string& line : lines) modal.run(line);
-  co_await link.send(std::move(lines));
-  if (!parking) {
-    place = first + link.statistics().lines - extra;  // without those that a stop has made it forget
-    note_progress();
-    if (!heating) tell_position();
-  }
-  tell(SessionEvent::Kind::progress);
+asio::awaitable<void> Session::State::send_batch(std::vector<std::string> lines) {
+  for (const std::string& line : lines) printer.expected.run(line);
+  co_await places.send(std::move(lines));
+  if (!places.has_left_print() && !printer.may_wait_for_heat) report_position();
+  announcer.event(SessionEvent::Kind::progress);
 }
 
-StreamResult Session::State::result(const std::exception_ptr& error) {
-  StreamResult result{
-      Ending::completed, {}, parked, link.statistics(), link.firmware(), waited, lost, pauses, unfit,
-      print_begun};
-  if (stopped) result.ending = Ending::stopped;
+StreamResult Session::State::conclude(const std::exception_ptr& error) {
+  result.statistics = link.statistics();
+  result.firmware = link.firmware();
+  result.pauses = holding.pauses();
+  if (intent.stopped()) result.ending = Ending::stopped;
   if (error) result.reason = sentence(error);
-  if (aborted) result.reason = reason;
+  if (intent.aborted()) result.reason = announcer.reason();
   if (!result.reason.empty()) result.ending = Ending::failed;
   switch (result.ending) {
     case Ending::completed:
-      enter(SessionState::done);
+      announcer.enter(SessionState::done);
       break;
     case Ending::stopped:
-      enter(SessionState::stopped, stop_reason);
+      announcer.enter(SessionState::stopped, intent.reason());
       break;
     case Ending::failed:
-      enter(SessionState::failed, result.reason);
+      announcer.enter(SessionState::failed, result.reason);
   }
-  if (spool && !print_begun)
+  if (spool && !result.begun) {
     spool->discard();
-  else if (spool && !lost)
-    end_journal(result);
+  } else if (!result.lost) {
+    constexpr std::array outcomes{Outcome::completed, Outcome::stopped, Outcome::failed};
+    places.record_end({outcomes.at(static_cast<std::size_t>(result.ending)), result.reason});
+  }
   return result;
 }
 
-// ---- from outside
+// ---- options of a session
 
 PlanningClock planning_clock(std::shared_ptr<Clock> clock) {
   return {[clock = std::move(clock)] { return seconds(clock->now().time_since_epoch()); }, 1};
@@ -412,35 +400,6 @@ LinkOptions link_options(const Profile& profile, const std::optional<std::filesy
   options.temperatures = std::chrono::seconds(2);
   if (log) options.log = std::make_shared<SerialLog>(*log);
   return options;
-}
-
-Session::Session(asio::any_io_executor executor, int port, Source& source, StreamSettings settings)
-    : state_(std::make_unique<State>(std::move(executor), port, source, std::move(settings))) {}
-
-Session::~Session() = default;
-
-asio::awaitable<StreamResult> Session::run() {
-  std::exception_ptr error;
-  try {
-    co_await state_->print();
-  } catch (...) {
-    error = std::current_exception();
-  }
-  if (state_->aborted) co_await state_->confirm_stop();
-  co_return state_->result(error);
-}
-
-StreamResult Session::failed(std::exception_ptr error) {
-  state_->link.cool_down();
-  return state_->result(error);
-}
-
-SessionStatus Session::status() const {
-  return state_->status();
-}
-
-void Session::on_event(std::function<void(const SessionEvent&)> observer) {
-  state_->observer = std::move(observer);
 }
 
 }  // namespace unicursal::host
