@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace unicursal::gcode {
 
@@ -29,5 +30,8 @@ class Mixture {
  private:
   std::array<double, max_feeders> shares_;
 };
+
+/// For people: "0.02 : 0.74 : 0.24".
+std::string shares_text(const Mixture& mixture);
 
 }  // namespace unicursal::gcode

@@ -126,6 +126,9 @@ struct Encoder::State {
   void write(Chunk& chunk, const Warning& step);
   void write(Chunk& chunk, const Approach& step);
   void write(Chunk& chunk, const Lay& step);
+  CalibratedMixture calibrated_here(const Mixture& mixture) const;
+  std::string name_of(const Mixture& delivered) const;
+  void define_tool(std::size_t tool);
   void switch_mixture(Chunk& chunk);
   void draw_back(Chunk& chunk);
   void push_forward(Chunk& chunk);
@@ -146,7 +149,8 @@ struct Encoder::State {
   Forecast forecast;
   std::deque<Step> steps;  ///< planned and not yet written
   std::deque<Switch> switches;
-  std::optional<Mixture> mixture;        ///< that the feeders are told
+  std::optional<Shade> shade;            ///< in use
+  std::size_t shade_tool = 0;            ///< the virtual tool that holds it
   std::optional<core::Vec2> planned_to;  ///< where the last path that is planned ends
   double laid = 0;                       ///< mm³ along beads, written
   bool ended = false;
@@ -166,12 +170,9 @@ Encoder::State::State(const Printer& of, const PrintSettings& with)
     : printer((check_printer(of), of)),
       settings((check_settings(with, of), with)),
       dialect(dialect_named(of.firmware)),
-      palette(with.materials,
-              [this](const Mixture& m) {
-                return calibrated(m.with_floor(printer.floor_share), printer.flow_factors, dialect).delivered;
-              }),
+      palette(with.materials, [this](const Mixture& m) { return calibrated_here(m); }),
       overshoots(usable_overshoots()),
-      tools(dialect, palette, printer.flow_factors),
+      tools(dialect, palette, calibrated_here(Mixture({1, 1, 1}))),
       writer(printer, dialect),
       pace(printer, settings),
       review(printer, dialect),
@@ -180,7 +181,24 @@ Encoder::State::State(const Printer& of, const PrintSettings& with)
       forecast(palette, chamber_of(printer)) {
   start_lines = script_lines(printer.start_gcode, "gcode.start", printer, settings);
   end_lines = script_lines(printer.end_gcode, "gcode.end", printer, settings);
-  if (const auto tool = tools.retraction_tool()) writer.calibrate(*tool, tools.scale(*tool));
+  for (std::size_t i = 0; i < tools.size(); ++i) define_tool(i);
+}
+
+CalibratedMixture Encoder::State::calibrated_here(const Mixture& mixture) const {
+  return calibrated(mixture.with_floor(printer.floor_share), printer.flow_factors, dialect);
+}
+
+/// Of a material, where a gradient begins included; else the shares.
+std::string Encoder::State::name_of(const Mixture& delivered) const {
+  for (std::size_t i = 0; i < settings.materials.size(); ++i) {
+    if (palette.mixture(Shade{i, 0}) == delivered) return settings.materials[i].name;
+  }
+  return shares_text(delivered);
+}
+
+void Encoder::State::define_tool(std::size_t which) {
+  const CalibratedMixture& mixture = tools.mixture(which);
+  writer.define_tool(which, name_of(mixture.delivered), mixture.scale);
 }
 
 /// One tool is for drawing back.
@@ -382,6 +400,8 @@ void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
   if (part.lines.empty() && !layer_ends) return;
   review(part, fmt::format("layer {}", layer));
   chunk.layers.push_back({layer, part.volume, part.seconds, std::exchange(layer_ends, false)});
+  for (MixtureStart& start : part.mixtures)
+    chunk.mixtures.push_back({chunk.lines.size() + start.line, std::move(start.name)});
   append(chunk.lines, std::move(part.lines));
   append(chunk.warnings, std::move(part.warnings));
   for (const auto& [what, volume] : part.mixture_volumes) add(chunk.mixture_volumes, what, volume);
@@ -436,14 +456,18 @@ void Encoder::State::write(Chunk& chunk, const Approach& step) {
 
 /// Every switch that is due, of which the last one counts; and the tool, in case it has drawn filament back.
 void Encoder::State::switch_mixture(Chunk& chunk) {
+  std::optional<Shade> next;
   while (!switches.empty() && switches.front().at <= laid + least_piece) {
-    mixture = palette.mixture(switches.front().shade);
+    next = switches.front().shade;
     switches.pop_front();
   }
-  assert(mixture);  // the first switch is at 0
-  const std::size_t tool = tools.use(*mixture, chunk.lines);
-  writer.calibrate(tool, tools.scale(tool));
-  writer.select_tool(chunk, tool);
+  if (next) {
+    shade = next;
+    shade_tool = tools.use(palette.calibrated(*next), chunk.lines);
+    define_tool(shade_tool);
+  }
+  assert(shade);  // the first switch is at 0
+  writer.select_tool(chunk, shade_tool);
 }
 
 /// Cut where a switch falls within.
@@ -461,7 +485,7 @@ void Encoder::State::write(Chunk& chunk, const Lay& bead) {
     done += volume;
     const core::Vec2 end = cut ? core::Vec2(bead.from + way * (done / bead.volume)) : bead.to;
     writer.bead(chunk, end, volume, speed);
-    add(chunk.mixture_volumes, *mixture, volume);
+    add(chunk.mixture_volumes, palette.mixture(*shade), volume);
     if (bead.prime) chunk.prime_volume += volume;
     laid += volume;
     if (!cut) return;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kept = 5;  ///< prints; a part of many layers takes some tens of MB
-constexpr int format = 1;        ///< of print.json and of the two record files
+constexpr int format = 2;        ///< of print.json and of the two record files
 
 fs::path order_file(const fs::path& folder) {
   return folder / "print.json";

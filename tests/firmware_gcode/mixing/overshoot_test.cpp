@@ -15,7 +15,10 @@ namespace {
 constexpr double floor_share = 0.02;
 
 Palette palette_of(const std::vector<Material>& materials) {
-  return Palette(materials, [](const Mixture& m) { return m.with_floor(floor_share).quantised(4); });
+  return Palette(materials, [](const Mixture& m) {
+    const Mixture written = m.with_floor(floor_share).quantised(4);
+    return CalibratedMixture{written, written};
+  });
 }
 
 const std::vector<Material> three = {{"orange", Mixture({0.5, 0.5, 0})},

@@ -12,7 +12,9 @@ using namespace unicursal::gcode;
 namespace {
 
 Palette palette_of(const std::vector<Material>& materials) {
-  return Palette(materials, [](const Mixture& mixture) { return mixture.with_floor(0.02); });
+  return Palette(materials, [](const Mixture& mixture) {
+    return CalibratedMixture{mixture.with_floor(0.02), mixture.with_floor(0.02)};
+  });
 }
 
 const std::vector<Material> two = {{"blue", Mixture({1, 0, 0}), {}, false},
