@@ -14,6 +14,7 @@
 #include "host/engine/run.hpp"
 #include "host/lookahead/foretold_times.hpp"
 #include "host/lookahead/lookahead.hpp"
+#include "host/loop/clock.hpp"
 #include "host/spool/spooled_chunk.hpp"
 
 namespace unicursal::host {
@@ -63,6 +64,9 @@ class Source {
   /// long as that is unknown.
   virtual std::optional<double> foretold(std::size_t begin, std::size_t end) const = 0;
 };
+
+/// Reports to the source that the lines sent so far leave `left` s of printing, at the clock's present time.
+void report_printed(Source& source, const Clock& clock, double left);
 
 /// A job's layers as they are planned. What it refers to must outlive it.
 class PlannedSource final : public Source {
