@@ -9,11 +9,11 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double slowest = 0.05;           // mm/s: what a move ends at when nothing follows
+constexpr double slowest = 0.05;           // mm/s: exit speed of a move without a successor
 constexpr std::int64_t fewest_steps = 6;   // a move with fewer joins the next one
-constexpr double first_block_delay = 0.1;  // s that a first block waits for company
-constexpr std::size_t company = 3;         // blocks with which it waits no longer
-constexpr std::size_t short_queue_from = 2, short_queue_to = 7;  // waiting blocks that count as short
+constexpr double first_block_delay = 0.1;  // s that a first block waits for others
+constexpr std::size_t company = 3;         // number of blocks with which it waits no longer
+constexpr std::size_t short_queue_from = 2, short_queue_to = 7;  // waiting blocks: the queue counts as short
 
 bool extrudes_along(const PerAxis<std::int64_t>& steps) {
   return steps[axis_e] > 0 && (steps[axis_x] != 0 || steps[axis_y] != 0);
@@ -110,8 +110,8 @@ double Planner::first_speed(const Block& block) const {
   return limits_.junction_deviation > 0 ? slowest : speed_from_rest(block.shape(), limits_.jerk);
 }
 
-// Backwards, every block may enter only as fast as it can still brake; forwards, only as fast as it can get.
-// A block that runs is fixed, and so is the entry of the one behind it.
+// The backward pass limits each entry speed to what the block can still brake from; the forward pass limits
+// each exit speed to what the block can reach. A running block is fixed, and so is the entry of the next one.
 void Planner::look_ahead() {
   double exit = std::min(slowest, blocks_.back().speed.nominal);
   for (auto block = blocks_.rbegin(); block != blocks_.rend() && !block->started; ++block) {
@@ -172,7 +172,7 @@ Position Planner::place() const {
   return {mm(axis_x), mm(axis_y), mm(axis_z)};
 }
 
-/// Tells the sink what it has not had yet of the part `done` of the block (0…1), which is over now.
+/// The part `done` of the block (0…1) has been carried out by `now`: passes what is new of it to the sink.
 void Planner::tell(Block& block, double done, double now) {
   if (done <= block.told) return;
   const auto part_of = [](std::int64_t steps, double share) {
