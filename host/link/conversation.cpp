@@ -34,37 +34,37 @@ std::uint64_t switch_heaters_off(int descriptor) {
 
 }  // namespace
 
-asio::awaitable<void> Link::State::until(const std::function<bool()>& ready) {
+asio::awaitable<void> LinkState::until(const std::function<bool()>& ready) {
   const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
   co_await signal.wait(TimePoint::max(), ready_or_failed);
   if (failure) throw LinkError(*failure);
 }
 
-asio::awaitable<bool> Link::State::until(const std::function<bool()>& ready, TimePoint deadline) {
+asio::awaitable<bool> LinkState::until(const std::function<bool()>& ready, TimePoint deadline) {
   const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
   const bool woken = co_await signal.wait(deadline, ready_or_failed);
   if (failure) throw LinkError(*failure);
   co_return woken;
 }
 
-void Link::State::fail(const std::string& message) {
+void LinkState::fail(const std::string& message) {
   if (!failure) failure = message;
   holding = true;
   signal.notify();
 }
 
-std::string Link::State::with_heat_warning(const std::string& message) const {
+std::string LinkState::with_heat_warning(const std::string& message) const {
   if (phase == Phase::greeting) return message;
   return message + "; its heaters may still be on, switch it off if they are";
 }
 
-void Link::State::give_up(std::string message) {
+void LinkState::give_up(std::string message) {
   if (phase == Phase::streaming) statistics.bytes += switch_heaters_off(port.native_handle());
   fail(with_heat_warning(message));
   throw LinkError(*failure);
 }
 
-asio::awaitable<void> Link::State::quiet(Duration pause) {
+asio::awaitable<void> LinkState::quiet(Duration pause) {
   const auto limit = now() + longest_drain + pause;
   std::uint64_t seen = 0;
   const std::function<bool()> more = [&] { return bytes_heard != seen; };
@@ -75,7 +75,7 @@ asio::awaitable<void> Link::State::quiet(Duration pause) {
 
 // ---- greeting
 
-asio::awaitable<void> Link::State::greet() {
+asio::awaitable<void> LinkState::greet() {
   const std::function<bool()> spoken = [this] { return lines_heard > 0; };
   if (co_await until(spoken, now() + options.boot)) {
     co_await quiet(std::min<Duration>(boot_chatter, options.boot));
@@ -89,7 +89,7 @@ asio::awaitable<void> Link::State::greet() {
 }
 
 /// Once more if no ok comes; the print does not depend on it.
-asio::awaitable<void> Link::State::begin_reports() {
+asio::awaitable<void> LinkState::begin_reports() {
   if (options.temperatures.count() == 0) co_return;
   if (!identity.can("AUTOREPORT_TEMP")) {
     ask_at = now() + options.temperatures;
@@ -106,7 +106,7 @@ asio::awaitable<void> Link::State::begin_reports() {
 // ---- rejoining
 
 /// What is sent here has no number that could be taken, so that nothing changes however often it is done.
-asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
+asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   probing = true;
   const auto lines_before = lines_heard;
   write("\n");  // ends half a line, which its missing checksum gives away
@@ -133,7 +133,7 @@ asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
 }
 
 /// A Repetier that waits for a line already does not answer, but asks for it by its own clock.
-asio::awaitable<std::uint32_t> Link::State::ask_for_number(std::uint32_t beyond) {
+asio::awaitable<std::uint32_t> LinkState::ask_for_number(std::uint32_t beyond) {
   const auto told_before = std::exchange(told_next, std::nullopt);
   const std::function<bool()> told = [this] { return told_next.has_value(); };
   co_await ask(framed(beyond, "M105"), told);
@@ -144,7 +144,7 @@ asio::awaitable<std::uint32_t> Link::State::ask_for_number(std::uint32_t beyond)
 
 /// Repeats the question when a refusal may have emptied the printer's buffer, and after silence: noise may
 /// have hit it.
-asio::awaitable<void> Link::State::ask(std::string_view query, const std::function<bool()>& answered) {
+asio::awaitable<void> LinkState::ask(std::string_view query, const std::function<bool()>& answered) {
   auto refusals_before = refusals;
   const std::function<bool()> over = [&] { return answered() || restarted; };
   const std::function<bool()> over_or_refused = [&] { return over() || refusals != refusals_before; };
@@ -164,7 +164,7 @@ asio::awaitable<void> Link::State::ask(std::string_view query, const std::functi
   if (restarted) throw PrinterReset("the printer has started anew");
 }
 
-void Link::State::go_on(std::uint32_t next) {
+void LinkState::go_on(std::uint32_t next) {
   ledger = Ledger(options.receive_buffer, next, options.last_number);
   doubt = true;  // an ok that is still to come may be that of an earlier line
   if (options.temperatures.count() > 0 && !identity.can("AUTOREPORT_TEMP"))
@@ -172,7 +172,7 @@ void Link::State::go_on(std::uint32_t next) {
   phase = Phase::streaming;
 }
 
-asio::awaitable<void> Link::State::ask_firmware() {
+asio::awaitable<void> LinkState::ask_firmware() {
   const auto started = now();
   const auto lines_before = lines_heard;
   const std::function<bool()> told = [this] { return !firmware.empty(); };
@@ -191,7 +191,7 @@ asio::awaitable<void> Link::State::ask_firmware() {
 }
 
 /// Alone, since Marlin acts upon it twice: when it is received and again when it is executed.
-asio::awaitable<void> Link::State::reset_numbers() {
+asio::awaitable<void> LinkState::reset_numbers() {
   for (int attempt = 0; attempt < number_attempts; ++attempt) {
     const auto oks_before = oks, refusals_before = refusals;
     const std::function<bool()> answered = [&] { return oks > oks_before || refusals > refusals_before; };
@@ -206,7 +206,7 @@ asio::awaitable<void> Link::State::reset_numbers() {
 
 // ---- keeping it going
 
-asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<State> self) {
+asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<LinkState> self) {
   const auto unproven = [this] { return draining && doubt && !holding && ledger.settled(); };
   // Numbers begin anew only behind lines that are proven to be done.
   const auto used_up = [this] { return !holding && ledger.exhausted(); };
@@ -229,30 +229,30 @@ asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<St
   }
 }
 
-Duration Link::State::patience() const {
+Duration LinkState::patience() const {
   return identity.can("BUSY_PROTOCOL") ? std::min(options.keepalive, options.silence) : options.silence;
 }
 
-TimePoint Link::State::stall_deadline() const {
+TimePoint LinkState::stall_deadline() const {
   if (!ledger.in_flight()) return now() + patience();
   return std::min(last_life + patience(), ok_deadline());
 }
 
-void Link::State::ask_temperatures() {
+void LinkState::ask_temperatures() {
   ask_at = now() + options.temperatures;
   if (holding || ledger.exhausted()) return;
   insert_query();
   pump();
 }
 
-void Link::State::insert_query() {
+void LinkState::insert_query() {
   if (ledger.fence()) ++statistics.queries;
   if (numbering) numbering(ledger.next_to_number(), ledger.numbered());
 }
 
 /// M110 may act once more when it is executed, and then must find no newer line before it. A firmware whose
 /// oks come at receipt has to be idle for that, which it says every second.
-asio::awaitable<void> Link::State::count_anew() {
+asio::awaitable<void> LinkState::count_anew() {
   holding = true;
   if (identity.family == gcode::Family::repetier) {
     const auto words_before = waits_heard;
@@ -271,11 +271,11 @@ asio::awaitable<void> Link::State::count_anew() {
   signal.notify();
 }
 
-TimePoint Link::State::ok_deadline() const {
+TimePoint LinkState::ok_deadline() const {
   return last_ok + (ledger.slow() ? options.slow_ok : options.no_ok);
 }
 
-asio::awaitable<void> Link::State::answer_resend() {
+asio::awaitable<void> LinkState::answer_resend() {
   co_await quiet(options.quiet);
   if (!asked) co_return;
   if (ledger.acknowledged() > best_acknowledged)
@@ -290,7 +290,7 @@ asio::awaitable<void> Link::State::answer_resend() {
   resume_from(*asked, false);
 }
 
-void Link::State::resume_from(std::uint32_t number, bool with_fence) {
+void LinkState::resume_from(std::uint32_t number, bool with_fence) {
   ledger.rewind(number);
   if (with_fence) insert_query();
   statistics.acknowledged = ledger.acknowledged();
@@ -303,7 +303,7 @@ void Link::State::resume_from(std::uint32_t number, bool with_fence) {
   signal.notify();
 }
 
-asio::awaitable<void> Link::State::resynchronise() {
+asio::awaitable<void> LinkState::resynchronise() {
   if (ledger.in_flight() && now() >= ok_deadline()) {
     give_up(finishes_nothing);
   }
@@ -326,7 +326,7 @@ asio::awaitable<void> Link::State::resynchronise() {
               : "the printer has fallen silent; check its power and the cable");
 }
 
-asio::awaitable<bool> Link::State::probe() {
+asio::awaitable<bool> LinkState::probe() {
   ++statistics.probes;
   probing = true;
   doubt = false;

@@ -10,8 +10,8 @@
 namespace unicursal::host {
 
 /// Returns the ports that `wanted` can mean, the likeliest first. "1a86:7523" means the USB numbers of the
-/// chip, in hexadecimal as lsusb writes them. "auto" means the ports on USB, with chips and boards of printers
-/// first, or any port if there is none on USB. Anything else is a path, which need not be listed.
+/// chip, in hexadecimal as lsusb writes them. "auto" means the ports on USB, with chips and boards of
+/// printers first, or any port if there is none on USB. Anything else is a path, which need not be listed.
 std::vector<PortInfo> matching_ports(const std::vector<PortInfo>& ports, std::string_view wanted);
 
 /// Opens all ports, asks all of them at once, and returns the descriptor of the first one that answers M115.

@@ -39,9 +39,9 @@ class Ledger {
   /// Handles an ok without a number, which belongs to the oldest line in flight. Returns false if no line is
   /// in flight, or if the oldest one is a fence, whose answer looks different.
   bool acknowledge();
-  /// Handles an ok with a number, which is as sent or modulo 65536. If that line is in flight, it and all lines
-  /// before it are acknowledged. Returns true if it is the oldest one in flight. `queued` is the number of
-  /// later lines that the firmware has also taken out of its receive buffer, if it reports that; they make
+  /// Handles an ok with a number, which is as sent or modulo 65536. If that line is in flight, it and all
+  /// lines before it are acknowledged. Returns true if it is the oldest one in flight. `queued` is the number
+  /// of later lines that the firmware has also taken out of its receive buffer, if it reports that; they make
   /// room for others.
   bool acknowledge_number(std::uint32_t number, std::uint32_t queued = 0);
   /// Handles "ok T:…", the answer to the oldest M105 in flight; all lines before it are done, too. Returns
@@ -55,8 +55,8 @@ class Ledger {
   /// The firmware has everything before `number` and nothing from there on. Precondition: locate() has
   /// returned `number`.
   void rewind(std::uint32_t number);
-  /// Inserts an M105 after the last numbered line, ahead of the waiting ones, unless one is already in flight.
-  /// Its answer proves that everything before it has been executed. Returns whether it was inserted.
+  /// Inserts an M105 after the last numbered line, ahead of the waiting ones, unless one is already in
+  /// flight. Its answer proves that everything before it has been executed. Returns whether it was inserted.
   bool fence();
   /// The number of the user's lines that have a line number, and the line number that the next one will get.
   std::uint64_t numbered() const { return numbered_; }

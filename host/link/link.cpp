@@ -27,7 +27,7 @@ std::string defect(const std::string& line) {
 }  // namespace
 
 Link::Link(asio::any_io_executor executor, int descriptor, LinkOptions options)
-    : state_(std::make_shared<State>(std::move(executor), descriptor, options)) {}
+    : state_(std::make_shared<LinkState>(std::move(executor), descriptor, options)) {}
 
 Link::~Link() {
   if (state_) state_->close();
@@ -55,7 +55,7 @@ void Link::go_on(std::uint32_t next) {
 
 asio::awaitable<void> Link::send(std::vector<std::string> lines) {
   const auto state = state_;
-  assert(state->phase == State::Phase::streaming || state->failure);
+  assert(state->phase == LinkState::Phase::streaming || state->failure);
   for (const std::string& line : lines) {
     if (const std::string why = defect(line); !why.empty()) {
       throw std::invalid_argument("the line \"" + line + "\" cannot be sent: " + why);
@@ -70,7 +70,7 @@ asio::awaitable<void> Link::send(std::vector<std::string> lines) {
 
 asio::awaitable<void> Link::drain() {
   const auto state = state_;
-  assert(state->phase == State::Phase::streaming || state->failure);
+  assert(state->phase == LinkState::Phase::streaming || state->failure);
   state->draining = true;
   const std::function<bool()> settled = [state] { return state->settled(); };
   state->signal.notify();

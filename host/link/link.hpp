@@ -9,46 +9,20 @@
 //   co_await link.drain();                   // returns when every line is acknowledged
 #pragma once
 
-#include <array>
 #include <asio/any_io_executor.hpp>
 #include <asio/awaitable.hpp>
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "firmware_gcode/reply/identity.hpp"
 #include "firmware_gcode/reply/reply.hpp"
-#include "host/loop/clock.hpp"
+#include "host/link/link_types.hpp"
 
 namespace unicursal::host {
-
-class SerialLog;
-
-/// The printer is absent, does not answer, has reset, or has stopped itself. The message is a sentence with the
-/// remedy.
-class LinkError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// The port cannot be opened. Nothing was sent to a printer.
-class PortError : public LinkError {
- public:
-  using LinkError::LinkError;
-};
-
-/// The printer answers, but has restarted since the last contact: its line numbers, position and heat are
-/// lost.
-class PrinterReset : public LinkError {
- public:
-  using LinkError::LinkError;
-};
 
 /// USB numbers of the chip or board at the other end of a cable.
 struct UsbId {
@@ -70,26 +44,10 @@ struct PortInfo {
 std::vector<PortInfo> list_ports();
 
 /// Opens a port exclusively, raw, 8N1, with HUPCL cleared; through libserialport for real ports, directly for
-/// pseudo-terminals. `path` may also be USB numbers ("1a86:7523") or "auto": the only port on USB, or else the
-/// only port; if there are several, the first that answers M115 (host/link/find_port.hpp). Returns the file
-/// descriptor, owned by the caller. Throws PortError.
+/// pseudo-terminals. `path` may also be USB numbers ("1a86:7523") or "auto": the only port on USB, or else
+/// the only port; if there are several, the first that answers M115 (host/link/find_port.hpp). Returns the
+/// file descriptor, owned by the caller. Throws PortError.
 int open_port(const std::string& path, unsigned baud);
-
-struct LinkOptions {
-  std::shared_ptr<Clock> clock = real_clock();  ///< Measures all the times below.
-  std::size_t receive_buffer = 127;             ///< Bytes that may be in flight (firmware's buffer less one).
-  std::chrono::milliseconds boot{3000};         ///< Time to wait for a boot message before asking.
-  std::chrono::milliseconds silence{15000};     ///< Longest time without ok or busy; then probe, then give up.
-  std::chrono::milliseconds no_ok{600000};      ///< Longest time without ok during a quick command.
-  std::chrono::milliseconds slow_ok{3600000};   ///< The same while heating, homing or waiting for a person.
-  std::chrono::milliseconds quiet{40};          ///< Time without a byte after which the printer has finished.
-  /// Replaces `silence` for firmwares that report every 2 s that they are busy (Cap:BUSY_PROTOCOL).
-  std::chrono::milliseconds keepalive{3000};
-  /// Interval of temperature reports, whole seconds; 0 = no reports. The printer makes them, or else is asked.
-  std::chrono::seconds temperatures{0};
-  std::uint32_t last_number = 99999999;      ///< After this number, lines are counted from 1 again (M110).
-  std::shared_ptr<SerialLog> log = nullptr;  ///< Receives every byte in both directions.
-};
 
 /// Like above; also sets options.boot to 0 if opening cannot have reset the board: this program had the port
 /// before and DTR has stayed up since, or the printer has just answered.
@@ -98,29 +56,7 @@ int open_port(const std::string& path, unsigned baud, LinkOptions& options);
 /// The device behind an open port, which is the same for every name of the port; empty if it is unknown.
 std::string device_of(int port);
 
-struct LinkStatistics {
-  std::uint64_t lines = 0;         ///< Lines passed to send().
-  std::uint64_t sent = 0;          ///< Numbered lines written, including repeats and the link's own queries.
-  std::uint64_t acknowledged = 0;  ///< Those of `lines` that the printer has accepted.
-  std::uint64_t resends = 0;       ///< Resend requests that were obeyed.
-  std::uint64_t probes = 0;        ///< Times that the link had to ask for the printer's line number.
-  std::uint64_t queries = 0;       ///< The link's own numbered lines, without repeats.
-  std::uint64_t recounts = 0;      ///< Times that the line numbers were restarted from 1.
-  std::uint64_t bytes = 0;         ///< Bytes written.
-};
-
-/// The room in the printer's queues, as ADVANCED_OK reports it. A size is the most that was ever free.
-struct PrinterQueues {
-  std::uint32_t planner_free = 0, planner_size = 0;    ///< Moves.
-  std::uint32_t commands_free = 0, commands_size = 0;  ///< Commands, the running one included.
-};
-
-/// The state of a printer in a conversation that another program has begun.
-struct Rejoined {
-  std::uint32_t next = 0;  ///< Number of the line that it expects next; from Repetier perhaps modulo 65536.
-  std::optional<std::array<double, 3>> position;  ///< x y z after everything that it has accepted, mm.
-  gcode::Temperatures temperatures;               ///< °C.
-};
+struct LinkState;
 
 class Link {
  public:
@@ -133,8 +69,8 @@ class Link {
   asio::awaitable<void> connect();
   /// Instead of connect(): finds out how far a printer got that another program was printing on when it died;
   /// changes nothing. The printer first executes the lines that it has received whole; half a line is ended
-  /// and refused. `beyond` is a number that the printer cannot expect next. Throws PrinterReset and LinkError.
-  /// To be called once.
+  /// and refused. `beyond` is a number that the printer cannot expect next. Throws PrinterReset and
+  /// LinkError. To be called once.
   asio::awaitable<Rejoined> rejoin(std::uint32_t beyond);
   /// To be called after rejoin(), with the number of the first line to send.
   void go_on(std::uint32_t next);
@@ -144,8 +80,8 @@ class Link {
   asio::awaitable<void> send(std::vector<std::string> lines);
   /// Returns when every line has been acknowledged. Throws LinkError. Precondition: connected.
   asio::awaitable<void> drain();
-  /// Out of band: ends a wait for heat, switches the heaters off, and drops the lines that have no number yet.
-  /// Best effort; may be repeated. The conversation continues.
+  /// Out of band: ends a wait for heat, switches the heaters off, and drops the lines that have no number
+  /// yet. Best effort; may be repeated. The conversation continues.
   void cool_down() noexcept;
   /// Whether the printer reports that it waits for a person. It executes nothing meanwhile.
   bool waits_for_user() const;
@@ -171,8 +107,7 @@ class Link {
   void on_message(std::function<void(const std::string&)> listener);
 
  private:
-  struct State;
-  std::shared_ptr<State> state_;
+  std::shared_ptr<LinkState> state_;
 };
 
 }  // namespace unicursal::host

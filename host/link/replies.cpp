@@ -27,7 +27,7 @@ bool is_plain_ok(const Reply& reply) {
 
 }  // namespace
 
-void Link::State::hear(std::string_view line) {
+void LinkState::hear(std::string_view line) {
   const Reply reply = parse_reply(line);
   if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard;
   std::visit([this](const auto& what) { take(what); }, reply);
@@ -37,7 +37,7 @@ void Link::State::hear(std::string_view line) {
   }
 }
 
-void Link::State::take(const reply::Ok& ok) {
+void LinkState::take(const reply::Ok& ok) {
   ++oks;
   last_ok = last_life = now();
   waits_for_user = false;
@@ -59,12 +59,12 @@ void Link::State::take(const reply::Ok& ok) {
   statistics.acknowledged = ledger.acknowledged();
 }
 
-void Link::State::note(const Temperatures& told) {
+void LinkState::note(const Temperatures& told) {
   if (told.nozzle) temperatures.nozzle = told.nozzle, temperatures.nozzle_target = told.nozzle_target;
   if (told.bed) temperatures.bed = told.bed, temperatures.bed_target = told.bed_target;
 }
 
-std::uint32_t Link::State::note_places(const reply::Ok& ok) {
+std::uint32_t LinkState::note_places(const reply::Ok& ok) {
   if (!ok.planner_places || !ok.command_places) return 0;
   constexpr std::uint32_t most = 4096;  // of any firmware's queues; noise may say anything
   const std::uint32_t moves = std::min(*ok.planner_places, most);
@@ -80,11 +80,11 @@ std::uint32_t Link::State::note_places(const reply::Ok& ok) {
   return out_of_band || taken > queues->commands_size ? 0 : queues->commands_size - taken;
 }
 
-void Link::State::take(const reply::Resend& resend) {
+void LinkState::take(const reply::Resend& resend) {
   asked_for(resend.line);
 }
 
-void Link::State::take(const reply::Error& error) {
+void LinkState::take(const reply::Error& error) {
   if (error.last_line) return asked_for(*error.last_line + 1);
   if (!error.halted) {
     last_error = printable(error.text);
@@ -95,7 +95,7 @@ void Link::State::take(const reply::Error& error) {
        "); see to the cause, then switch it off and on again");
 }
 
-void Link::State::asked_for(std::uint32_t number) {
+void LinkState::asked_for(std::uint32_t number) {
   ++refusals;
   told_next = number;
   if (phase == Phase::greeting) return;
@@ -108,7 +108,7 @@ void Link::State::asked_for(std::uint32_t number) {
   holding = true;
 }
 
-void Link::State::take(const reply::Start&) {
+void LinkState::take(const reply::Start&) {
   ++refusals;
   restarted = true;
   if (phase == Phase::greeting) return;
@@ -118,19 +118,19 @@ void Link::State::take(const reply::Start&) {
 }
 
 /// Nobody knows how long it takes until a person comes.
-void Link::State::take(const reply::Busy& busy) {
+void LinkState::take(const reply::Busy& busy) {
   last_life = now();
   waits_for_user = busy.for_user;
   if (busy.for_user) last_ok = now();
 }
 
 /// Repetier's, every second in which it does nothing. The first may have crossed with lines on their way.
-void Link::State::take(const reply::Wait&) {
+void LinkState::take(const reply::Wait&) {
   ++waits_heard;
   if (phase == Phase::streaming && !holding && ledger.in_flight()) ++idle_words;
 }
 
-void Link::State::take(const reply::TemperatureReport& report) {
+void LinkState::take(const reply::TemperatureReport& report) {
   note(report.temperatures);
   if (!report.waiting) {
     told_temperatures = report.temperatures;
@@ -143,28 +143,28 @@ void Link::State::take(const reply::TemperatureReport& report) {
   write("M108\n");
 }
 
-void Link::State::take(const reply::Firmware& told) {
+void LinkState::take(const reply::Firmware& told) {
   firmware = printable(told.text, 1000);
   auto promised = std::move(identity.capabilities);
   identity = identify(told.text);
   identity.capabilities = std::move(promised);
 }
 
-void Link::State::take(const reply::Capability& capability) {
+void LinkState::take(const reply::Capability& capability) {
   identity.learn(capability.name, capability.on);
 }
 
-void Link::State::take(const reply::Echo& echo) {
+void LinkState::take(const reply::Echo& echo) {
   if (!echo.unknown_command) return;
   ++refusals;
   doubt = true;
 }
 
-void Link::State::take(const reply::Position& position) {
+void LinkState::take(const reply::Position& position) {
   told_position = position.mm;
 }
 
-void Link::State::take(const reply::Unknown& unknown) {
+void LinkState::take(const reply::Unknown& unknown) {
   doubt = true;
   const int count = damaged_oks(unknown.text);
   for (int i = 0; i < count; ++i) take(reply::Ok{});

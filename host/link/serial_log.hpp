@@ -3,9 +3,9 @@
 //       12.345678 > N1 G28*18\n
 //       12.351204 < ok\n
 //
-// Each line has the seconds of the link's clock since the first entry, the direction (> to the printer, < from
-// it), and the bytes up to a newline or up to the end of what came at once. Printable ASCII stands for itself,
-// a backslash becomes \\, and everything else becomes \n, \r or \xNN.
+// Each line has the seconds of the link's clock since the first entry, the direction (> to the printer, <
+// from it), and the bytes up to a newline or up to the end of what came at once. Printable ASCII stands for
+// itself, a backslash becomes \\, and everything else becomes \n, \r or \xNN.
 //
 // A thread of its own writes the file: an entry costs the caller a copy. If the disk is too slow, entries are
 // left out, and the log says how many bytes are missing; a print never waits for its log.

@@ -2,9 +2,9 @@
 //
 // How firmwares behave (Marlin 2.1 and Repetier 1.0, observed; sim/README.md), and what follows for the link:
 // - A damaged line is answered with "Error:… Last Line: 3", "Resend: 4", "ok"; that ok belongs to the error.
-//   The receive buffer is flushed, so later lines vanish or raise their own errors. The link therefore handles
-//   one resend at a time: it sends nothing and counts no ok until the line has been quiet for a while; then it
-//   sends everything again, from the number that was last asked for.
+//   The receive buffer is flushed, so later lines vanish or raise their own errors. The link therefore
+//   handles one resend at a time: it sends nothing and counts no ok until the line has been quiet for a
+//   while; then it sends everything again, from the number that was last asked for.
 // - A repeated line is dropped silently, without an ok, and oks may be lost or damaged. Therefore oks only
 //   move the window, and numbers decide what the printer has received.
 // - A line with an impossible number makes the firmware report its last number at once, without any effect.
@@ -20,7 +20,8 @@
 // - "ok N7 P3 B1" (ADVANCED_OK) reveals how many commands wait in the queue after line 7. They have left the
 //   receive buffer, so others may follow. Lines that were sent out of band would be counted with them; from
 //   then on the link does not use this.
-// - A Marlin with Cap:BUSY_PROTOCOL is never silent for more than 2 s while it works, and an idle Repetier says
+// - A Marlin with Cap:BUSY_PROTOCOL is never silent for more than 2 s while it works, and an idle Repetier
+// says
 //   "wait": both reveal a lost ok long before the deadline for other printers.
 // - Temperatures: the link uses M155 if the firmware has it, since M105 waits behind every move; otherwise a
 //   numbered M105, which shifts the numbers of the lines after it.
@@ -35,22 +36,23 @@
 #include <string>
 #include <string_view>
 
+#include "firmware_gcode/reply/identity.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 #include "host/link/ledger.hpp"
 #include "host/link/line_splitter.hpp"
-#include "host/link/link.hpp"
+#include "host/link/link_types.hpp"
 #include "host/loop/signal.hpp"
 
 namespace unicursal::host {
 
-struct Link::State : std::enable_shared_from_this<Link::State> {
+struct LinkState : std::enable_shared_from_this<LinkState> {
   enum class Phase { greeting, streaming };
 
-  State(asio::any_io_executor on, int descriptor, LinkOptions with);
+  LinkState(asio::any_io_executor on, int descriptor, LinkOptions with);
 
   // Bytes (wire.cpp)
   /// Reads until the port ends. `self` keeps the state alive meanwhile, here and in supervise().
-  asio::awaitable<void> listen(std::shared_ptr<State> self);
+  asio::awaitable<void> listen(std::shared_ptr<LinkState> self);
   void write(std::string_view text);
   void pump();  ///< Writes everything that may be written now.
   void wait_for_port();
@@ -77,7 +79,8 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   void take(const Other&) {}
   void asked_for(std::uint32_t number);
   void note(const gcode::Temperatures& told);
-  /// Notes the queues; returns the number of lines after the acknowledged one in the firmware's command queue.
+  /// Notes the queues; returns the number of lines after the acknowledged one in the firmware's command
+  /// queue.
   std::uint32_t note_places(const gcode::reply::Ok& ok);
 
   // Conversation (conversation.cpp)
@@ -86,7 +89,7 @@ struct Link::State : std::enable_shared_from_this<Link::State> {
   asio::awaitable<std::uint32_t> ask_for_number(std::uint32_t beyond);
   asio::awaitable<void> ask(std::string_view query, const std::function<bool()>& answered);
   void go_on(std::uint32_t next);
-  asio::awaitable<void> supervise(std::shared_ptr<State> self);
+  asio::awaitable<void> supervise(std::shared_ptr<LinkState> self);
   asio::awaitable<void> ask_firmware();
   asio::awaitable<void> reset_numbers();
   asio::awaitable<void> begin_reports();

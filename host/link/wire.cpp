@@ -25,7 +25,7 @@ std::string lost(const asio::error_code& error) {
 
 }  // namespace
 
-Link::State::State(asio::any_io_executor on, int descriptor, LinkOptions with)
+LinkState::LinkState(asio::any_io_executor on, int descriptor, LinkOptions with)
     : executor(std::move(on)),
       port(executor, descriptor),
       options(with),
@@ -35,7 +35,7 @@ Link::State::State(asio::any_io_executor on, int descriptor, LinkOptions with)
   options.clock->attach(port.native_handle(), [this] { return statistics.bytes; });
 }
 
-asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State> self) {
+asio::awaitable<void> LinkState::listen([[maybe_unused]] std::shared_ptr<LinkState> self) {
   std::array<char, 4096> buffer;
   for (;;) {
     asio::error_code ended;
@@ -53,12 +53,12 @@ asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State
   }
 }
 
-void Link::State::write(std::string_view text) {
+void LinkState::write(std::string_view text) {
   unsent += text;
   pump();
 }
 
-void Link::State::pump() {
+void LinkState::pump() {
   while (!waiting_for_port && !failure) {
     if (unsent.empty() && phase == Phase::streaming && !holding) {
       if (!ledger.in_flight()) last_ok = last_life = now();
@@ -77,7 +77,7 @@ void Link::State::pump() {
   }
 }
 
-void Link::State::wait_for_port() {
+void LinkState::wait_for_port() {
   waiting_for_port = true;
   port.async_wait(asio::posix::descriptor_base::wait_write,
                   [self = shared_from_this()](const asio::error_code& error) {
@@ -88,7 +88,7 @@ void Link::State::wait_for_port() {
 }
 
 /// The oks of these lines look like those of numbered ones; the doubt makes drain() prove the end.
-void Link::State::cool_down() noexcept {
+void LinkState::cool_down() noexcept {
   try {
     if (failure || phase == Phase::greeting) return;
     statistics.lines -= ledger.forget_waiting();
@@ -101,7 +101,7 @@ void Link::State::cool_down() noexcept {
   }
 }
 
-void Link::State::end_wait_for_user() noexcept {
+void LinkState::end_wait_for_user() noexcept {
   try {
     if (failure || phase == Phase::greeting || !waits_for_user) return;
     waits_for_user = false;
@@ -114,7 +114,7 @@ void Link::State::end_wait_for_user() noexcept {
   }
 }
 
-void Link::State::emergency_stop() noexcept {
+void LinkState::emergency_stop() noexcept {
   try {
     const int descriptor = port.native_handle();
     if (options.clock->may_discard()) ::tcflush(descriptor, TCOFLUSH);
@@ -127,7 +127,7 @@ void Link::State::emergency_stop() noexcept {
   }
 }
 
-void Link::State::close() {
+void LinkState::close() {
   fail("the link was closed");
   listener = nullptr;  // whatever still comes in, nobody may be there to hear it
   options.clock->attach(-1, nullptr);
