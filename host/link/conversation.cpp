@@ -1,5 +1,5 @@
-// The link's protocol: greeting a firmware, answering its resend requests, finding it again after silence.
-// See state.hpp for the facts behind it.
+// The link's protocol: greeting a firmware, answering its resend requests, resynchronising after silence. The
+// facts behind it are in host/link/state.hpp.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,20 +12,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto boot_chatter = 500ms;    ///< without a line: the firmware has finished booting
-constexpr auto ask_again = 1000ms;      ///< between questions to a firmware that may not have been ready
-constexpr auto longest_drain = 1000ms;  ///< for printers that never stop talking
-constexpr int number_attempts = 5;      ///< to set the line number, over a noisy line
-constexpr int probe_attempts = 4;       ///< each as long as LinkOptions::silence
-constexpr int find_attempts = 2;        ///< when rejoining, each as long as LinkOptions::silence
-constexpr int most_asks = 20;           ///< the same question, when refusals come in between
-constexpr int most_resends = 50;        ///< in a row that bring the job no further
+constexpr auto boot_chatter = 500ms;    ///< Silence after which the firmware has finished booting.
+constexpr auto ask_again = 1000ms;      ///< Interval of questions to a firmware that may still boot.
+constexpr auto longest_drain = 1000ms;  ///< Limit for printers that never fall silent.
+constexpr int number_attempts = 5;      ///< Attempts to set the line number, on a noisy line.
+constexpr int probe_attempts = 4;       ///< Each waits for LinkOptions::silence.
+constexpr int find_attempts = 2;        ///< When rejoining; each waits for LinkOptions::silence.
+constexpr int most_asks = 20;           ///< Repetitions of a question if refusals come in between.
+constexpr int most_resends = 50;        ///< Resends in a row without progress.
 constexpr auto finishes_nothing =
-    "the printer is alive but has finished no command for very long; look at it, then start again";
-constexpr std::uint32_t probe_distance = 1000;  ///< ahead of any number that could be right
+    "the printer is alive, but has not finished a command for a very long time; look at it, then start again";
+constexpr std::uint32_t probe_distance = 1000;  ///< Distance of a probe's number from any possible number.
 
-/// Past every queue of this program, since nothing is sent by it any more. The first newline ends what may
-/// be half written; M108 ends a wait for heat. Returns how many bytes were written.
+/// Writes ahead of all queues of this program, which send nothing any more. The first newline ends a half
+/// written line; M108 ends a wait for heat. Returns the number of bytes written.
 std::uint64_t switch_heaters_off(int descriptor) {
   constexpr std::string_view lines = "\nM108\nM104 S0\nM140 S0\n";
   const auto written = ::write(descriptor, lines.data(), lines.size());
@@ -55,7 +55,7 @@ void LinkState::fail(const std::string& message) {
 
 std::string LinkState::with_heat_warning(const std::string& message) const {
   if (phase == Phase::greeting) return message;
-  return message + "; its heaters may still be on, switch it off if they are";
+  return message + "; its heaters may still be on: if they are, switch the printer off";
 }
 
 void LinkState::give_up(std::string message) {
@@ -88,7 +88,7 @@ asio::awaitable<void> LinkState::greet() {
   if (numbering) numbering(ledger.next_to_number(), 0);
 }
 
-/// Once more if no ok comes; the print does not depend on it.
+/// Tries twice; the print does not depend on the reports.
 asio::awaitable<void> LinkState::begin_reports() {
   if (options.temperatures.count() == 0) co_return;
   if (!identity.can("AUTOREPORT_TEMP")) {
@@ -105,11 +105,11 @@ asio::awaitable<void> LinkState::begin_reports() {
 
 // ---- rejoining
 
-/// What is sent here has no number that could be taken, so that nothing changes however often it is done.
+/// Sends no line with an acceptable number, so it changes nothing and can be repeated.
 asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   probing = true;
   const auto lines_before = lines_heard;
-  write("\n");  // ends half a line, which its missing checksum gives away
+  write("\n");  // ends half a line, which is refused for its missing checksum
   co_await quiet(options.quiet);
   Rejoined found;
   const std::function<bool()> warm = [this] { return told_temperatures.has_value(); };
@@ -117,7 +117,7 @@ asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   if (lines_heard == lines_before) {
     give_up("the printer does not answer; check that it is on, and the cable, then resume again");
   }
-  // Waits its turn behind everything that was sent before. Twice, since homing answers like that, too.
+  // M114 is answered after everything that was sent before. Twice, since homing gives the same answer.
   const std::function<bool()> located = [this] { return told_position.has_value(); };
   for (int i = 0; i < 2; ++i) {
     told_position.reset();
@@ -132,18 +132,20 @@ asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   co_return found;
 }
 
-/// A Repetier that waits for a line already does not answer, but asks for it by its own clock.
+/// A Repetier that already waits for a line does not answer; it repeats its request by its own clock.
 asio::awaitable<std::uint32_t> LinkState::ask_for_number(std::uint32_t beyond) {
   const auto told_before = std::exchange(told_next, std::nullopt);
   const std::function<bool()> told = [this] { return told_next.has_value(); };
   co_await ask(framed(beyond, "M105"), told);
   if (!told_next) told_next = told_before;
-  if (!told_next) give_up("the printer does not tell which line it wants next; begin the print anew");
+  if (!told_next) {
+    give_up("the printer does not report which line it expects next; start the print again from its job");
+  }
   co_return *told_next;
 }
 
-/// Repeats the question when a refusal may have emptied the printer's buffer, and after silence: noise may
-/// have hit it.
+/// Repeats the question if a refusal may have flushed the printer's buffer, and after silence, since noise
+/// may have damaged it.
 asio::awaitable<void> LinkState::ask(std::string_view query, const std::function<bool()>& answered) {
   auto refusals_before = refusals;
   const std::function<bool()> over = [&] { return answered() || restarted; };
@@ -153,7 +155,7 @@ asio::awaitable<void> LinkState::ask(std::string_view query, const std::function
   for (int asks = 0; asks < most_asks && silences < find_attempts && !over(); ++asks) {
     last_life = now();
     refusals_before = refusals;
-    write("\n");  // after an overrun, Marlin is silent until one comes
+    write("\n");  // after an overrun, Marlin is silent until a newline arrives
     write(query);
     while (!over_or_refused() && now() < std::min(last_life + options.silence, patient_until)) {
       co_await until(over_or_refused, std::min(last_life + options.silence, patient_until));
@@ -161,12 +163,12 @@ asio::awaitable<void> LinkState::ask(std::string_view query, const std::function
     if (!over_or_refused()) ++silences;
     co_await quiet(options.quiet);
   }
-  if (restarted) throw PrinterReset("the printer has started anew");
+  if (restarted) throw PrinterReset("the printer has restarted");
 }
 
 void LinkState::go_on(std::uint32_t next) {
   ledger = Ledger(options.receive_buffer, next, options.last_number);
-  doubt = true;  // an ok that is still to come may be that of an earlier line
+  doubt = true;  // the next ok may belong to an earlier line
   if (options.temperatures.count() > 0 && !identity.can("AUTOREPORT_TEMP"))
     ask_at = now() + options.temperatures;
   phase = Phase::streaming;
@@ -176,21 +178,21 @@ asio::awaitable<void> LinkState::ask_firmware() {
   const auto started = now();
   const auto lines_before = lines_heard;
   const std::function<bool()> told = [this] { return !firmware.empty(); };
-  // A newline first: it ends what an earlier program may have left half written.
+  // The newline ends a line that an earlier program may have left half written.
   for (int asked_times = 1;; ++asked_times) {
     write("\nM115\n");
     if (co_await until(told, now() + std::min<Duration>(ask_again, options.silence))) break;
-    if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name to tell
+    if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name
     const auto patient_until = std::max(started, last_life) + options.silence;
     if (now() < std::min(patient_until, started + options.no_ok)) continue;
     give_up(lines_heard > lines_before
-                ? "the printer does not answer M115 as a printer would; check the baud rate in its profile"
+                ? "the answer to M115 is not that of a printer; check the baud rate in its profile"
                 : "the printer does not answer; check that it is on and that port and baud rate are right");
   }
   co_await quiet(options.quiet);
 }
 
-/// Alone, since Marlin acts upon it twice: when it is received and again when it is executed.
+/// Sends M110 alone, since Marlin acts on it twice: on receipt and on execution.
 asio::awaitable<void> LinkState::reset_numbers() {
   for (int attempt = 0; attempt < number_attempts; ++attempt) {
     const auto oks_before = oks, refusals_before = refusals;
@@ -208,7 +210,7 @@ asio::awaitable<void> LinkState::reset_numbers() {
 
 asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<LinkState> self) {
   const auto unproven = [this] { return draining && doubt && !holding && ledger.settled(); };
-  // Numbers begin anew only behind lines that are proven to be done.
+  // Numbering restarts only after lines that are proven to be done.
   const auto used_up = [this] { return !holding && ledger.exhausted(); };
   const auto idle = [this] { return idle_words > 1; };
   const std::function<bool()> due = [&] { return asked || stranger || unproven() || used_up() || idle(); };
@@ -225,7 +227,7 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
         ask_temperatures();
     }
   } catch (const LinkError&) {
-    // fail() has told everyone who waits.
+    // fail() has woken all waiters.
   }
 }
 
@@ -250,8 +252,8 @@ void LinkState::insert_query() {
   if (numbering) numbering(ledger.next_to_number(), ledger.numbered());
 }
 
-/// M110 may act once more when it is executed, and then must find no newer line before it. A firmware whose
-/// oks come at receipt has to be idle for that, which it says every second.
+/// M110 may act again when it is executed; no newer line may have arrived by then. A firmware whose oks come
+/// on receipt must therefore be idle, which it reports every second.
 asio::awaitable<void> LinkState::count_anew() {
   holding = true;
   if (identity.family == gcode::Family::repetier) {
@@ -281,10 +283,10 @@ asio::awaitable<void> LinkState::answer_resend() {
   if (ledger.acknowledged() > best_acknowledged)
     best_acknowledged = ledger.acknowledged(), fruitless_resends = 0;
   if (++fruitless_resends > most_resends) {
-    give_up(
-        fmt::format("the printer has asked {} times for line {} and those around it; the line to it is "
-                    "too noisy, check the cable and keep it away from motors and mains",
-                    most_resends, *asked));
+    give_up(fmt::format(
+        "the printer has asked {} times for line {} or its neighbours: the cable picks up too much "
+        "noise; check it, and keep it away from motors and mains",
+        most_resends, *asked));
   }
   ++statistics.resends;
   resume_from(*asked, false);
@@ -315,7 +317,7 @@ asio::awaitable<void> LinkState::resynchronise() {
     co_await quiet(options.quiet);
     probing = false;
     resume_from(*asked, true);
-    last_ok = waiting_since;  // a probe's answer is no progress
+    last_ok = waiting_since;  // the answer to a probe is not progress
     co_return;
   }
   if (now() >= ok_deadline()) give_up(finishes_nothing);
@@ -332,11 +334,11 @@ asio::awaitable<bool> LinkState::probe() {
   doubt = false;
   asked.reset();
   stranger.reset();
-  // The newline ends a line whose own has been lost.
+  // The newline ends a line whose own newline was lost.
   write("\n" + framed(ledger.next() + probe_distance, "M105"));
   const std::function<bool()> answered = [this] { return asked || stranger; };
   last_life = now();
-  // A printer whose command queue is full reads nothing, but says that it is busy.
+  // A printer whose command queue is full reads nothing, but reports that it is busy.
   while (!answered() && now() < std::min(last_life + options.silence, ok_deadline())) {
     co_await until(answered, std::min(last_life + options.silence, ok_deadline()));
   }

@@ -9,11 +9,11 @@
 namespace unicursal::host {
 namespace {
 
-constexpr std::size_t longest_command = 80;  ///< bytes; with number and checksum at most 95
+constexpr std::size_t longest_command = 80;  ///< Bytes; at most 95 with number and checksum.
 
-/// Why a line cannot be sent, or nothing.
+/// Returns why a line cannot be sent; empty if it can.
 std::string defect(const std::string& line) {
-  if (line.empty()) return "it is empty, and the printer would not answer it";
+  if (line.empty()) return "it is empty, and the printer would not acknowledge it";
   if (line.size() > longest_command) return "it is longer than 80 characters";
   for (char c : line) {
     if (c < ' ' || c > '~') return "it holds a byte that is not printable ASCII";

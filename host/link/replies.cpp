@@ -1,4 +1,4 @@
-// What the printer's replies mean for the link. See state.hpp for the facts behind it.
+// Handles the printer's replies. The facts behind it are in host/link/state.hpp.
 #include <algorithm>
 #include <variant>
 
@@ -9,9 +9,9 @@ namespace {
 
 using namespace gcode;
 
-/// How many oks a line holds that noise has touched: a single "ok" with one letter hit, or several replies
-/// run together. Taking one too many is harmless: the firmware's command queue is as large again as its
-/// receive buffer; one too few would narrow the window for good.
+/// The number of oks in a line that noise has damaged: one "ok" with a changed letter, or several replies
+/// that have run together. One ok too many is harmless, since the firmware's command queue holds as much
+/// again as its receive buffer; one too few would narrow the window for ever.
 int damaged_oks(std::string_view text) {
   if (text.size() <= 2) return text.find_first_of("ok") != std::string_view::npos ? 1 : 0;
   if (!text.starts_with("ok") && !text.ends_with("ok")) return 0;
@@ -31,7 +31,7 @@ void LinkState::hear(std::string_view line) {
   const Reply reply = parse_reply(line);
   if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard;
   std::visit([this](const auto& what) { take(what); }, reply);
-  if (probing && std::holds_alternative<reply::Error>(reply)) return;  // asked for
+  if (probing && std::holds_alternative<reply::Error>(reply)) return;  // the expected answer to a probe
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
     listener(printable(line));
   }
@@ -66,13 +66,13 @@ void LinkState::note(const Temperatures& told) {
 
 std::uint32_t LinkState::note_places(const reply::Ok& ok) {
   if (!ok.planner_places || !ok.command_places) return 0;
-  constexpr std::uint32_t most = 4096;  // of any firmware's queues; noise may say anything
+  constexpr std::uint32_t most = 4096;  // no firmware has longer queues; noise may say anything
   const std::uint32_t moves = std::min(*ok.planner_places, most);
   const std::uint32_t commands = std::min(*ok.command_places, most);
   if (!queues) queues.emplace();
   queues->planner_free = moves, queues->commands_free = commands;
   if (phase == Phase::greeting) {
-    // The firmware is idle, but for the command that this answers.
+    // The firmware is idle except for the command that this ok answers.
     queues->planner_size = std::max(queues->planner_size, moves);
     queues->commands_size = std::max(queues->commands_size, commands + 1);
   }
@@ -92,7 +92,7 @@ void LinkState::take(const reply::Error& error) {
     return;
   }
   fail("the printer has stopped itself (" + (last_error.empty() ? printable(error.text) : last_error) +
-       "); see to the cause, then switch it off and on again");
+       "); remove the cause, then switch the printer off and on again");
 }
 
 void LinkState::asked_for(std::uint32_t number) {
@@ -113,18 +113,19 @@ void LinkState::take(const reply::Start&) {
   restarted = true;
   if (phase == Phase::greeting) return;
   fail(
-      "the printer has reset itself in the middle of the job, its position and heat are gone; "
-      "check its power supply, see `unicursal resume`");
+      "the printer has reset itself in the middle of the job: its position and heat are lost; "
+      "check its power supply, then see `unicursal resume`");
 }
 
-/// Nobody knows how long it takes until a person comes.
+/// A wait for a person can take any time.
 void LinkState::take(const reply::Busy& busy) {
   last_life = now();
   waits_for_user = busy.for_user;
   if (busy.for_user) last_ok = now();
 }
 
-/// Repetier's, every second in which it does nothing. The first may have crossed with lines on their way.
+/// Repetier says "wait" every second in which it is idle. The first one may have crossed with lines in
+/// transit.
 void LinkState::take(const reply::Wait&) {
   ++waits_heard;
   if (phase == Phase::streaming && !holding && ledger.in_flight()) ++idle_words;

@@ -1,4 +1,4 @@
-// The link's bytes: reading, writing as much as the port takes, closing.
+// The link's input and output: reads, writes as much as the port takes, closes.
 #include <termios.h>
 #include <unistd.h>
 
@@ -14,8 +14,8 @@
 namespace unicursal::host {
 namespace {
 
-/// Waits for heat that a cool-down ends, one for each report of it: bed and nozzle may both wait, and the
-/// user's own lines once more. No more, since a firmware that does not know M108 only collects them.
+/// Number of waits for heat that a cool-down ends, one for each report of a wait: bed, nozzle, and those in
+/// the user's own lines. It is limited, since a firmware without M108 would only queue them.
 constexpr int most_interruptions = 4;
 
 std::string lost(const asio::error_code& error) {
@@ -87,7 +87,8 @@ void LinkState::wait_for_port() {
                   });
 }
 
-/// The oks of these lines look like those of numbered ones; the doubt makes drain() prove the end.
+/// The oks of these lines look like those of numbered lines; therefore `doubt` makes drain() probe at the
+/// end.
 void LinkState::cool_down() noexcept {
   try {
     if (failure || phase == Phase::greeting) return;
@@ -110,7 +111,7 @@ void LinkState::end_wait_for_user() noexcept {
     write("M108\n");
     signal.notify();
   } catch (...) {
-    // It can still be told so by its own button.
+    // The printer's own button can still end it.
   }
 }
 
@@ -118,18 +119,18 @@ void LinkState::emergency_stop() noexcept {
   try {
     const int descriptor = port.native_handle();
     if (options.clock->may_discard()) ::tcflush(descriptor, TCOFLUSH);
-    constexpr std::string_view stop = "\nM112\n";  // the newline ends what may be half written
+    constexpr std::string_view stop = "\nM112\n";  // the newline ends a half written line
     const auto written = ::write(descriptor, stop.data(), stop.size());
     statistics.bytes += static_cast<std::uint64_t>(std::max<ssize_t>(written, 0));
-    fail("the printer was stopped in an emergency; switch it off and on again before the next print");
+    fail("the printer was stopped by an emergency stop; switch it off and on again before the next print");
   } catch (...) {
-    // Nothing more can be done from here; the printer's own switch remains.
+    // This program cannot do more; the printer's own switch remains.
   }
 }
 
 void LinkState::close() {
   fail("the link was closed");
-  listener = nullptr;  // whatever still comes in, nobody may be there to hear it
+  listener = nullptr;  // its owner may no longer exist when further lines arrive
   options.clock->attach(-1, nullptr);
   asio::error_code ignored;
   port.close(ignored);
