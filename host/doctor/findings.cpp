@@ -89,15 +89,15 @@ class Doctor {
   }
 
   void compare(const char* key, const char* unit, const std::array<double, 3>& believed,
-               const std::optional<std::array<double, 4>>& told) {
-    if (!told) return;
+               const std::optional<std::array<double, 4>>& reported) {
+    if (!reported) return;
     constexpr double rounding = 1.001;
     for (std::size_t axis = 0; axis < believed.size(); ++axis) {
-      if (believed[axis] <= (*told)[axis] * rounding) continue;
+      if (believed[axis] <= (*reported)[axis] * rounding) continue;
       return add(Weight::warning,
                  fmt::format("its own {0} for {1} is {2:g} {3}, the profile says {4:g}: prints take longer "
                              "than planned, and the flow is not constant; correct the profile",
-                             key, "xyz"[axis], (*told)[axis], unit, believed[axis]));
+                             key, "xyz"[axis], (*reported)[axis], unit, believed[axis]));
     }
     add(Weight::good, fmt::format("its {} is not below that of the profile", key));
   }

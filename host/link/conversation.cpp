@@ -112,19 +112,19 @@ asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   write("\n");  // ends half a line, which is refused for its missing checksum
   co_await quiet(options.quiet);
   Rejoined found;
-  const std::function<bool()> warm = [this] { return told_temperatures.has_value(); };
+  const std::function<bool()> warm = [this] { return reported_temperatures.has_value(); };
   co_await ask("M105\n", warm);
   if (lines_heard == lines_before) {
     give_up("the printer does not answer; check that it is on, and the cable, then resume again");
   }
   // M114 is answered after everything that was sent before. Twice, since homing gives the same answer.
-  const std::function<bool()> located = [this] { return told_position.has_value(); };
+  const std::function<bool()> located = [this] { return reported_position.has_value(); };
   for (int i = 0; i < 2; ++i) {
-    told_position.reset();
+    reported_position.reset();
     co_await ask("M114\n", located);
   }
-  found.position = told_position;
-  found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
+  found.position = reported_position;
+  found.temperatures = reported_temperatures.value_or(gcode::Temperatures{});
   const std::function<bool()> named = [this] { return !firmware.empty(); };
   co_await ask("M115\n", named);
   found.next = co_await ask_for_number(beyond);
@@ -134,14 +134,14 @@ asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
 
 /// A Repetier that already waits for a line does not answer; it repeats its request by its own clock.
 asio::awaitable<std::uint32_t> LinkState::ask_for_number(std::uint32_t beyond) {
-  const auto told_before = std::exchange(told_next, std::nullopt);
-  const std::function<bool()> told = [this] { return told_next.has_value(); };
-  co_await ask(framed(beyond, "M105"), told);
-  if (!told_next) told_next = told_before;
-  if (!told_next) {
+  const auto reported_before = std::exchange(reported_next, std::nullopt);
+  const std::function<bool()> answered = [this] { return reported_next.has_value(); };
+  co_await ask(framed(beyond, "M105"), answered);
+  if (!reported_next) reported_next = reported_before;
+  if (!reported_next) {
     give_up("the printer does not report which line it expects next; start the print again from its job");
   }
-  co_return *told_next;
+  co_return *reported_next;
 }
 
 /// Repeats the question if a refusal may have flushed the printer's buffer, and after silence, since noise
@@ -177,11 +177,11 @@ void LinkState::go_on(std::uint32_t next) {
 asio::awaitable<void> LinkState::ask_firmware() {
   const auto started = now();
   const auto lines_before = lines_heard;
-  const std::function<bool()> told = [this] { return !firmware.empty(); };
+  const std::function<bool()> answered = [this] { return !firmware.empty(); };
   // The newline ends a line that an earlier program may have left half written.
   for (int asked_times = 1;; ++asked_times) {
     write("\nM115\n");
-    if (co_await until(told, now() + std::min<Duration>(ask_again, options.silence))) break;
+    if (co_await until(answered, now() + std::min<Duration>(ask_again, options.silence))) break;
     if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name
     const auto patient_until = std::max(started, last_life) + options.silence;
     if (now() < std::min(patient_until, started + options.no_ok)) continue;
@@ -222,7 +222,7 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
       else if (stranger || unproven() || idle() || now() >= stall_deadline() || (used_up() && doubt))
         co_await resynchronise();
       else if (used_up())
-        co_await count_anew();
+        co_await count_again();
       else if (now() >= ask_at)
         ask_temperatures();
     }
@@ -254,7 +254,7 @@ void LinkState::insert_query() {
 
 /// M110 may act again when it is executed; no newer line may have arrived by then. A firmware whose oks come
 /// on receipt must therefore be idle, which it reports every second.
-asio::awaitable<void> LinkState::count_anew() {
+asio::awaitable<void> LinkState::count_again() {
   holding = true;
   if (identity.family == gcode::Family::repetier) {
     const auto words_before = waits_heard;

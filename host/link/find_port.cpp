@@ -71,11 +71,11 @@ class Asked {
     std::array<char, 4096> bytes;
     const ssize_t count = ::read(descriptor_, bytes.data(), bytes.size());
     if (count <= 0) return false;
-    bool told = false;
+    bool named = false;
     splitter_.feed({bytes.data(), static_cast<std::size_t>(count)}, [&](std::string_view line) {
-      told = told || std::holds_alternative<gcode::reply::Firmware>(gcode::parse_reply(line));
+      named = named || std::holds_alternative<gcode::reply::Firmware>(gcode::parse_reply(line));
     });
-    return told;
+    return named;
   }
 
  private:

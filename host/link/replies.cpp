@@ -43,7 +43,7 @@ void LinkState::take(const reply::Ok& ok) {
   waits_for_user = false;
   idle_words = 0;
   if (!ok.temperatures.empty()) {
-    told_temperatures = ok.temperatures;
+    reported_temperatures = ok.temperatures;
     note(ok.temperatures);
   }
   const std::uint32_t queued = note_places(ok);
@@ -59,9 +59,10 @@ void LinkState::take(const reply::Ok& ok) {
   statistics.acknowledged = ledger.acknowledged();
 }
 
-void LinkState::note(const Temperatures& told) {
-  if (told.nozzle) temperatures.nozzle = told.nozzle, temperatures.nozzle_target = told.nozzle_target;
-  if (told.bed) temperatures.bed = told.bed, temperatures.bed_target = told.bed_target;
+void LinkState::note(const Temperatures& reported) {
+  if (reported.nozzle)
+    temperatures.nozzle = reported.nozzle, temperatures.nozzle_target = reported.nozzle_target;
+  if (reported.bed) temperatures.bed = reported.bed, temperatures.bed_target = reported.bed_target;
 }
 
 std::uint32_t LinkState::note_places(const reply::Ok& ok) {
@@ -97,7 +98,7 @@ void LinkState::take(const reply::Error& error) {
 
 void LinkState::asked_for(std::uint32_t number) {
   ++refusals;
-  told_next = number;
+  reported_next = number;
   if (phase == Phase::greeting) return;
   if (!probing) doubt = true;
   const auto known = ledger.locate(number);
@@ -134,7 +135,7 @@ void LinkState::take(const reply::Wait&) {
 void LinkState::take(const reply::TemperatureReport& report) {
   note(report.temperatures);
   if (!report.waiting) {
-    told_temperatures = report.temperatures;
+    reported_temperatures = report.temperatures;
     return;
   }
   last_life = now();
@@ -144,10 +145,10 @@ void LinkState::take(const reply::TemperatureReport& report) {
   write("M108\n");
 }
 
-void LinkState::take(const reply::Firmware& told) {
-  firmware = printable(told.text, 1000);
+void LinkState::take(const reply::Firmware& reported) {
+  firmware = printable(reported.text, 1000);
   auto promised = std::move(identity.capabilities);
-  identity = identify(told.text);
+  identity = identify(reported.text);
   identity.capabilities = std::move(promised);
 }
 
@@ -162,7 +163,7 @@ void LinkState::take(const reply::Echo& echo) {
 }
 
 void LinkState::take(const reply::Position& position) {
-  told_position = position.mm;
+  reported_position = position.mm;
 }
 
 void LinkState::take(const reply::Unknown& unknown) {

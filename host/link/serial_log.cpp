@@ -77,7 +77,7 @@ std::uint64_t SerialLog::dropped() const {
 }
 
 void SerialLog::run() {
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   for (bool over = false; !over;) {
     std::vector<Entry> entries;
     std::uint64_t dropped;
@@ -90,8 +90,8 @@ void SerialLog::run() {
       over = over_;
     }
     for (const Entry& entry : entries) write(entry);
-    if (dropped > told) put(fmt::format("{} bytes left out\n", dropped - told));
-    told = dropped;
+    if (dropped > reported) put(fmt::format("{} bytes left out\n", dropped - reported));
+    reported = dropped;
     stream_.flush();
   }
 }

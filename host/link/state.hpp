@@ -78,7 +78,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   template <class Other>
   void take(const Other&) {}
   void asked_for(std::uint32_t number);
-  void note(const gcode::Temperatures& told);
+  void note(const gcode::Temperatures& reported);
   /// Notes the queues; returns the number of lines after the acknowledged one in the firmware's command
   /// queue.
   std::uint32_t note_places(const gcode::reply::Ok& ok);
@@ -93,7 +93,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   asio::awaitable<void> ask_firmware();
   asio::awaitable<void> reset_numbers();
   asio::awaitable<void> begin_reports();
-  asio::awaitable<void> count_anew();
+  asio::awaitable<void> count_again();
   void ask_temperatures();
   void insert_query();
   asio::awaitable<void> answer_resend();
@@ -140,10 +140,10 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
 
   Phase phase = Phase::greeting;
   // While greeting:
-  bool restarted = false;                  ///< Whether the printer has said "start".
-  std::optional<std::uint32_t> told_next;  ///< Number of the line that it expects.
-  std::optional<std::array<double, 3>> told_position;
-  std::optional<gcode::Temperatures> told_temperatures;
+  bool restarted = false;                      ///< Whether the printer has said "start".
+  std::optional<std::uint32_t> reported_next;  ///< Number of the line that it expects.
+  std::optional<std::array<double, 3>> reported_position;
+  std::optional<gcode::Temperatures> reported_temperatures;
 
   int interruptions = 0;                  ///< Waits for heat that are still to be ended.
   bool draining = false;                  ///< Whether drain() waits.

@@ -183,9 +183,12 @@ void Journal::begin_leg(const Leg& leg) {
   write_now(bytes.bytes());
 }
 
-void Journal::anchor(const Anchor& anchor, bool anew) {
-  write_now(
-      event(Event::anchor).put(static_cast<std::uint8_t>(anew)).put(anchor.number).put(anchor.place).bytes());
+void Journal::anchor(const Anchor& anchor, bool restarts) {
+  write_now(event(Event::anchor)
+                .put(static_cast<std::uint8_t>(restarts))
+                .put(anchor.number)
+                .put(anchor.place)
+                .bytes());
 }
 
 void Journal::park(const std::vector<std::string>& lines) {

@@ -79,9 +79,9 @@ class Journal {
   // disk.
   void begin_session();  ///< The program begins or resumes the print; an earlier end no longer counts.
   void begin_leg(const Leg& leg);
-  /// From now on the line number `anchor.number` on the wire is the line at `anchor.place`. `anew` means that
-  /// earlier anchors are invalid.
-  void anchor(const Anchor& anchor, bool anew);
+  /// From now on the line number `anchor.number` on the wire is the line at `anchor.place`. `restarts` means
+  /// that earlier anchors are invalid.
+  void anchor(const Anchor& anchor, bool restarts);
   void park(const std::vector<std::string>& lines);  ///< Lines that are sent instead of the rest, or first.
   void aside();                                      ///< The lines of park() were executed.
   void end(const Ended& ended);

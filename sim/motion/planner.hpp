@@ -98,9 +98,9 @@ class Planner {
     Trapezoid speed;
     double max_entry = 0;
     Mix mix;
-    double told = 0;     ///< The part that the sink already knows, 0…1.
-    double told_at = 0;  ///< The time at which that part was done.
-    double start = 0;    ///< Earliest start; fixed once the block has started.
+    double reported = 0;     ///< The part that the sink already knows, 0…1.
+    double reported_at = 0;  ///< The time at which that part was done.
+    double start = 0;        ///< Earliest start; fixed once the block has started.
     bool started = false;
     bool after_meant_stop = false;
     bool alone =
@@ -121,7 +121,7 @@ class Planner {
   void look_ahead();
   void start_first();
   void note_stop(const Block& block);
-  void tell(Block& block, double done, double now);
+  void report(Block& block, double done, double now);
   Position place() const;
 
   MotionLimits limits_;
