@@ -284,8 +284,8 @@ asio::awaitable<void> LinkState::answer_resend() {
     best_acknowledged = ledger.acknowledged(), fruitless_resends = 0;
   if (++fruitless_resends > most_resends) {
     give_up(fmt::format(
-        "the printer has asked {} times for line {} or its neighbours: the cable picks up too much "
-        "noise; check it, and keep it away from motors and mains",
+        "the printer has asked {} times for line {} or its neighbours: the connection is too noisy; "
+        "check the cable, and keep it away from motors and mains",
         most_resends, *asked));
   }
   ++statistics.resends;
