@@ -36,16 +36,6 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return !error && real_a == real_b;
 }
 
-std::vector<fs::path> inputs_of(const Job& job) {
-  std::vector<fs::path> inputs = job.source.files;
-  inputs.push_back(job.file);
-  inputs.push_back(job.profile.file);
-  for (const core::Zone& zone : job.source.zones) {
-    if (!zone.pattern.field.empty()) inputs.push_back(zone.pattern.field);
-  }
-  return inputs;
-}
-
 }  // namespace
 
 void check_outputs(std::vector<fs::path> inputs, const std::vector<fs::path>& outputs) {
@@ -85,34 +75,16 @@ LayerRange parse_layers(const std::string& text) {
 
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more) {
   Job job = load_job(options.job, options.profile);
-  job.look_ahead = options.look_ahead;
+  job.print.look_ahead = options.look_ahead;
   job.full_quality = options.full_quality;
   PreparedJob prepared = prepare(std::move(job), options.layers);
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
-  check_outputs(inputs_of(prepared.job), outputs);
+  check_outputs(files_of(prepared.job).all(), outputs);
   for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
   for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
   return prepared;
-}
-
-void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra) {
-  nlohmann::json rest = {{"ended", name(result.ending)}, {"link", link_json(result)}};
-  if (result.ending == Ending::failed) rest["reason"] = result.reason;
-  rest.update(extra);
-  std::string problem;
-  try {
-    run.write_report(rest);
-  } catch (const std::exception& error) {
-    problem = error.what();
-  }
-  if (result.unfit) throw PrinterUnfit(result.reason);
-  if (result.ending == Ending::failed) throw PrintError(result.reason);
-  if (!problem.empty()) {
-    throw PrintError(
-        fmt::format("the print was {}, but its report is lost: {}", name(result.ending), problem));
-  }
 }
 
 void tell_about_spool(Spool& spool, const StreamResult& result) {
@@ -145,24 +117,6 @@ std::FILE* words_of(const DisplayOptions& display) {
   return display.json ? stderr : stdout;
 }
 
-nlohmann::json planning_json(const Lookahead& lookahead) {
-  const PlanningEffort effort = lookahead.effort();
-  return {{"seconds", effort.seconds}, {"cpu_seconds", effort.cpu_seconds}, {"threads", lookahead.threads()}};
-}
-
-nlohmann::json link_json(const StreamResult& result) {
-  const LinkStatistics& s = result.statistics;
-  return {{"firmware", result.firmware},
-          {"lines", s.lines},
-          {"sent", s.sent},
-          {"acknowledged", s.acknowledged},
-          {"resends", s.resends},
-          {"bytes", s.bytes},
-          {"probes", s.probes},
-          {"queries", s.queries},
-          {"recounts", s.recounts}};
-}
-
 StreamResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
                                   const StreamSettings& settings) {
   Display display(options.json ? DisplayForm::json : DisplayForm::words);
@@ -173,6 +127,10 @@ StreamResult stream_with_progress(int port, Source& source, const DisplayOptions
     if (const std::string answer = obey(session, words); !answer.empty()) show(stderr, "{}\n", answer);
   };
   return stream(port, source, observer, settings, console);
+}
+
+StreamResult stream_with_progress(Print& print, const DisplayOptions& options) {
+  return stream_with_progress(print.take_port(), print.source(), options, print.settings());
 }
 
 }  // namespace unicursal::host

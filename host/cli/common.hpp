@@ -3,9 +3,9 @@
 
 #include <cstdio>
 #include <initializer_list>
-#include <nlohmann/json_fwd.hpp>
 
 #include "host/cli/commands.hpp"
+#include "host/engine/print.hpp"
 #include "host/engine/stream.hpp"
 #include "host/spool/spool.hpp"
 
@@ -22,10 +22,6 @@ std::vector<std::filesystem::path> present(std::initializer_list<std::optional<s
 /// and `more`, that are one of the job's own files or one another.
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<std::filesystem::path>& more = {});
 
-/// The report of a print that has come to an end, whichever; a failure to write it is none of the input's.
-/// Throws PrintError, also when the print has failed.
-void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra);
-
 /// How a print that can be resumed is resumed.
 void tell_about_spool(Spool& spool, const StreamResult& result);
 
@@ -35,13 +31,9 @@ Exit tell_ending(const StreamResult& result, const DisplayOptions& display);
 /// Where words for people go: events have the standard output for themselves.
 std::FILE* words_of(const DisplayOptions& display);
 
-/// The report's "planning": seconds, cpu_seconds, threads.
-nlohmann::json planning_json(const Lookahead& lookahead);
-/// The report's "link".
-nlohmann::json link_json(const StreamResult& result);
-
 /// Streams with a progress line, or events; what the printer complains about is shown above it.
 StreamResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
                                   const StreamSettings& settings = {});
+StreamResult stream_with_progress(Print& print, const DisplayOptions& options);
 
 }  // namespace unicursal::host

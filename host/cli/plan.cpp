@@ -7,6 +7,7 @@
 #include "host/cli/progress.hpp"
 #include "host/cli/show.hpp"
 #include "host/files/whole_file.hpp"
+#include "host/report/print_report.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {

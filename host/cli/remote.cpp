@@ -133,13 +133,7 @@ std::string free_folder(const Client& client, const std::string& name) {
 }
 
 std::string upload(const Client& client, const fs::path& file) {
-  const Job job = load_job(file);
-  std::vector<fs::path> files = job.source.files;
-  for (const core::Zone& zone : job.source.zones) {
-    if (!zone.pattern.field.empty()) files.push_back(zone.pattern.field);
-  }
-  files.push_back(job.profile.file);
-  files.push_back(file);
+  const std::vector<fs::path> files = files_of(load_job(file)).all();
   for (const fs::path& one : files) check_beside(file, one);
   const std::string folder = free_folder(client, file.stem().string());
   for (const fs::path& one : files) {

@@ -8,8 +8,9 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/common.hpp"
 #include "host/cli/show.hpp"
+#include "host/engine/print.hpp"
 #include "host/engine/restart.hpp"
-#include "host/report/summary.hpp"
+#include "host/report/print_report.hpp"
 #include "host/spool/spool.hpp"
 #include "host/spool/spool_error.hpp"
 
@@ -53,20 +54,6 @@ fs::path chosen_print(const ResumeCommand& command) {
   if (print != prints.end()) return *print;
   throw SpoolError(root.string(), "", "holds no print whose name begins with \"" + *command.print + "\"",
                    "see `unicursal resume --list`");
-}
-
-PreparedJob prepare_again(const Spool& spool) {
-  std::optional<LayerRange> layers;
-  if (const auto& asked = spool.order().layers) layers = LayerRange{asked->first, asked->second};
-  return prepare(spool.job(), layers);
-}
-
-LookaheadOptions behind(const PreparedJob& prepared, const SpoolExtent& extent) {
-  LookaheadOptions options = lookahead_options(prepared);
-  const std::size_t done = std::min(options.count, extent.layers);
-  options.first += done;
-  options.count -= done;
-  return options;
 }
 
 void tell(const Restart& restart, const Lost& lost, const Spool& spool) {
@@ -116,66 +103,40 @@ bool agreed(const ResumeCommand& command, const Restart& restart) {
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 
-/// A resumed print on its way.
-class Resumption {
- public:
-  Resumption(const ResumeCommand& command, Spool& spool)
-      : command_(command),
-        spool_(spool),
-        prepared_(prepare_again(spool)),
-        run_(prepared_, "resume", {}),
-        lookahead_(*prepared_.part, paced(behind(prepared_, spool.extent()), clock_)) {}
+StreamResult stream_from(Print& print, std::optional<Leg> leg, const ResumeCommand& command) {
+  print.connect(std::move(leg));
+  return stream_with_progress(print, command.display);
+}
 
-  Exit operator()() {
-    const JournalState& before = spool_.before();
-    const bool nothing_sent = before.anchors.empty();
-    if (!before.parking.empty()) {
-      return restart(
-          {before.aside ? "its nozzle was moved aside" : "it was parked and cooled", std::nullopt});
-    }
-    const StreamResult result = stream(nothing_sent ? std::optional(before.leg) : std::nullopt);
-    return result.lost ? restart(*result.lost) : end(result);
+Exit end(Print& print, const StreamResult& result, const ResumeCommand& command) {
+  tell_about_spool(print.spool(), result);
+  conclude(print.run(), result, nlohmann::json::object());
+  return tell_ending(result, command.display);
+}
+
+Exit restart(Print& print, const Lost& lost, const ResumeCommand& command) {
+  const Restart restart = restart_after(print.prepared(), print.spool(), lost);
+  tell(restart, lost, print.spool());
+  if (!agreed(command, restart)) {
+    show(stdout,
+         "The print was not gone on with. If the printer's heaters are on, they stay on: look after "
+         "them.\n");
+    return Exit::failed;
   }
+  return end(print, stream_from(print, restart.leg, command), command);
+}
 
- private:
-  StreamResult stream(std::optional<Leg> leg) {
-    StreamSettings settings;
-    settings.clock = clock_;
-    settings.pause_heat = command_.pause_heat;
-    settings.spool = &spool_;
-    settings.link = link_options(prepared_.job.profile, command_.log);
-    settings.continuation = Continuation{std::move(leg), [this] { catch_up(run_, spool_); }};
-    const int port =
-        open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud, settings.link);
-    PlannedSource source(lookahead_, run_, spool_.extent().rest);
-    return stream_with_progress(port, source, command_.display, settings);
+Exit go_on(Print& print, const ResumeCommand& command) {
+  const JournalState& before = print.spool().before();
+  if (!before.parking.empty()) {
+    const char* const why = before.aside ? "its nozzle was moved aside" : "it was parked and cooled";
+    return restart(print, {why, std::nullopt}, command);
   }
-
-  Exit restart(const Lost& lost) {
-    const Restart restart = restart_after(prepared_, spool_, lost);
-    tell(restart, lost, spool_);
-    if (!agreed(command_, restart)) {
-      show(stdout,
-           "The print was not gone on with. If the printer's heaters are on, they stay on: look after "
-           "them.\n");
-      return Exit::failed;
-    }
-    return end(stream(restart.leg));
-  }
-
-  Exit end(const StreamResult& result) {
-    tell_about_spool(spool_, result);
-    conclude(run_, result, nlohmann::json::object());
-    return tell_ending(result, command_.display);
-  }
-
-  const ResumeCommand& command_;
-  Spool& spool_;
-  const PreparedJob prepared_;
-  Run run_;
-  const std::shared_ptr<Clock> clock_ = real_clock();
-  Lookahead lookahead_;
-};
+  const bool nothing_sent = before.anchors.empty();
+  const StreamResult result =
+      stream_from(print, nothing_sent ? std::optional(before.leg) : std::nullopt, command);
+  return result.lost ? restart(print, *result.lost, command) : end(print, result, command);
+}
 
 }  // namespace
 
@@ -192,7 +153,8 @@ Exit resume(const ResumeCommand& command) {
     throw SpoolError(folder.string(), "", "cannot go on: another print was begun on its printer since",
                      "print the job anew");
   }
-  return Resumption(command, spool)();
+  Print print(std::move(spool), "resume", {command.port, command.spool, command.log, command.pause_heat});
+  return go_on(print, command);
 }
 
 }  // namespace unicursal::host
