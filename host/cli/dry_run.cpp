@@ -1,29 +1,74 @@
 #include "host/dry_run/dry_run.hpp"
 
-#include "host/cli/commands.hpp"
-#include "host/cli/common.hpp"
-#include "host/cli/show.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/foreground.hpp"
+#include "host/cli/preparation.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
+namespace {
 
-Exit dry_run(const DryRunCommand& command) {
-  check_simulator(command.printer);
-  const PreparedJob prepared = prepare_and_warn(command.job, present({command.log}));
-  check_outputs(present({command.printer.fault_file}), present({command.job.outputs.report, command.log}));
-  const DryRunOptions options{command.printer, command.personality_chosen, command.charge, command.log,
-                              command.job.outputs};
+class DryRun final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override;
+
+ private:
+  JobOptions job_;
+  SimulatedPrinter simulated_;
+  double charge_ = 0;
+  std::optional<std::filesystem::path> log_;
+  DisplayOptions display_;
+};
+
+CLI::App& DryRun::declare(CLI::App& program) {
+  CLI::App& app = add_command(program, "dry-run", "Try without a printer",
+                              "Print a job on a simulated printer and show what would come out.",
+                              "unicursal dry-run leaf.toml --report leaf.json --picture pictures");
+  job_.declare(app);
+  job_.declare_full_quality(app);
+  declare_events(app, display_);
+  declare_log(app, log_);
+  add_value(app, "--charge-planning", charge_, "FACTOR",
+            "In virtual time, let planning take as long as on a computer that is this many times slower. "
+            "Default: 0, planning takes no time.")
+      .check(number_between(0, 1e6))
+      ->group("Planning");
+  add_value(app, "--speed", simulated_.options.speed, "FACTOR",
+            "Printer seconds per second: 1 is real time. Default: 0, virtual time, which runs as fast as "
+            "possible and gives the same report every time.")
+      .check(number_between(0, any_number))
+      ->group("Simulated printer");
+  simulated_.declare(app);
+  return app;
+}
+
+Exit DryRun::run() {
+  if (simulated_.personality) simulated_.options.personality = *simulated_.personality;
+  simulated_.check();
+  const PreparedJob prepared = prepare_and_warn(job_, present({log_}));
+  check_outputs(present({simulated_.options.fault_file}), present({job_.outputs.report, log_}));
+  const DryRunOptions options{simulated_.options, simulated_.personality.has_value(), charge_, log_,
+                              job_.outputs};
   const DryRunResult result =
       dry_run(prepared, options, [&](int port, Source& source, const StreamSettings& settings) {
-        return stream_with_progress(port, source, command.display, settings);
+        return stream_with_progress(port, source, display_, settings);
       });
-  show(words_of(command.display), "{}", summary(result.totals, result.effort));
-  const Exit exit = tell_ending(result.stream, command.display);
+  std::FILE* const messages = message_stream(display_);
+  show(messages, "{}", summary(result.totals, result.effort));
+  const Exit exit = show_ending(result.stream, display_);
   if (exit != Exit::success) return exit;
-  show(words_of(command.display), "{}{}{}", summary(result.comparison), summary(result.motion),
-       summary(result.laid));
+  show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
   if (result.problem) show(stderr, "warning: {}\n", *result.problem);
   return result.comparison.lines_whole() ? Exit::success : Exit::failed;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_dry_run() {
+  return std::make_unique<DryRun>();
 }
 
 }  // namespace unicursal::host

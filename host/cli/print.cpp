@@ -1,24 +1,57 @@
+#include "host/engine/print.hpp"
+
 #include <nlohmann/json.hpp>
 
-#include "host/cli/commands.hpp"
-#include "host/cli/common.hpp"
-#include "host/cli/show.hpp"
-#include "host/engine/print.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/foreground.hpp"
+#include "host/cli/preparation.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "host/report/print_report.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
+namespace {
 
-Exit print(const PrintCommand& command) {
-  const PrintOptions options{command.port, command.spool, command.log, command.pause_heat};
-  Print print(prepare_and_warn(command.job, present({command.log})), "print", options, command.job.outputs);
-  const StreamResult result = stream_with_progress(print, command.display);
-  tell_about_spool(print.spool(), result);
+class PrintCommand final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override;
+
+ private:
+  JobOptions job_;
+  PrintOptions options_;
+  DisplayOptions display_;
+};
+
+CLI::App& PrintCommand::declare(CLI::App& program) {
+  CLI::App& app = add_command(program, "print", "Print", "Print a job on a printer, over USB.",
+                              "unicursal print leaf.toml --port /dev/ttyUSB0");
+  job_.declare(app);
+  job_.declare_full_quality(app);
+  declare_port(app, options_.port, "the profile's port");
+  declare_pause_heat(app, options_.pause_heat);
+  declare_spool(app, options_.spool);
+  declare_events(app, display_);
+  declare_log(app, options_.log);
+  add_steering_note(app);
+  return app;
+}
+
+Exit PrintCommand::run() {
+  Print print(prepare_and_warn(job_, present({options_.log})), "print", options_, job_.outputs);
+  const StreamResult result = stream_with_progress(print, display_);
+  show_how_to_resume(print.spool(), result);
   conclude(print.run(), result, {{"planning", planning_json(print.lookahead())}});
-  if (result.ending == Ending::completed) {
-    show(words_of(command.display), "{}", summary(print.run().totals(), print.lookahead().effort()));
-  }
-  return tell_ending(result, command.display);
+  if (result.ending == Ending::completed)
+    show(message_stream(display_), "{}", summary(print.run().totals(), print.lookahead().effort()));
+  return show_ending(result, display_);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_print() {
+  return std::make_unique<PrintCommand>();
 }
 
 }  // namespace unicursal::host
