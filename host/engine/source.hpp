@@ -80,7 +80,7 @@ class PlannedSource final : public Source {
                lookahead_options(run.prepared()).flow) {}
 
   const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
-  core::Box extent() const override { return print_settings(run_.prepared()).extent; }
+  core::Box extent() const override { return run_.prepared().frame.extent; }
   double flow() const override { return run_.flow(); }
   std::vector<NamedMixture> mixtures() const override;
   std::vector<std::string> warnings() const override { return run_.warnings(); }

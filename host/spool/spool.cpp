@@ -106,10 +106,11 @@ class Copies {
 
 json copies_of(const Job& job, const fs::path& folder) {
   Copies copies(folder / "job");
-  json files = {{"job", copies.add(job.file)}, {"profile", copies.add(job.profile.file)}};
-  for (const fs::path& file : job.source.files) files["models"].push_back(copies.add(file));
-  for (const core::Zone& zone : job.source.zones) {
-    files["fields"].push_back(zone.pattern.field.empty() ? "" : copies.add(zone.pattern.field));
+  const JobInputs inputs = files_of(job);
+  json files = {{"job", copies.add(inputs.job)}, {"profile", copies.add(inputs.profile)}};
+  for (const fs::path& file : inputs.models) files["models"].push_back(copies.add(file));
+  for (const fs::path& file : inputs.fields) {
+    files["fields"].push_back(file.empty() ? "" : copies.add(file));
   }
   return files;
 }
@@ -223,7 +224,7 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
                  {"device", order.device},
                  {"layer_count", order.layer_count},
                  {"layers", order.layers ? json{order.layers->first, order.layers->second} : json()},
-                 {"look_ahead", job.look_ahead},
+                 {"look_ahead", job.print.look_ahead},
                  {"full_quality", job.full_quality},
                  {"files", copies_of(job, folder)}};
   auto state = std::make_unique<State>(folder, record, 0, 0);
@@ -282,7 +283,7 @@ Job Spool::job() const {
       throw SpoolError(order_file(folder).string(), "", "does not match the job beside it",
                        "start the print again from its job");
     }
-    job.look_ahead = state_->record.at("look_ahead").get<bool>();
+    job.print.look_ahead = state_->record.at("look_ahead").get<bool>();
     job.full_quality = state_->record.at("full_quality").get<bool>();
     for (std::size_t i = 0; i < models.size(); ++i) job.source.files[i] = copy(models[i]);
     for (std::size_t i = 0; i < fields.size(); ++i) {

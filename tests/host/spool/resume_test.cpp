@@ -126,7 +126,7 @@ TEST_CASE("after a reset the print continues at the last certain place, if the u
   CHECK(cut.err.find("unicursal resume") != std::string::npos);
   const Outcome asked = test::run(bench.resume());  // nobody answers the question
   CHECK(asked.code == 2);
-  CHECK(asked.out.find("goes on in layer") != std::string::npos);
+  CHECK(asked.out.find("continues in layer") != std::string::npos);
   CHECK(asked.err.find("--yes") != std::string::npos);
   const Outcome resumed = bench.resume_anyway();
   INFO(resumed.out << resumed.err);
@@ -301,7 +301,7 @@ TEST_CASE("after a new print on the same printer the previous one cannot be resu
   arguments.push_back(first);
   const Outcome outcome = test::run(arguments);
   CHECK(outcome.code == 2);
-  CHECK(outcome.err.find("another print was begun") != std::string::npos);
+  CHECK(outcome.err.find("another print has begun") != std::string::npos);
 }
 
 TEST_CASE("a damaged record of a print is refused with a message") {
