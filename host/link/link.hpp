@@ -5,7 +5,8 @@
 //   asio::io_context loop;
 //   Link link(loop.get_executor(), open_port("/dev/ttyUSB0", 250000), LinkOptions{});
 //   co_await link.connect();                 // boot chatter, newline, M110
-//   co_await link.send({"G28", "M105"});     // returns when the last line is on its way
+//   std::vector<std::string> lines{"G28", "M105"};
+//   co_await link.send(std::move(lines));    // returns when the last line is on its way
 //   co_await link.drain();                   // returns when every line has its ok
 #pragma once
 
