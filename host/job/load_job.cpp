@@ -179,9 +179,8 @@ void read_seam(const Section& part, Job& job) {
 
 std::filesystem::path profile_path(const Section& root, const std::optional<std::filesystem::path>& chosen) {
   if (chosen) return *chosen;
-  const std::filesystem::path path =
-      root.file().parent_path() /
-      root.text("printer", "name a profile in the job, or give one with --profile");
+  std::filesystem::path path = root.file().parent_path() /
+                               root.text("printer", "name a profile in the job, or give one with --profile");
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     root.fail("printer", fmt::format("names {}, which does not exist", path.string()),
