@@ -3,7 +3,7 @@
 //
 //   PlannedSource source(lookahead, run);
 //   Session session(loop.get_executor(), open_port(path, baud), source);
-//   session.on_event([&](const SessionEvent& event) { tell(to_json(event)); });
+//   session.on_event([&](const SessionEvent& event) { show(to_json(event, session.status())); });
 //   asio::co_spawn(loop, session.run(), [](std::exception_ptr, StreamResult result) { … });
 //   session.pause("somebody at the door");          // any time, on the loop's thread
 //

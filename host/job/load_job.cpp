@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/text/wording.hpp"
+#include "host/job/keys.hpp"
 #include "host/job/print_keys.hpp"
 #include "host/job/settings_file.hpp"
 #include "host/job/zones.hpp"
@@ -103,7 +104,7 @@ std::optional<double> read_deposit(const Section& part, const gcode::Printer& pr
     part.choice("deposit", *node, {"fill"});
     return {};
   }
-  const Section deposit = part.section("deposit", {"width"}, "write \"fill\" or { width = 0.4 }");
+  const Section deposit = part.section("deposit", keys::deposit, "write \"fill\" or { width = 0.4 }");
   const Range range{0, printer.bead_width_range[1], true, "mm"};
   return deposit.number("width", range, "write a width that the nozzle can lay");
 }
@@ -177,9 +178,8 @@ void read_seam(const Section& part, Job& job) {
 
 std::filesystem::path profile_path(const Section& root, const std::optional<std::filesystem::path>& chosen) {
   if (chosen) return *chosen;
-  const std::filesystem::path path =
-      root.file().parent_path() /
-      root.text("printer", "name a profile in the job, or give one with --profile");
+  std::filesystem::path path = root.file().parent_path() /
+                               root.text("printer", "name a profile in the job, or give one with --profile");
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     root.fail("printer", fmt::format("names {}, which does not exist", path.string()),
@@ -196,16 +196,12 @@ double bead_width_from_seed_distance(double d) {
 
 Job load_job(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile) {
   const SettingsFile file(path);
-  const Section root = file.root({"printer", "part", "zone", "mixture"});
+  const Section root = file.root(keys::job);
   Job job;
   job.file = path;
   job.profile = load_profile(profile_path(root, profile));
   const Section part =
-      root.section("part",
-                   {"file", "height", "layer_height", "first_layer_height", "bead_width", "seed_distance",
-                    "flow", "speed", "first_layer_speed", "perimeters", "deposit", "place", "seam",
-                    "change_before_border", "skirt", "fan", "temperatures"},
-                   "write [part] and below it file, layer_height and bead_width");
+      root.section("part", keys::part, "write [part] and below it file, layer_height and bead_width");
   job.source = read_source(part, job.profile.printer.nozzle);
   job.place = read_place(part);
   job.line_width = read_deposit(part, job.profile.printer);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware_gcode/print/bounds.hpp"
+#include "host/job/keys.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -46,7 +47,7 @@ void read_skirt(const Section& part, gcode::Skirt& skirt) {
     skirt.loops = static_cast<int>(whole(part, "skirt", part.number("skirt", loops, remedy)));
     return;
   }
-  const Section table = part.section("skirt", {"loops", "distance"}, remedy);
+  const Section table = part.section("skirt", keys::skirt, remedy);
   skirt.loops = static_cast<int>(whole(table, "loops", table.number("loops", loops, remedy)));
   skirt.distance = table.number_or("distance", skirt.distance, between(0, farthest_skirt, "mm"), remedy);
 }
@@ -60,7 +61,7 @@ void read_fan(const Section& part, gcode::Fan& fan) {
     fan.percent = part.number("fan", percent, remedy);
     return;
   }
-  const Section table = part.section("fan", {"percent", "from"}, remedy);
+  const Section table = part.section("fan", keys::fan, remedy);
   fan.percent = table.number("percent", percent, remedy);
   fan.from = whole(table, "from", table.number_or("from", 0, layers(), remedy));
 }
@@ -90,8 +91,7 @@ void read_temperatures(const Section& part, Job& job) {
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::table* table = (*list)[i].as_table();
     if (!table) part.fail("temperatures", "holds something that is no table", remedy);
-    const Section entry(part.file(), *table, fmt::format("part.temperatures[{}]", i),
-                        {"layer", "nozzle", "bed"});
+    const Section entry(part.file(), *table, fmt::format("part.temperatures[{}]", i), keys::temperatures);
     job.print.temperatures.push_back(read_temperature(entry));
     if (i > 0 && job.print.temperatures[i].layer <= job.print.temperatures[i - 1].layer) {
       entry.fail("layer", "does not come after the one before it", "sort the list by layer, each layer once");

@@ -9,6 +9,7 @@
 #include "firmware_gcode/print/bounds.hpp"
 #include "firmware_gcode/print/mixture.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
+#include "host/job/keys.hpp"
 #include "host/job/nearest.hpp"
 #include "host/job/settings_file.hpp"
 
@@ -150,22 +151,14 @@ Profile load_profile(const std::filesystem::path& path) {
   const SettingsFile file(path);
   Profile profile;
   profile.file = std::filesystem::absolute(path);
-  const Section root = file.root({"printer", "extruder", "temperature", "transition", "gcode"});
-  read_machine(
-      root.section("printer",
-                   {"name", "firmware", "port", "baud", "receive_buffer", "bed", "nozzle", "bead_width_range",
-                    "max_speed", "max_acceleration", "jerk", "junction_deviation", "acceleration"},
-                   "a profile describes the machine below [printer]; is this file a profile?"),
-      profile);
-  read_extruder(
-      root.section_or_empty("extruder", {"feeders", "filament_diameter", "max_flow", "floor_share",
-                                         "retraction_length", "retraction_speed", "z_hop", "steps_per_mm",
-                                         "flow_factors", "max_speed", "max_acceleration", "jerk"}),
-      profile.printer);
-  read_temperature(root.section_or_empty("temperature", {"nozzle", "bed"}), profile.printer);
-  read_transition(root.section_or_empty("transition", {"dead_volume", "mixing_volume", "tanks", "overshoot"}),
-                  profile.printer);
-  const Section gcode = root.section_or_empty("gcode", {"start", "end"});
+  const Section root = file.root(keys::profile);
+  read_machine(root.section("printer", keys::printer,
+                            "a profile describes the machine below [printer]; is this file a profile?"),
+               profile);
+  read_extruder(root.section_or_empty("extruder", keys::extruder), profile.printer);
+  read_temperature(root.section_or_empty("temperature", keys::temperature), profile.printer);
+  read_transition(root.section_or_empty("transition", keys::transition), profile.printer);
+  const Section gcode = root.section_or_empty("gcode", keys::gcode);
   profile.printer.start_gcode = read_script(gcode, "start");
   profile.printer.end_gcode = read_script(gcode, "end");
   return profile;

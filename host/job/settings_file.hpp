@@ -2,7 +2,8 @@
 // This header pulls in toml++; only the files of host/job that parse include it.
 //
 //   const SettingsFile file("job.toml");
-//   const Section part = file.root({"part", "mixture"}).section("part", {"height", "layer_height"});
+//   const Section root = file.root({"part", "mixture"});
+//   const Section part = root.section("part", {"height", "layer_height"}, "write [part]");
 //   const double height = part.number("height", above(0, "mm"), "write for example height = 1.0");
 #pragma once
 

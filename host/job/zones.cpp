@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/job/job.hpp"
+#include "host/job/keys.hpp"
 #include "host/job/nearest.hpp"
 
 namespace unicursal::host {
@@ -64,7 +65,7 @@ core::Pattern named_pattern(const Section& zone, const toml::node& node) {
 }
 
 core::Pattern directed_pattern(const Section& zone) {
-  const Section table = zone.section("pattern", {"angle", "field"}, pattern_remedy);
+  const Section table = zone.section("pattern", keys::pattern, pattern_remedy);
   if (table.has("angle") == table.has("field")) {
     zone.fail("pattern", "needs either an angle or a field", pattern_remedy);
   }
@@ -146,7 +147,7 @@ std::array<double, 3> read_direction(const Section& gradient) {
 
 /// From one end of its zones to the other, unless it is said where.
 gcode::Material read_gradient(const Section& zone, const Palette& palette) {
-  const Section section = zone.section("mixture", {"from", "to", "along", "over"}, mixture_remedy);
+  const Section section = zone.section("mixture", keys::gradient, mixture_remedy);
   gcode::Material material = find_material(section, "from", palette);
   const gcode::Material& to = find_material(section, "to", palette);
   material.name += " to " + to.name;
@@ -198,7 +199,7 @@ ZonesAndMaterials read_zones(const Section& root, int feeders) {
   ZonesAndMaterials result;
   for (const toml::node& item : *list) {
     const Section section(root.file(), *item.as_table(), fmt::format("zone[{}]", result.zones.size()),
-                          {"select", "pattern", "boundary", "mixture", "transition"});
+                          keys::zone);
     result.zones.push_back(read_zone(section, palette, result.materials));
   }
   return result;

@@ -5,7 +5,8 @@
 //   asio::io_context loop;
 //   Link link(loop.get_executor(), open_port("/dev/ttyUSB0", 250000), LinkOptions{});
 //   co_await link.connect();                 // boot messages, newline, M115, M110
-//   co_await link.send({"G28", "M105"});     // returns when the last line has been written
+//   std::vector<std::string> lines{"G28", "M105"};
+//   co_await link.send(std::move(lines));    // returns when the last line has been written
 //   co_await link.drain();                   // returns when every line is acknowledged
 #pragma once
 

@@ -18,8 +18,8 @@ struct PixelGrid {
   std::size_t size() const { return columns * rows; }
   /// Of a pixel, counted row by row from the lowest.
   core::Vec2 middle(std::size_t index) const {
-    const core::Vec2 place(static_cast<double>(index % columns) + 0.5,
-                           static_cast<double>(index / columns) + 0.5);
+    const std::size_t column = index % columns, row = index / columns;
+    const core::Vec2 place(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     return origin + place * pixel;
   }
 };

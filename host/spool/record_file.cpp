@@ -2,8 +2,8 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <zlib.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -15,16 +15,6 @@ namespace unicursal::host {
 namespace {
 
 constexpr std::size_t header = 8;  ///< Bytes before a record's content.
-
-constexpr std::array<std::uint32_t, 256> crc_table = [] {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
-    std::uint32_t value = byte;
-    for (int bit = 0; bit < 8; ++bit) value = value & 1 ? 0xedb88320U ^ (value >> 1) : value >> 1;
-    table[byte] = value;
-  }
-  return table;
-}();
 
 std::string length_bytes(std::size_t length) {
   return ByteWriter().put(static_cast<std::uint32_t>(length)).bytes();
@@ -42,9 +32,9 @@ std::string why(int error) {
 }  // namespace
 
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
-  std::uint32_t value = ~before;
-  for (const char c : bytes) value = crc_table[(value ^ static_cast<unsigned char>(c)) & 0xff] ^ (value >> 8);
-  return ~value;
+  if (bytes.empty()) return before;  // zlib returns 0 for a null pointer
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
 std::string framed_record(std::string_view content) {

@@ -1,6 +1,6 @@
-// How far the simulated nozzle is from tanks in series: a step from one feeder to another, told at every bead
-// that comes out, against the gamma distribution integrated by Simpson's rule. The greatest difference of the
-// new feeder's share, for one to five tanks and feeds of several lengths.
+// Compares the simulated nozzle with tanks in series. One feeder replaces another in a step; the share of the
+// new feeder in each bead is compared with the gamma distribution, integrated by Simpson's rule. Prints the
+// greatest difference for one to five tanks and for feeds of several lengths.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace unicursal::sim;
 
 namespace {
 
-/// Of a row of so many equal tanks when `x` volumes of one of them have passed.
+/// Step response of equal tanks in series after `x` volumes of one tank have passed.
 double analytic(double x, unsigned tanks) {
   constexpr int steps = 2000;
   double integral = 0;

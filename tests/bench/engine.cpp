@@ -1,15 +1,17 @@
-// Whether the nozzle ever waits for the host: real processes, the program itself and its simulated printer.
+// Measures whether the nozzle ever waits for the host, with the real program and its simulated printer as
+// processes.
 //
-//   starve JOB…        whole jobs in virtual time, planning charged ×1 and ×8 of what it takes this computer:
-//                      how often the printer's queue ran dry in mid-curve, how long the print waited for
-//                      layers, those included that the hot printer needs before its first bead, which quality
-//                      was given up, and the host's memory at layer 10 and at most
-//   start JOB…         `print` on a printer that is hot and homed: time to the first extruding move, less
-//                      what the printer takes for the lines before it (from the first of them on the wire to
-//                      its last ok: homing, the bed's and the nozzle's last degrees)
-//   live MINUTES JOB…  by the clock on the wall: starvation, and what each kind of thread takes of a core
+//   bench_engine starve JOB…
+//     Whole jobs in virtual time, with planning charged at ×1 and ×8 of what it takes here. Prints how often
+//     the printer's queue ran dry in a curve; how long the print waited for layers, including those that a
+//     hot printer needs before its first bead; how far the quality was lowered; and the memory of the host.
+//   bench_engine start JOB…
+//     `print` on a printer that is hot and homed. Prints the time to the first extruding move, less what the
+//     printer takes for the lines before it (homing, last degrees of heat).
+//   bench_engine live MINUTES JOB…
+//     In real time. Prints starvations, and the share of a core of each kind of thread.
 //
-// The figures vary with the computer and with what else it does. s, MiB.
+// The figures depend on the computer and its load. s, MiB.
 #include <dirent.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -39,8 +41,8 @@ using test::Child;
 using Clock = std::chrono::steady_clock;
 
 constexpr int look_again = 2;      ///< ms
-constexpr std::size_t early = 10;  ///< layer at which memory is first looked at
-constexpr double longest = 3600;   ///< s that anything may take to begin
+constexpr std::size_t early = 10;  ///< the layer at which memory is measured first
+constexpr double longest = 3600;   ///< s; the longest that a process may take to start
 
 double since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
@@ -56,7 +58,7 @@ std::string name_of(const std::string& job) {
 
 // ---- in virtual time
 
-/// KiB of a process, by its name in /proc; 0 when it has ended.
+/// A figure of a process by its name in /proc, KiB; 0 if the process has ended.
 double memory(pid_t process, const std::string& what) {
   std::istringstream status(test::read_text(fmt::format("/proc/{}/status", process)));
   for (std::string line; std::getline(status, line);) {
@@ -65,7 +67,7 @@ double memory(pid_t process, const std::string& what) {
   return 0;
 }
 
-/// The layer that the last event of a print tells.
+/// The layer in the last event of a print.
 std::size_t layer_in(const std::string& events) {
   const auto at = events.rfind("\"layer\":");
   return at == std::string::npos ? 0 : std::strtoul(events.c_str() + at + 8, nullptr, 10);
@@ -87,7 +89,7 @@ Memory watch(const Child& child) {
   return seen;
 }
 
-/// "3 7 8 …"; the layers that were planned in less time than they wanted, with the effort that they got.
+/// The layers that were planned in less time than they needed, with their effort: "3 7 8 …".
 std::string hurried_layers(const json& report) {
   std::string text;
   int more = 0;
@@ -127,14 +129,14 @@ void starve(const std::string& job) {
   }
 }
 
-// ---- by the clock on the wall
+// ---- in real time
 
 bool extrudes(const std::string& line) {
   const bool moves = line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos;
   return line.rfind("G1 ", 0) == 0 && moves && line.find(" E") != std::string::npos;
 }
 
-/// What a print sends up to its first extruding move.
+/// The lines that a print sends up to its first extruding move.
 std::vector<std::string> beginning(const std::string& job) {
   const test::TempFolder folder;
   const std::string file = folder / "layer.gcode";
@@ -151,12 +153,12 @@ std::vector<std::string> beginning(const std::string& job) {
   return lines;
 }
 
-/// Follows what the simulated printer executes.
+/// Follows the commands that the simulated printer executes.
 class Transcript {
  public:
   explicit Transcript(const std::string& file) : file_(file) {}
 
-  /// How many extruding moves were executed.
+  /// Returns how many extruding moves were executed.
   std::size_t extruding() {
     if (!stream_.is_open()) stream_.open(file_);
     stream_.clear();
@@ -203,7 +205,7 @@ class HotPrinter {
   std::string port() const { return folder_ / "port"; }
   std::string path(const std::string& name) const { return folder_ / name; }
   Transcript& transcript() { return transcript_; }
-  /// Ends it.
+  /// Ends the process.
   json seen() {
     kill(printer_.id(), SIGTERM);
     printer_.wait();
@@ -253,14 +255,14 @@ std::map<std::string, double> thread_seconds(pid_t process) {
     for (std::string field; rest >> field;) fields.push_back(field);
     const bool first = thread.path().filename() == std::to_string(process);
     const std::string name = first ? "link" : stat.substr(open + 1, close - open - 1);
-    // utime and stime are the 14th and 15th of all (proc(5)).
+    // utime and stime are fields 14 and 15; see proc(5).
     seconds[name == "unicursal" ? "disk" : name] +=
         tick * (std::stod(fields.at(11)) + std::stod(fields.at(12)));
   }
   return seconds;
 }
 
-/// s that the printer took for what a print sent it before the first extruding move, by its serial log.
+/// Time that the printer took for the lines before the first extruding move, from its serial log, s.
 double printers_own(const std::string& log) {
   std::istringstream stream(test::read_text(log));
   std::optional<double> begun;
@@ -279,7 +281,7 @@ double printers_own(const std::string& log) {
   throw std::runtime_error("the serial log tells of no extruding move");
 }
 
-/// `minutes`: of printing, after the first extruding move; 0: none.
+/// `minutes` of printing follow the first extruding move; may be 0.
 void print(const std::string& job, double minutes) {
   HotPrinter printer(job);
   const auto begun = Clock::now();

@@ -1,5 +1,5 @@
-// What the curves of whole jobs are like: bench_figures [--layers N] JOB.toml …
-// Plans every layer of every job and prints the worst and the mean of what a print depends on.
+// Figures of the curves of whole jobs: bench_figures [--layers N] JOB.toml …
+// Plans every layer of every job and prints the mean and the worst of the figures that a print depends on.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace unicursal;
 
-/// Islands smaller than this many square bead widths are all border; their spacing is told apart.
+/// Islands smaller than this many square bead widths consist of border; their spacing is reported separately.
 constexpr double small_island = 200;
 
 struct Worst {

@@ -1,14 +1,16 @@
-// What a simulated printer makes of whole jobs, in two encodings of the same curves:
+// Prints whole jobs on a simulated machine, in two encodings of the same curves:
 //   bench_laying [--speed MM/S] [--acceleration MM/S²] [--layers N] [--preset paper] [--quality Q] JOB.toml …
-// "own area": every segment gets the plastic of its own area, the feeders turn at a constant rate (paper
-// §4.2); "constant": every segment gets the mean bead width of its layers, so the nozzle runs at a constant
-// speed (what Figure 21 compares with). Same curves, same volume, same deposit model. --speed chooses the
-// flow so that the mean speed would be that on a machine without inertia; otherwise it is the job's. The
-// firmware is driven directly, always full, so no link can be to blame. Gaps are told for the whole layer and
-// for what lies more than a bead width inside its border, which no width of a bead can mend. The more even a
-// curve is (told as the deviation of its widths), the less there is for own areas to mend: --quality 0.1
-// gives a hasty one. The books are told as well: what the motors fed against what lies on the bed and what is
-// in the nozzle.
+//
+// "own area": each segment gets the plastic of its own area, and the feeders turn at a constant rate (paper
+// §4.2). "constant": each segment gets the mean bead width of its layers, so the nozzle runs at a constant
+// speed (the comparison in the paper's Figure 21). Curves, volume and deposit model are the same.
+//
+// --speed sets the flow that would give this mean speed on a machine without inertia; by default the job's
+// flow is used. The firmware is driven directly and its queue is always full, so no link affects the result.
+// Gaps are reported for the whole layer, and for the part that lies more than a bead width inside the border,
+// since no bead width can fill gaps at the border. The more even a curve is (see the deviation of its
+// widths), the less the own areas can improve; --quality 0.1 gives a hasty curve. The material balance is
+// printed, too: what the motors fed, what lies on the bed, and what is left in the nozzle.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -47,21 +49,21 @@ struct Options {
 struct Curves {
   std::vector<host::PlannedLayer> layers;
   double length = 0, area = 0, height = 0;  ///< mm, mm², mm
-  double area_squares = 0;                  ///< ∫ width² along them, mm³
+  double area_squares = 0;                  ///< ∫ width² along the curves, mm³
 
   double width() const { return area / length; }
-  /// Standard deviation of the width along the curves, of its mean.
+  /// Standard deviation ÷ mean of the width along the curves.
   double width_variation() const {
     return std::sqrt(std::max(0.0, area_squares / length / (width() * width()) - 1));
   }
 };
 
 struct Laying {
-  double speed = 0;                  ///< mean, above the first layer, where the prime line lies
-  double instants = 0, seconds = 0;  ///< shares of them in which the flow is within 5 %
-  double slow = 0;                   ///< mm³/s: the flow below which 5 % of the seconds are
-  double fed = 0, left = 0;          ///< mm³: by the motors; more in the chamber than at the beginning
-  double laid = 0, dropped = 0, rastered = 0;  ///< mm³: in beads, beside them, and found in the rasters
+  double speed = 0;                  ///< mm/s, mean of all layers but the first, which holds the prime line
+  double instants = 0, seconds = 0;  ///< shares of instants and of seconds in which the flow is within 5 %
+  double slow = 0;                   ///< mm³/s; 5 % of the seconds have a lower flow
+  double fed = 0, left = 0;          ///< mm³; fed by the motors; growth of what is in the chamber
+  double laid = 0, dropped = 0, rastered = 0;  ///< mm³; in beads, beside them, and in the rasters
   host::DepositFindings whole, inner;
 };
 
@@ -87,7 +89,7 @@ Curves plan(const host::PreparedJob& job, const Options& wanted) {
   return curves;
 }
 
-/// Judges each finished layer, whole and without its rim.
+/// Measures each finished layer, with and without its rim.
 class Judges : public sim::RasterSink {
  public:
   Judges(const host::PreparedJob& job, const Curves& curves, std::vector<host::IntendedMaterial> materials,
@@ -143,7 +145,7 @@ double share_near(const std::map<double, double>& seconds_by_flow, double nomina
   return all > 0 ? near / all : 0;
 }
 
-/// The flow below which the nozzle runs for that share of the time.
+/// Returns the flow below which the nozzle runs for this share of the time.
 double slowest_of(const std::map<double, double>& seconds_by_flow, double share) {
   double left = 0;
   for (const auto& [flow, seconds] : seconds_by_flow) left += share * seconds;

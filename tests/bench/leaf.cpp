@@ -1,5 +1,5 @@
-// A leaf-like plate with many thin branches (paper, Figure 18; its own leaf of 146 × 160 mm took 369 s):
-// bench_leaf [FILE.svg]. The file receives the outline, to be looked at with `unicursal curve --picture`.
+// Plans a leaf-like plate with many thin branches (paper, Figure 18; its own leaf of 146 × 160 mm took 369
+// s): bench_leaf [FILE.svg]. The outline is written to the file; `unicursal curve --picture` can draw it.
 #include <fmt/core.h>
 
 #include <ctime>

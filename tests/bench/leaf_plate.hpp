@@ -1,5 +1,5 @@
-// A leaf's skeleton as a plate: a rim, a midrib, side veins and cross veins, with the lamina cut out between
-// them. 146 × 160 mm, some 60 holes, branches down to 2 mm. The same every time. mm.
+// The skeleton of a leaf as a plate: a rim, a midrib, side veins and cross veins; the lamina between them is
+// cut out. 146 × 160 mm, about 60 holes, branches down to 2 mm. It is the same in every run. mm.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ inline constexpr double fillet = 0.8;                     ///< radius in the cor
 inline constexpr double arcs = 0.01;                      ///< tolerance of rounded corners
 inline constexpr double least_hole = 4;                   ///< mm²; smaller ones are filled in
 
-/// A branch that narrows evenly from its foot to its tip.
+/// A branch whose width falls linearly from its foot to its tip.
 inline void add_branch(std::vector<Ring>& rings, const std::vector<Vec2>& line, double foot, double tip) {
   const auto width = [&](std::size_t i) {
     return foot + (tip - foot) * static_cast<double>(i) / static_cast<double>(line.size() - 1);
@@ -47,7 +47,7 @@ inline void add_branch(std::vector<Ring>& rings, const std::vector<Vec2>& line, 
   }
 }
 
-/// Half the blade's width at the height y.
+/// Half the width of the blade at height y.
 inline double blade_half_width(double y) {
   const double t = std::clamp((y - stalk) / (leaf_height - stalk), 0.0, 1.0);
   return leaf_width / 2 * std::pow(std::sin(std::numbers::pi * std::pow(t, 0.75)), 0.85);
@@ -57,7 +57,7 @@ inline Polygon blade() {
   Ring right, left;
   constexpr int steps = 200;
   for (int k = 0; k <= steps; ++k) {
-    // Finer towards foot and tip, where the outline is round.
+    // The points lie closer together towards foot and tip, where the outline is round.
     const double t = (1 - std::cos(std::numbers::pi * k / steps)) / 2;
     const double y = stalk + t * (leaf_height - stalk), x = blade_half_width(y);
     right.emplace_back(x, y);
@@ -74,7 +74,7 @@ inline Vec2 on_side_vein(double k, double x, int side) {
   return {side * x, foot + rise * x + 0.002 * x * x};
 }
 
-/// From one side vein to the next, a little oblique, as in a real leaf.
+/// A cross vein from one side vein to the next; slightly oblique, as in a real leaf.
 inline void add_cross_veins(std::vector<Ring>& rings, int k, int side) {
   for (int j = 1; j < 6; ++j) {
     const double x = between_cross_veins * (j + (k % 2 == 0 ? 0.0 : 0.45));

@@ -1,14 +1,15 @@
-// How good the link to a printer is, against simulated ones in processes of their own:
+// Measures the link against simulated printers in processes of their own:
 //
-//   bench_link soak [LINES]   every personality, faults on one line in a thousand each: is every line
-//   executed
-//                             once, in order? Virtual time.
-//   bench_link wire           share of a 250 000 baud line that is used, lines of 40 bytes, virtual time
-//   bench_link race [LINES]   lines a second over an unpaced pseudo-terminal with one line in flight, and
-//   those
-//                             of Debian's printcore; processor time of the link for each line
+//   bench_link soak [LINES]
+//     Every personality, with faults on one line in a thousand each, in virtual time. Prints whether every
+//     line was executed once and in order.
+//   bench_link wire
+//     Share of a 250 000 baud line that is used by lines of 40 bytes, in virtual time.
+//   bench_link race [LINES]
+//     Lines per second over a pseudo-terminal of unlimited speed with one line in flight, beside those of
+//     Debian's printcore; processor time of the link for each line.
 //
-// Without a word: all three.
+// Without an argument it runs all three.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -61,8 +62,8 @@ void swallow(int descriptor) {
 
 struct Result {
   LinkStatistics statistics;
-  double seconds = 0;    ///< of the link's clock, for the lines
-  double processor = 0;  ///< s of this process, meanwhile
+  double seconds = 0;    ///< s of the link's clock that the lines took
+  double processor = 0;  ///< processor time of this process meanwhile, s
 };
 
 Result stream(const std::string& port, const std::vector<std::string>& lines, const LinkOptions& options) {
@@ -91,7 +92,7 @@ Result stream(const std::string& port, const std::vector<std::string>& lines, co
   return result;
 }
 
-/// A folder that goes with this object.
+/// A folder that is removed with this object.
 class Folder {
  public:
   Folder() {
@@ -118,12 +119,12 @@ std::vector<std::string> moves(std::size_t count) {
 }
 
 struct Order {
-  std::uint64_t once = 0;    ///< of the lines, executed in their turn
-  std::uint64_t wrong = 0;   ///< executed in their turn, but not as they were sent
-  std::uint64_t others = 0;  ///< executed beside them: what damage made of lines, and the link's own
+  std::uint64_t once = 0;    ///< lines that were executed in their turn
+  std::uint64_t wrong = 0;   ///< lines that were executed in their turn, but not as they were sent
+  std::uint64_t others = 0;  ///< other lines that were executed: damaged ones, and the link's own
 };
 
-/// Walks along both. A line that was changed on its way counts as another at first, until the next one
+/// Compares both lists in order. A line that was changed on its way counts as another one until the next line
 /// fits.
 Order compare(const std::vector<std::string>& lines, const std::filesystem::path& transcript) {
   Order order;
@@ -146,7 +147,7 @@ void soak(const std::string& personality, std::size_t count) {
   const Folder folder;
   const auto transcript = folder / "transcript";
   const auto lines = moves(count);
-  // A chance is for every byte (some 40 to a line, half as many to a reply) or for every line or reply.
+  // A chance applies to each byte (about 40 in a line, half as many in a reply), or to each line or reply.
   const std::vector<std::string> faults = {"bitflip:2.5e-5", "lostbyte:2.5e-5", "lostok:1e-3",
                                            "noise:1e-3",     "falsealarm:1e-3", "doubleresend:0.5"};
   std::vector<std::string> arguments = {"--personality", personality, "--transcript", transcript.string()};
@@ -176,7 +177,7 @@ void soak(const std::string& personality, std::size_t count) {
 
 // ---- wire
 
-/// So long that with number and checksum they have 40 bytes, from number 1 on.
+/// Lines that have 40 bytes with their number and checksum, from number 1 on.
 std::vector<std::string> full_lines(std::size_t count) {
   std::vector<std::string> lines;
   for (std::size_t i = 1; i <= count; ++i) {
@@ -215,7 +216,7 @@ void wire() {
 
 // ---- race
 
-/// An unpaced simulator, whose port is ready.
+/// A simulator of unlimited speed whose port is ready.
 class Printer {
  public:
   Printer() {
@@ -245,7 +246,7 @@ class Printer {
   std::string port_;
 };
 
-/// Wall time of a whole run of printcore; nothing when it is not installed or fails.
+/// Wall time of a whole run of printcore, s; absent if it is not installed or fails.
 std::optional<double> printcore_seconds(const std::vector<std::string>& lines) {
   if (!std::filesystem::exists(printcore)) return std::nullopt;
   const Folder folder;
@@ -275,7 +276,7 @@ void race(std::size_t count) {
   options.receive_buffer = 1;  // one line always fits
   options.boot = std::chrono::milliseconds(500);
   const auto lines = moves(count);
-  // printcore starts, connects and ends as well: the difference of two runs is the lines' own time.
+  // printcore also starts, connects and ends, so the difference of two runs is the time of the lines.
   const auto few = std::vector<std::string>(lines.begin(), lines.begin() + 1000);
   const auto more = std::vector<std::string>(lines.begin(), lines.begin() + 4000);
   double ours = 0, theirs = 0, processor = 0;

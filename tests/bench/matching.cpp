@@ -1,5 +1,5 @@
-// Does the library's perfect matching grow linearly on cell graphs? LEMON's blossom method (used) beside
-// Boost's, on squares of more and more cells.
+// Measures whether the library's perfect matching grows linearly on cell graphs: LEMON's blossom method
+// (used) beside Boost's, on squares of more and more cells.
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/max_cardinality_matching.hpp>
 

@@ -1,10 +1,11 @@
-// How far the mixtures come out where they are wanted, and how much the nozzle travels:
+// Measures how precisely the mixtures come out where they are wanted, and how far the nozzle travels:
 //   bench_mixing [--tanks N] [--volumes FACTOR] [--layers N] [--pictures DIR] JOB.toml …
-// The same curves are encoded twice: with the schedule's look-ahead, and switched where the borders are. The
-// simulated printer's chamber has N tanks (3), whatever the profile says, and FACTOR (1) times its volumes:
-// what is promised must hold for nozzles that answer otherwise than the profile has it. DIR gets a map of
-// each layer's mixtures. A travel is a move of more than 1.5 bead widths without extruding; what is laid
-// outside is told without the prime line and the skirt.
+//
+// The same curves are encoded twice: with the look-ahead of the schedule, and switched at the borders. The
+// chamber of the simulated printer has N tanks (3 by default) and FACTOR times the volumes of the profile (1
+// by default), because the result must also hold for nozzles that differ from their profile. DIR receives a
+// map of each layer's mixtures. A travel is a move of more than 1.5 bead widths without extruding. The volume
+// laid outside the part excludes prime line and skirt.
 #include <fmt/core.h>
 
 #include <chrono>
@@ -37,14 +38,14 @@ struct Options {
   std::filesystem::path pictures;
 };
 
-/// What one encoding of a job comes to.
+/// Figures of one encoding of a job.
 struct Result {
   host::DepositFindings findings;
   gcode::LayerMixing mixing;
-  std::size_t travels_within = 0;   ///< layers, from path to path
-  std::size_t travels_between = 0;  ///< from one layer to the next
+  std::size_t travels_within = 0;   ///< travels from path to path of a layer
+  std::size_t travels_between = 0;  ///< travels from one layer to the next
   std::size_t islands_left = 0;     ///< Σ (islands − 1)
-  double travel = 0;                ///< mm, the first approach left out
+  double travel = 0;                ///< mm, without the first approach
   double encoding = 0;              ///< processor seconds
 };
 
@@ -84,7 +85,7 @@ class Judges : public sim::RasterSink {
   Result& result_;
 };
 
-/// Counts the moves that lay nothing, by where they are.
+/// Counts the moves that lay no plastic by their place.
 class Travels : public sim::MoveSink {
  public:
   Travels(double longest, Result& result) : longest_(longest), result_(result) {}
@@ -96,7 +97,7 @@ class Travels : public sim::MoveSink {
       return;
     }
     const bool rises = move.from.z > z_ + 1e-6;
-    // The way to the prime line and from there to the part belongs to every print.
+    // Every print has the way to the prime line and from there to the part.
     if (way_ > longest_ && approaches_++ >= 2) {
       ++(rises ? result_.travels_between : result_.travels_within);
       result_.travel += way_;

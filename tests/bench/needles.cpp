@@ -1,6 +1,6 @@
-// What needles do to the cell graph: the share of its inner edges' length that runs within 0.3 rad of the
-// field (0.19 if all directions were alike), with points and with needles, and what it costs. With a folder
-// as argument the graphs are drawn there.
+// Measures what needles do to the cell graph: the share of the length of its inner edges that lies within 0.3
+// rad of the field (0.19 if all directions were equally frequent), with points and with needles, and the time
+// they cost. With a folder as argument it draws the graphs there.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ Sample square() {
   return sample_of("square", {{0, 0}, {40, 0}, {40, 40}, {0, 40}}, pattern);
 }
 
-/// Share of the inner edges' length near the field, and mean squared angle to it, rad².
+/// Share of the length of inner edges near the field, and their mean squared angle to it, rad².
 std::pair<double, double> alignment(const CellGraph& graph, const DirectionField& field) {
   double total = 0, near = 0, squared = 0;
   for (const EdgeIndex e : graph.edges()) {

@@ -1,6 +1,6 @@
-// How planning grows with the island: squares of more and more nodes, the time to the first valid curve, and
-// one thread against two on the same island (--threads: that alone). With --plate [THREADS] a 300 × 300 mm
-// plate at 0.45 mm instead.
+// Measures how planning grows with the island: squares of more and more nodes, the time to the first valid
+// curve, and one thread against two on the same island (--threads runs this alone). --plate [THREADS] plans a
+// plate of 300 × 300 mm at 0.45 mm instead.
 #include <fmt/core.h>
 #include <sys/resource.h>
 
@@ -20,15 +20,15 @@ namespace {
 
 using namespace unicursal::core;
 
-constexpr double width = 1.0;                           ///< mm, of a bead in all squares but the plate
-constexpr double seed_distance = 1.6;                   ///< bead widths, about what the planner takes
+constexpr double width = 1.0;                           ///< mm, of a bead in all squares except the plate
+constexpr double seed_distance = 1.6;                   ///< bead widths, about the default of the planner
 constexpr double plate_side = 300, plate_width = 0.45;  ///< mm
 
 double wall() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Of all threads, s.
+/// Processor time of all threads, s.
 double cpu() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -41,7 +41,7 @@ double peak_memory() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// Side of a square whose graph has so many nodes: three for each cell of √3/2 d².
+/// Side of a square whose graph has about `nodes` nodes: three for each cell of area √3/2 d².
 double side_of(double nodes, double w) {
   const double d = seed_distance * w;
   return std::sqrt(nodes / 3 * std::sqrt(3.0) / 2 * d * d);

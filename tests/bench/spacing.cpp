@@ -1,5 +1,6 @@
-// How the seed distance d decides the spacing: for each d ÷ w the length of the smoothed first cycle (what
-// the paper takes as target) and the coverage after fairing to spacing w. The default ratio is read off here.
+// Measures how the seed distance d determines the spacing: for each d ÷ w the length of the smoothed first
+// cycle (the paper's target length), and the coverage after fairing to the spacing w. The default ratio comes
+// from this table.
 #include <fmt/core.h>
 
 #include "core/curve/fairing.hpp"

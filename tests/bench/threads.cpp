@@ -1,7 +1,7 @@
-// Whole jobs planned by one thread and by two: bench_threads [--layers A:B] JOB.toml …
-// Layers are planned side by side. On a computer that has other things to do the clock tells little, so
-// beside it stands what two cores of their own would make of the work: the time of the busier one when every
-// layer goes to whichever core is free first, as the look-ahead does it.
+// Plans whole jobs with one thread and with two: bench_threads [--layers A:B] JOB.toml …
+// Layers are planned side by side. Wall time says little on a computer that is also busy otherwise. Therefore
+// the table also has the time that two idle cores would need: that of the busier core, if each layer goes to
+// the core that is free first, as in the look-ahead.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ using namespace unicursal;
 
 struct Outcome {
   double wall = 0, cpu = 0;     ///< s
-  std::vector<double> layers;   ///< CPU s of each
-  std::size_t fingerprint = 0;  ///< of all vertices and areas
+  std::vector<double> layers;   ///< processor time of each layer, s
+  std::size_t fingerprint = 0;  ///< hash of all vertices and areas
   std::size_t vertices = 0;
 };
 
@@ -55,7 +55,7 @@ Outcome plan(const host::PreparedJob& job, std::size_t threads) {
   return outcome;
 }
 
-/// When the second of two cores is done that take one layer after the other.
+/// The time at which the later of two cores is done if each takes the next layer when it is free, s.
 double busier_core(const std::vector<double>& layers) {
   std::array<double, 2> busy{0, 0};
   for (const double seconds : layers) *std::min_element(busy.begin(), busy.end()) += seconds;

@@ -1,5 +1,5 @@
-// What `unicursal tune transition` finds on simulated printers whose volumes are hidden, ticks rounded as
-// printed: 20 by chance and the 24 extremes. mm³.
+// Measures what `unicursal tune transition` finds on simulated printers with hidden volumes: 20 random ones
+// and the 24 extreme ones. Readings are rounded to the printed ticks. mm³.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ std::string profile_with(double dead, double mixing) {
       dead, mixing);
 }
 
-/// The program says nothing meanwhile.
+/// Runs the program without its output.
 int run_quietly(std::vector<std::string> arguments) {
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
@@ -67,7 +67,7 @@ void measure_all(const char* title, const std::vector<test::HiddenNozzle>& nozzl
 }  // namespace
 
 int main(int argc, char** argv) {
-  // The simulated printer is this program once more.
+  // The simulated printer is another process of this program.
   if (argc > 1 && std::string_view(argv[1]) == "simulate") return host::run_command_line(argc, argv);
   measure_all("20 nozzles by chance", test::hidden_nozzles());
   measure_all("The extremes", test::extreme_nozzles());

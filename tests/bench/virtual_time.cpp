@@ -1,7 +1,7 @@
-// How fast virtual time goes: G-code files of `unicursal plan`, streamed by the host's own link in lockstep
-// with a simulated printer. Nothing is planned meanwhile and no picture is drawn; the deposit is laid and
-// handed over as in any dry run. Printer seconds per real second, and per second of processor time of both
-// processes.
+// Measures the speed of virtual time. The host's own link streams G-code files of `unicursal plan` in
+// lockstep with a simulated printer. No layer is planned and no picture is drawn meanwhile; the deposit is
+// laid and handed over as in any dry run. Prints printer seconds per real second, and per second of processor
+// time of both processes.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>

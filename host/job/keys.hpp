@@ -1,0 +1,41 @@
+// The keys of jobs and profiles, table by table. The loaders refuse all others; a test holds these lists
+// against the man pages unicursal-job(5) and unicursal-profile(5).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace unicursal::host::keys {
+
+using Keys = std::vector<std::string>;
+
+inline const Keys job = {"printer", "part", "zone", "mixture"};
+inline const Keys part = {
+    "file",          "height",      "layer_height", "first_layer_height",   "bead_width",
+    "seed_distance", "flow",        "speed",        "first_layer_speed",    "perimeters",
+    "deposit",       "place",       "seam",         "change_before_border", "skirt",
+    "fan",           "temperatures"};
+inline const Keys deposit = {"width"};
+inline const Keys skirt = {"loops", "distance"};
+inline const Keys fan = {"percent", "from"};
+inline const Keys temperatures = {"layer", "nozzle", "bed"};
+inline const Keys zone = {"select", "pattern", "boundary", "mixture", "transition"};
+inline const Keys pattern = {"angle", "field"};
+inline const Keys gradient = {"from", "to", "along", "over"};
+
+inline const Keys profile = {"printer", "extruder", "temperature", "transition", "gcode"};
+inline const Keys printer = {"name",           "firmware",
+                             "port",           "baud",
+                             "receive_buffer", "bed",
+                             "nozzle",         "bead_width_range",
+                             "max_speed",      "max_acceleration",
+                             "jerk",           "junction_deviation",
+                             "acceleration"};
+inline const Keys extruder = {
+    "feeders", "filament_diameter", "max_flow",     "floor_share", "retraction_length", "retraction_speed",
+    "z_hop",   "steps_per_mm",      "flow_factors", "max_speed",   "max_acceleration",  "jerk"};
+inline const Keys temperature = {"nozzle", "bed"};
+inline const Keys transition = {"dead_volume", "mixing_volume", "tanks", "overshoot"};
+inline const Keys gcode = {"start", "end"};
+
+}  // namespace unicursal::host::keys

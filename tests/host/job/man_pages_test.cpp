@@ -1,0 +1,92 @@
+// The man pages of jobs and profiles name exactly the keys that the loaders know, and their examples load.
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "firmware_gcode/toolpath/placeholders.hpp"
+#include "host/job/keys.hpp"
+#include "host/job/load_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal::host {
+namespace {
+
+const std::filesystem::path root = std::filesystem::path(TEST_DATA) / "../..";
+
+std::string page(const std::string& name) {
+  std::ifstream stream(root / "host/packaging" / name);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  REQUIRE(text.str().size() > 1000);
+  return text.str();
+}
+
+/// Lines such as ".It Ic part.flow No = …".
+std::set<std::string> documented(const std::string& page) {
+  std::set<std::string> keys;
+  static const std::regex item(R"(\n\.It Ic ([A-Za-z0-9_.]+) No =)");
+  for (std::sregex_iterator match(page.begin(), page.end(), item), end; match != end; ++match) {
+    CHECK(keys.insert((*match)[1]).second);
+  }
+  return keys;
+}
+
+void add(std::set<std::string>& all, const std::string& table, const keys::Keys& keys) {
+  for (const std::string& key : keys) all.insert(table + "." + key);
+}
+
+std::string first_example(const std::string& page) {
+  const std::string begin = ".Bd -literal -offset indent\n";
+  const std::size_t from = page.find(begin) + begin.size();
+  return page.substr(from, page.find(".Ed\n", from) - from);
+}
+
+}  // namespace
+
+TEST_CASE("unicursal-job(5) names the keys of a job and no others") {
+  std::set<std::string> known = {"printer", "mixture.NAME"};
+  add(known, "part", keys::part);
+  add(known, "part.deposit", keys::deposit);
+  add(known, "part.skirt", keys::skirt);
+  add(known, "part.fan", keys::fan);
+  add(known, "part.temperatures", keys::temperatures);
+  add(known, "zone", keys::zone);
+  add(known, "zone.pattern", keys::pattern);
+  add(known, "zone.mixture", keys::gradient);
+  CHECK(documented(page("unicursal-job.5")) == known);
+  CHECK(keys::job == keys::Keys{"printer", "part", "zone", "mixture"});
+}
+
+TEST_CASE("unicursal-profile(5) names the keys of a profile and no others") {
+  std::set<std::string> known;
+  add(known, "printer", keys::printer);
+  add(known, "extruder", keys::extruder);
+  add(known, "temperature", keys::temperature);
+  add(known, "transition", keys::transition);
+  add(known, "gcode", keys::gcode);
+  CHECK(documented(page("unicursal-profile.5")) == known);
+  CHECK(keys::profile == keys::Keys{"printer", "extruder", "temperature", "transition", "gcode"});
+}
+
+TEST_CASE("unicursal-profile(5) names every placeholder of start and end lines") {
+  const std::string text = page("unicursal-profile.5");
+  for (const std::string& name : gcode::placeholder_names()) {
+    INFO(name);
+    CHECK(text.find("{" + name + "}") != std::string::npos);
+  }
+}
+
+TEST_CASE("The examples of the man pages load") {
+  const test::TempFolder folder;
+  const auto profile = folder.write("diamond.toml", first_example(page("unicursal-profile.5")));
+  std::filesystem::copy_file(root / "host/examples/leaf.svg", folder / "leaf.svg");
+  const Job job = load_job(folder.write("job.toml", first_example(page("unicursal-job.5"))));
+  CHECK(job.materials.size() == 2);
+  CHECK(job.profile.printer.nozzle == 0.6);
+  CHECK(load_profile(profile).printer.start_gcode.find("{layer_count}") != std::string::npos);
+}
+
+}  // namespace unicursal::host
