@@ -7,10 +7,10 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Replaces f(i) by the least f(k) + (i − k)² over k, along one line; keeps its work space between lines.
+/// Replaces f(i) by the least f(k) + (i − k)² over all k, along one line. Keeps its memory between lines.
 class LowerEnvelope {
  public:
-  /// `f` starts the line, whose `count` values are `stride` apart.
+  /// The line starts at `f` and has `count` values, `stride` apart.
   void apply(double* f, std::size_t count, std::size_t stride) {
     build(f, count, stride);
     if (parabolas_.empty()) return;
@@ -26,7 +26,7 @@ class LowerEnvelope {
  private:
   struct Parabola {
     double apex, base;
-    double from;  ///< lowest of all from here on, until the next begins
+    double from;  ///< the parabola is the lowest one from here on, up to the `from` of the next
   };
 
   void build(const double* f, std::size_t count, std::size_t stride) {

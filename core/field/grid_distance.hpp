@@ -1,6 +1,6 @@
-// How far the squares of a grid are from some marked ones: the exact Euclidean distance transform in linear
-// time (P. Felzenszwalb and D. Huttenlocher 2012, lower envelopes of parabolas, first along columns, then
-// along rows).
+// The distances of a grid's squares from marked ones: the exact Euclidean distance transform in linear time
+// (P. Felzenszwalb and D. Huttenlocher 2012: lower envelopes of parabolas, first along columns, then along
+// rows).
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace unicursal::core {
 
-/// Per square the distance from its centre to that of the nearest marked square, in squares; infinite when
-/// none is marked.
+/// Per square: the distance from its centre to the centre of the nearest marked square, in squares. Infinite
+/// if no square is marked.
 std::vector<double> distance_to_marked(const Grid& grid, const std::vector<std::uint8_t>& marked);
 
 }  // namespace unicursal::core

@@ -1,4 +1,4 @@
-// Stretches of the borders between cells of the segment diagram. mm.
+// Pieces of the borders between cells of the segment diagram. mm.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,12 @@
 
 namespace unicursal::core {
 
-constexpr double rounding_slack = 1e-9;  ///< mm, between things that rounding may make touch or not
+/// Points this near to each other may or may not coincide, depending on rounding. mm.
+constexpr double rounding_slack = 1e-9;
 
-/// A stretch of a cell's border as a quadratic Bézier curve, which a straight line and a parabola both are.
-/// It starts and ends exactly where its neighbours do, however badly rounded these points are: cells close,
-/// and what one loses the next one gains.
+/// A piece of a cell's border as a quadratic Bézier curve: a straight line or a parabola. It starts and ends
+/// exactly where its neighbours do, however these points were rounded. So cells are closed, and what rounding
+/// takes from one cell it gives to the next.
 struct Arc {
   Vec2 from{0, 0}, control{0, 0}, to{0, 0};
 
@@ -23,15 +24,15 @@ struct Arc {
 
 Arc line(const Vec2& from, const Vec2& to);
 
-/// The parabola of the points as far from `focus` as from the line through `base` along the unit vector
-/// `along`, both ends on it; a straight line where there is none.
+/// The parabola of points that are as far from `focus` as from the line through `base` along the unit vector
+/// `along`. Both ends lie on it. Returns a straight line if there is no such parabola.
 Arc parabola(const Vec2& from, const Vec2& to, const Vec2& focus, const Vec2& base, const Vec2& along);
 
-/// Parameters in (0, 1) where an arc passes through a straight edge, or past its ends within the slack: a cut
+/// Parameters in (0, 1) where an arc crosses a straight edge, or passes its ends within the slack: one cut
 /// too many does no harm.
 std::vector<double> crossings(const Arc& arc, const Vec2& a, const Vec2& b);
 
-/// A box that holds the arc and the slack around it.
+/// A box that contains the arc with the slack around it.
 Box bounds(const Arc& arc);
 
 }  // namespace unicursal::core
