@@ -1,5 +1,5 @@
-// What goes wrong with data is told as a sentence: where, what, and what to do about it.
-// Broken invariants are bugs and assert instead.
+// Errors in data from outside. Each message is a sentence: where, what, and what to do about it.
+// Broken invariants are bugs; they assert instead.
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@ namespace unicursal::core {
 /// Bad input from outside the program. `what()` reads "file: place: problem; remedy".
 class DataError : public std::runtime_error {
  public:
-  /// `file` and `place` (a line, a key, an element, a coordinate) may be empty where none applies.
+  /// `file` and `place` (a line, a key, an element, a coordinate) may be empty if none applies.
   DataError(std::string file, std::string place, std::string problem, std::string remedy);
 
   const std::string& file() const { return file_; }

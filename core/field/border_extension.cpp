@@ -13,21 +13,22 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double least_distance = 0.5;  ///< squares; the border runs through a fixed square, not its centre
+constexpr double least_distance = 0.5;  ///< squares; the border crosses a fixed square beside its centre
 constexpr double vanishing = 1e-9;      ///< ‖V‖ below which rounding decides the direction
-constexpr int cycles = 4;               ///< V-cycles per level; see the test against plain relaxation
-constexpr int sweeps = 2;               ///< before and after each visit of the coarser level
+constexpr int cycles = 4;  ///< V-cycles per level; a test compares the result with plain relaxation
+constexpr int sweeps = 2;  ///< relaxations before and after each visit of the coarser level
 constexpr int coarsest_sweeps = 16;
 
 enum class Square : std::uint8_t { outside, fixed, free };
 
-/// One grid of the hierarchy. Free squares never lie on the grid's rim.
+/// One grid of the hierarchy. Free squares never lie on the rim of the grid.
 struct Level {
   std::size_t columns = 0, rows = 0;
   std::vector<Square> kind;
-  std::vector<double> stiffness;  ///< s; that between two neighbours is the mean of theirs
+  std::vector<double> stiffness;  ///< 1/d² of the square; between two neighbours the mean counts
   std::vector<Vec2> value;        ///< the solution, or the correction to the finer level's
-  std::vector<Vec2> source;  ///< right-hand side: sum over neighbours of 2 s · (theirs − own) = source
+  /// Right-hand side: Σ over neighbours of 2 · stiffness · (neighbour − own) = source.
+  std::vector<Vec2> source;
 
   Level(std::size_t columns_, std::size_t rows_)
       : columns(columns_),
@@ -38,8 +39,8 @@ struct Level {
         source(columns_ * rows_, Vec2(0, 0)) {}
 
   struct Pull {
-    Vec2 sum{0, 0};    ///< of stiffness times neighbour
-    double total = 0;  ///< stiffness
+    Vec2 sum{0, 0};    ///< Σ stiffness · value of the neighbours
+    double total = 0;  ///< Σ stiffness
   };
   Pull pull(std::size_t k) const {
     const double own = stiffness[k];
@@ -69,7 +70,7 @@ struct Level {
   }
 };
 
-/// Weighted by length, the border's V in every square it meets; weights are the lengths in squares.
+/// Sums over the border in every square that it meets: its length, in squares, and V times length.
 struct BorderMeans {
   std::vector<Vec2> sum;
   std::vector<double> length;
@@ -96,7 +97,7 @@ struct BorderMeans {
   }
 };
 
-/// The weight 1/d² of the header.
+/// The weight 1/d² (see the header).
 void set_stiffness(Level& level, const Grid& grid) {
   std::vector<std::uint8_t> fixed(grid.size());
   for (std::size_t k = 0; k < grid.size(); ++k) fixed[k] = level.kind[k] == Square::fixed;
@@ -122,7 +123,8 @@ Level finest_level(const Grid& grid, const Region& region) {
   return level;
 }
 
-/// Twice as coarse: a square is fixed, at their mean, as soon as one of its four is.
+/// The next level, with squares twice as wide. A square is fixed if one of its four is, at the mean of the
+/// fixed ones.
 Level coarser(const Level& fine) {
   Level coarse((fine.columns + 1) / 2, (fine.rows + 1) / 2);
   std::vector<int> fixed(coarse.kind.size(), 0);
@@ -165,7 +167,7 @@ class Multigrid {
   }
 
  private:
-  /// A V-cycle from level k down; what coarser levels held is lost.
+  /// A V-cycle from level k down. Overwrites the coarser levels.
   void improve(std::size_t k) {
     if (k + 1 == levels_.size()) return levels_[k].relax(coarsest_sweeps);
     levels_[k].relax(sweeps);
@@ -175,7 +177,7 @@ class Multigrid {
     levels_[k].relax(sweeps);
   }
 
-  /// Poses the coarser level's problem for the correction.
+  /// Sets up the coarser level to compute the correction.
   void restrict_residual(std::size_t k) {
     const Level& fine = levels_[k];
     Level& coarse = levels_[k + 1];
@@ -183,13 +185,14 @@ class Multigrid {
     std::fill(coarse.source.begin(), coarse.source.end(), Vec2(0, 0));
     fine.each_free(0, 1, [&](std::size_t i) {
       const Level::Pull p = fine.pull(i);
-      // The sum over four squares: their mean, times 4 for a difference quotient over twice the pitch.
+      // The sum over four squares is their mean, times 4 for a difference quotient over twice the pitch.
       coarse.source[i / fine.rows / 2 * coarse.rows + i % fine.rows / 2] +=
           fine.source[i] - (p.sum - p.total * fine.value[i]);
     });
   }
 
-  /// Bilinear: three parts of the square's own coarse one and one of the next, along each axis.
+  /// Bilinear interpolation: along each axis, three parts of the coarse square that contains it, one of the
+  /// next.
   template <typename Take>
   void prolong(std::size_t k, Take take) {
     Level& fine = levels_[k];

@@ -27,7 +27,7 @@ Vec2 DirectionField::integral_under(const Vec2& a, const Vec2& b) const {
   const Vec2 from = grid_.in_squares(a), to = grid_.in_squares(b);
   const auto columns = static_cast<std::ptrdiff_t>(grid_.columns),
              rows = static_cast<std::ptrdiff_t>(grid_.rows);
-  Vec2 mean(0, 0);  // over the edge's width, of the sums in squares; the first integral of (37)
+  Vec2 mean(0, 0);  // mean over the edge's width of the inner integral of (37), in squares
   each_piece(grid_, from, to, [&](const EdgePiece& piece) {
     if (piece.column < 0 || piece.column >= columns || piece.row < 0) return;
     const std::ptrdiff_t row = std::min(piece.row, rows - 1);
@@ -35,7 +35,7 @@ Vec2 DirectionField::integral_under(const Vec2& a, const Vec2& b) const {
     const double above = std::max(static_cast<double>(row + 1) - piece.height, 0.0);
     mean += piece.share * (sums_[square] - above * values_[square]);  // (41)
   });
-  // One pitch is the height of a square that (41) lacks, the other belongs to the width.
+  // One factor is the height of a square, which (41) lacks; the other turns the width from squares into mm.
   return grid_.pitch * grid_.pitch * (to.x() - from.x()) * mean;
 }
 

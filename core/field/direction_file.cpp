@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t most_samples = 4'000'000;
 constexpr std::uintmax_t largest_file = 512u << 20;  ///< bytes
 constexpr double farthest_sample = 1e5;              ///< mm
-constexpr double largest_angle = 1e6;                ///< degrees; beyond, the fraction of a turn gets lost
+constexpr double largest_angle = 1e6;  ///< degrees; beyond, rounding loses the fraction of a turn
 constexpr const char* remedy = "write x,y,angle or x,y,z,angle on each line, in mm and degrees";
 
 std::string_view trimmed(std::string_view text) {
@@ -39,7 +39,7 @@ std::optional<double> number(std::string_view word) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-  // Out of range is infinite here, and refused with the other numbers that are too large.
+  // A number out of range becomes infinite here, and is refused later with others that are too large.
   if (error == std::errc::result_out_of_range) return HUGE_VAL;
   return error == std::errc{} ? std::optional(value) : std::nullopt;
 }
@@ -60,7 +60,7 @@ class DirectionReader {
       if (samples.size() > most_samples) refuse("there are more than 4 million samples", "thin them out");
       first = false;
     }
-    if (samples.empty()) throw ModelError(file_, "", "there is no direction in it", remedy);
+    if (samples.empty()) throw ModelError(file_, "", "it contains no direction", remedy);
     return samples;
   }
 
@@ -76,7 +76,7 @@ class DirectionReader {
     return trimmed(line);
   }
 
-  /// What stands between the commas; five words are too many already, so the rest of a line can be long.
+  /// The words between the commas. Stops at five, which is already too many: a line may be very long.
   static std::vector<std::string_view> words(std::string_view line) {
     std::vector<std::string_view> result;
     for (;;) {
@@ -87,7 +87,7 @@ class DirectionReader {
     }
   }
 
-  /// A header names its columns: not one of them is a number. Known names must stand in their place.
+  /// A header names its columns: none of them is a number. Known names must be in their order.
   bool is_header(std::string_view line) const {
     const std::vector<std::string_view> names = words(line);
     if (std::any_of(names.begin(), names.end(), [](auto word) { return number(word).has_value(); })) {
@@ -97,7 +97,7 @@ class DirectionReader {
     for (std::size_t k = 0; k < names.size(); ++k) {
       const bool known = std::find(order.begin(), order.end(), names[k]) != order.end();
       if (known && (k >= order.size() || names[k] != order[k])) {
-        refuse("the column " + in_quotes(names[k]) + " does not belong there");
+        refuse("the column " + in_quotes(names[k]) + " is in the wrong place");
       }
     }
     return true;
@@ -110,25 +110,25 @@ class DirectionReader {
     if (count > values.size()) refuse("there are more than four numbers");
     for (std::size_t k = 0; k < count; ++k) {
       const std::optional<double> value = number(found[k]);
-      if (!value) refuse(found[k].empty() ? "a number is missing" : in_quotes(found[k]) + " is no number");
+      if (!value) refuse(found[k].empty() ? "a number is missing" : in_quotes(found[k]) + " is not a number");
       values[k] = *value;
     }
     if (count < 3) refuse(count == 1 ? "there is only one number" : "there are only two numbers");
     if (columns_ != 0 && count != columns_) {
-      refuse(fmt::format("there are {} numbers, but {} in the lines before", count, columns_));
+      refuse(fmt::format("there are {} numbers, but {} on the lines before", count, columns_));
     }
     columns_ = count;
     return checked(values[0], values[1], count == 4 ? values[2] : 0, values[count - 1]);
   }
 
   DirectionSample checked(double x, double y, double z, double degrees) const {
-    // Written so that what is not a number fails too.
+    // Written so that NaN fails too.
     for (const double coordinate : {x, y, z}) {
       if (!(std::abs(coordinate) <= farthest_sample)) {
         refuse(fmt::format("a coordinate of {} mm is out of reach", coordinate));
       }
     }
-    if (!(std::abs(degrees) <= largest_angle)) refuse(fmt::format("{} is no angle in degrees", degrees));
+    if (!(std::abs(degrees) <= largest_angle)) refuse(fmt::format("{} is not an angle in degrees", degrees));
     return {{x, y}, z, doubled(std::numbers::pi / 180 * std::fmod(degrees, 180.0))};
   }
 
@@ -140,7 +140,7 @@ class DirectionReader {
 }  // namespace
 
 std::vector<DirectionSample> read_directions(const std::filesystem::path& file) {
-  std::error_code no_size;  // file_bytes tells what is wrong with files that have none
+  std::error_code no_size;  // if there is none, file_bytes() reports why
   if (const auto size = std::filesystem::file_size(file, no_size); !no_size && size > largest_file) {
     throw ModelError(file.string(), "", "it is larger than 512 MiB", "thin out the samples");
   }

@@ -1,5 +1,5 @@
-// The squares on which a direction field lives, and the walk of an edge through them (paper Appendix A,
-// Figure 29). mm; quantities "in squares" are multiples of the pitch, counted from the origin.
+// The grid of a direction field, and the walk of an edge through its squares (paper Appendix A, Figure 29).
+// mm; quantities "in squares" are multiples of the pitch, measured from the origin.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace unicursal::core {
 
-/// Squares are numbered column by column, upwards, as the sums (38) run.
+/// Squares are numbered column by column, upwards, like the sums (38).
 struct Grid {
   Vec2 origin{0, 0};  ///< lower left corner of square (0, 0)
   double pitch = 1;   ///< side of a square, mm
@@ -25,19 +25,19 @@ struct Grid {
   Vec2 in_squares(const Vec2& point) const { return (point - origin) / pitch; }
 };
 
-/// A grid around a box, centred on it, with about a square to spare on every side. Boxes that
-/// would need more than 2^21 squares get a coarser pitch, so that memory stays within some 250 MB.
+/// A grid around a box, centred on it, with about one square to spare on every side. Boxes that would need
+/// more than 2^21 squares get a coarser pitch, so that memory stays within about 250 MB.
 Grid grid_around(const Box& box, double pitch);
 
-/// The stretch of an edge within one square. Beyond the grid stretches are not cut up further, and the
-/// square's numbers are those of the nearest column or row, one step outside.
+/// The piece of an edge within one square. Outside the grid, pieces are not divided further, and `column` or
+/// `row` is one step outside.
 struct EdgePiece {
   std::ptrdiff_t column, row;  ///< −1 … columns, −1 … rows
-  double share;                ///< length ÷ length of the edge; all pieces together make 1
+  double share;                ///< length ÷ length of the edge; the sum over all pieces is 1
   double height;               ///< y of the piece's midpoint, in squares
 };
 
-/// The grid lines that one coordinate of an edge crosses, in the order in which it does.
+/// The grid lines that one coordinate of an edge crosses, in the order of the crossings.
 class LineCrossings {
  public:
   LineCrossings(double from, double to, std::size_t lines)
@@ -52,7 +52,7 @@ class LineCrossings {
     }
   }
 
-  /// Where on the edge (0 at its start, 1 at its end) the next line is met; infinity after the last.
+  /// Where on the edge (0 at its start, 1 at its end) it crosses the next line; infinity after the last.
   double next() const {
     return left_ > 0 ? (line_ - from_) * per_line_ : std::numeric_limits<double>::infinity();
   }
@@ -63,10 +63,10 @@ class LineCrossings {
 
  private:
   double from_, per_line_, step_, line_ = 0;
-  double left_ = 0;  ///< lines still to be met
+  double left_ = 0;  ///< lines still to be crossed
 };
 
-/// Calls visit(EdgePiece) along the edge a → b, which is given in squares. Precondition: finite.
+/// Calls visit(EdgePiece) along the edge a → b, given in squares. Precondition: finite.
 template <typename Visit>
 void each_piece(const Grid& grid, const Vec2& a, const Vec2& b, Visit visit) {
   const auto number = [](double position, std::size_t count) {

@@ -3,11 +3,11 @@
 namespace unicursal::core {
 namespace {
 
-/// Signed areas in squares that one walk along all edges leaves behind.
+/// Signed areas, in squares, that are summed up on a walk along all edges.
 struct Ledger {
   const Grid& grid;
-  std::vector<double> own;    ///< of a square, under edges that pass through it
-  std::vector<double> below;  ///< of each square below it
+  std::vector<double> own;    ///< per square: the area in it under edges that pass through it
+  std::vector<double> below;  ///< per square: the area that these edges add to each square below it
 
   void add(const Vec2& a, const Vec2& b) {
     const Vec2 from = grid.in_squares(a), to = grid.in_squares(b);

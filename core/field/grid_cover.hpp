@@ -1,5 +1,6 @@
-// How much of every grid square a region covers, exactly. The transpose of the field's integral under an
-// edge: there an edge gathers from the squares below it, here it gives to them.
+// Computes exactly how much of every grid square a region covers. It is the transpose of the field's integral
+// under an edge (direction_field.hpp): there an edge gathers from the squares below it, here it gives to
+// them.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace unicursal::core {
 
-/// Per square the covered share of its area, 0…1. Parts of the region beyond the grid are left out.
+/// Per square: the covered share of its area, 0…1. Parts of the region outside the grid are ignored.
 std::vector<double> cover(const Grid& grid, const Region& region);
 
 }  // namespace unicursal::core

@@ -11,13 +11,13 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double least_share = 1e-9;  ///< of a square, below which rounding alone covers it
+constexpr double least_share = 1e-9;  ///< of a square; a smaller cover is rounding
 
 bool asks_for_direction(PatternKind kind) {
   return kind != PatternKind::none && kind != PatternKind::isotropic && kind != PatternKind::anisotropic;
 }
 
-/// V per square for each zone of an island; the extension of the island's border is found but once.
+/// V per square for each zone of an island. The extension of the island's border is computed only once.
 class ZoneVectors {
  public:
   ZoneVectors(const Grid& grid, const Island& island, const ZoneDirections& files, double z)

@@ -12,12 +12,12 @@ namespace unicursal::core {
 namespace {
 
 constexpr double reach_in_spacings = 2;
-constexpr double bin_in_spacings = 0.5;  ///< samples nearer to each other than this may count as one
-constexpr double crowd = 4;              ///< samples in a square from which their spacing can be told
-constexpr int most_halvings = 20;        ///< of the squares; 21 bits of a key for each coordinate
-constexpr double vanishing = 1e-9;       ///< ‖V‖ of samples that contradict each other
+constexpr double bin_in_spacings = 0.5;  ///< samples nearer to each other may count as one
+constexpr double crowd = 4;              ///< samples per square that are enough to estimate their spacing
+constexpr int most_halvings = 20;        ///< of the side of a square: a key has 21 bits per coordinate
+constexpr double vanishing = 1e-9;       ///< ‖V‖ below which samples contradict each other
 
-/// Occupied squares (or cubes) when the samples' box is cut into 2^level along its longest side.
+/// The number of squares (or cubes) of this side that contain a sample.
 std::size_t occupied(const std::vector<DirectionSample>& samples, const std::array<double, 3>& low,
                      double side) {
   std::vector<std::uint64_t> keys;
@@ -33,7 +33,8 @@ std::size_t occupied(const std::vector<DirectionSample>& samples, const std::arr
   return static_cast<std::size_t>(std::unique(keys.begin(), keys.end()) - keys.begin());
 }
 
-/// From the finest squares that still hold a crowd each: their area (or volume) per sample.
+/// Takes the finest squares that still hold several samples each: their area (or volume) per sample gives the
+/// spacing.
 double sample_spacing(const std::vector<DirectionSample>& samples, bool in_space) {
   std::array<double, 3> low{samples[0].position.x(), samples[0].position.y(), samples[0].z}, high = low;
   for (const DirectionSample& s : samples) {
@@ -55,8 +56,8 @@ double sample_spacing(const std::vector<DirectionSample>& samples, bool in_space
   return spacing;
 }
 
-/// Samples that share a bin are one, at their mean place with their mean V, so that every disc of reach
-/// holds but a few. Bins cover the grid and what is within reach of it.
+/// Samples in the same bin become one, at their mean position with their mean V, so that only a few are
+/// within reach of a point. The bins cover the grid and its surroundings within reach.
 class Bins {
  public:
   Bins(const Grid& grid, double reach, double side) : grid_(grid) {

@@ -8,12 +8,13 @@
 namespace unicursal::core {
 namespace {
 
-/// How an edge a → b counts that is met on the way towards +x: downwards it is entered, upwards left.
+/// What an edge a → b adds to the winding number of a point that moves across it towards +x: 1 if the edge
+/// runs downwards, −1 if it runs upwards.
 int step(const Vec2& a, const Vec2& b) {
   return a.y() > b.y() ? 1 : -1;
 }
 
-/// The same for the ray from −x to `p`. Half-open in y, so that vertices count once.
+/// What the edge adds on the ray from −x to `p`. Edges are half-open in y, so that a vertex counts once.
 int steps_on_left_ray(const Vec2& a, const Vec2& b, const Vec2& p) {
   if ((a.y() > p.y()) == (b.y() > p.y())) return 0;
   return p.x() > (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x() ? step(a, b) : 0;
@@ -43,10 +44,10 @@ BorderIndex::BorderIndex(const Polygon& polygon, double pitch) : pitch_(pitch) {
   first_edge_.push_back(edges_.size());
 
   const Box box = bounds(polygon);
-  // No more squares than a few per edge and per thousand square pitches: huge boxes get coarser squares.
+  // At most ten million squares: huge boxes get coarser ones.
   const double most = 1e7;
   pitch_ = std::max(pitch, std::sqrt(std::max(box.size().x() * box.size().y(), 1e-12) / most));
-  // Off any round number, so that no vertex sits on a square's corner, where parity could not be decided.
+  // An irrational offset, so that no vertex lies on the corner of a square, where parity is undecided.
   origin_ = box.min - pitch_ * Vec2(0.61803398875, 0.5698402911);
   columns_ = static_cast<std::ptrdiff_t>(std::ceil(box.size().x() / pitch_)) + 3;
   rows_ = static_cast<std::ptrdiff_t>(std::ceil(box.size().y() / pitch_)) + 3;
@@ -54,7 +55,7 @@ BorderIndex::BorderIndex(const Polygon& polygon, double pitch) : pitch_(pitch) {
   const auto each_square = [&](auto visit) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const Vec2 &a = edges_[e].a, &b = edges_[e].b;
-      // The squares of an edge, row by row: its x range within each row.
+      // Visits the squares of the edge row by row, in its x range within each row.
       const Range r = range({a.cwiseMin(b), a.cwiseMax(b)});
       for (std::ptrdiff_t row = r.row0; row <= r.row1; ++row) {
         std::ptrdiff_t from = r.column0, to = r.column1;
@@ -82,7 +83,8 @@ BorderIndex::BorderIndex(const Polygon& polygon, double pitch) : pitch_(pitch) {
 
   winding_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
   for (std::ptrdiff_t row = 0; row < rows_; ++row) {
-    // Winding number at the lower left corner of each square, by the edges that cross this line to its left.
+    // The winding number at the lower left corner of each square follows from the edges that cross this line
+    // to the left of it.
     const double y = origin_.y() + static_cast<double>(row) * pitch_;
     std::vector<std::pair<double, int>> crossings;
     const std::ptrdiff_t below = std::max<std::ptrdiff_t>(row - 1, 0);
@@ -130,7 +132,8 @@ int BorderIndex::winding(const Vec2& point) const {
   const double upper = origin_.y() + static_cast<double>(rows_) * pitch_;
   if (!(point.x() > origin_.x() && point.y() > origin_.y() && point.x() < right && point.y() < upper))
     return 0;
-  // From the square's known corner go up to the point's height, then right to the point.
+  // Start at the corner of the square, where the number is known. Go up to the height of the point, then
+  // right.
   const std::ptrdiff_t row = row_of(point.y()), column = column_of(point.x());
   const auto square = static_cast<std::size_t>(row * columns_ + column);
   int winding = winding_[square];

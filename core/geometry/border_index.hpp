@@ -1,5 +1,5 @@
-// The border of a polygon in a uniform grid: fast answers to "inside?", "how far?" and "which edges are
-// near?". Lengths in mm. Memory grows with the border's length and the polygon's box, not with the queries.
+// The border of a polygon in a uniform grid, for fast queries: is a point inside, how far is the border,
+// which edges are near? Lengths in mm. Memory grows with the length of the border and the area of its box.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@ namespace unicursal::core {
 struct BorderEdge {
   Vec2 a, b;
   std::size_t ring = 0;   ///< 0 is the outer ring, then the holes in order
-  std::size_t index = 0;  ///< of the edge in its ring; it leaves vertex `index`
+  std::size_t index = 0;  ///< of the vertex in the ring at which the edge starts
 };
 
 class BorderIndex {
  public:
-  /// `pitch` is the side of a grid square; about the size of the things that will be asked for.
+  /// `pitch` is the side of a grid square, best about the size of the queried segments and boxes.
   BorderIndex(const Polygon& polygon, double pitch);
 
   const std::vector<BorderEdge>& edges() const { return edges_; }
-  /// Index of the first edge of a ring in `edges()`; rings follow one another.
+  /// Index in `edges()` of the first edge of a ring; rings follow one another.
   std::size_t first_edge(std::size_t ring) const { return first_edge_[ring]; }
   std::size_t ring_count() const { return first_edge_.size() - 1; }
   std::size_t ring_size(std::size_t ring) const { return first_edge_[ring + 1] - first_edge_[ring]; }
@@ -31,11 +31,12 @@ class BorderIndex {
   /// Even-odd rule; points on the border may go either way.
   bool contains(const Vec2& point) const { return winding(point) % 2 != 0; }
 
-  /// How often the rings run around a point, counter-clockwise: 1 inside and 0 outside of a sound polygon;
-  /// anything where rounding let a border overlap itself. Summed over the plane it gives the signed area.
+  /// How often the rings run around a point, counter-clockwise: 1 inside and 0 outside a sound polygon, any
+  /// number where rounding has made the border overlap itself. The integral over the plane is the signed
+  /// area.
   int winding(const Vec2& point) const;
 
-  /// Calls visit(edge number) at least once for every edge that meets the box; may repeat edges.
+  /// Calls visit(edge index) at least once for every edge that meets the box; may repeat edges.
   template <typename Visit>
   void near(const Box& box, Visit visit) const {
     const Range r = range(box);
@@ -47,7 +48,7 @@ class BorderIndex {
     }
   }
 
-  /// Distance from a segment to the border, or `limit` when it is farther than that.
+  /// Distance from a segment to the border, at most `limit`.
   double distance(const Vec2& a, const Vec2& b, double limit) const;
 
  private:
@@ -63,12 +64,12 @@ class BorderIndex {
   Vec2 origin_{0, 0};
   double pitch_;
   std::ptrdiff_t columns_ = 1, rows_ = 1;
-  std::vector<std::size_t> start_;     ///< per square, into entries_
-  std::vector<std::size_t> entries_;   ///< edge numbers
-  std::vector<std::int16_t> winding_;  ///< of each square's left lower corner
+  std::vector<std::size_t> start_;     ///< per square: where its edges begin in entries_
+  std::vector<std::size_t> entries_;   ///< edge indices, square by square
+  std::vector<std::int16_t> winding_;  ///< per square: winding number of its lower left corner
 };
 
-/// Distance between two closed segments, zero when they meet.
+/// Distance between two closed segments; zero if they meet.
 double distance_between_segments(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 }  // namespace unicursal::core

@@ -1,5 +1,6 @@
-// Rings cut off at lines along the axes (Sutherland and Hodgman). mm. For a non-convex ring the result may
-// hold edges that run back and forth along the line; they cancel in every moment and in even-odd counts.
+// Clips rings at lines parallel to the axes (Sutherland and Hodgman). mm. For a non-convex ring the result
+// may contain edges that run back and forth along the line; they cancel in every moment and in even-odd
+// counts.
 #pragma once
 
 #include <vector>
@@ -8,11 +9,11 @@
 
 namespace unicursal::core {
 
-/// What is kept: the points left or right of x, below or above y; the line itself included.
+/// The side that is kept: points left or right of x, below or above y; points on the line are kept too.
 enum class Side { left, right, below, above };
 
 Ring clipped(const Ring& ring, Side side, double at);
-/// Rings that vanish are left out.
+/// Clips each ring; rings that vanish are left out.
 std::vector<Ring> clipped(const std::vector<Ring>& rings, Side side, double at);
 
 }  // namespace unicursal::core

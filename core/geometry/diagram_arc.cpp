@@ -12,7 +12,8 @@ Arc parabola(const Vec2& from, const Vec2& to, const Vec2& focus, const Vec2& ba
   const Vec2 up = perpendicular(along);
   const double height = (focus - base).dot(up);
   const double x0 = (from - focus).dot(along), x1 = (to - focus).dot(along);
-  // The tangents at both ends meet where the focus and the feet of the ends are equally far.
+  // The tangents at both ends meet in the point that is equally far from the focus and from the feet of both
+  // ends.
   const double y = (height + x0 * x1 / height) / 2;
   const Vec2 control = focus + (x0 + x1) / 2 * along + (y - height) * up;
   return control.allFinite() ? Arc{from, control, to} : line(from, to);

@@ -32,13 +32,13 @@ Moments moments(const std::vector<Ring>& rings, const Vec2& about) {
 constexpr std::size_t group_columns = 4, group_rows = 4;  ///< blocks in a group
 constexpr std::size_t tile_columns = 4, tile_rows = 8;    ///< groups in a tile: 64 × 64 squares
 
-/// A block on its way into the lattice.
+/// A block that has been found but not yet placed in the lattice.
 struct FoundBlock {
-  std::size_t column = 0, row = 0;  ///< among blocks
+  std::size_t column = 0, row = 0;  ///< counted in blocks
   std::int32_t border = -1;
 };
 
-/// Finds the blocks by halving the box: whole rectangles inside need no look at their squares.
+/// Finds the blocks by halving the box, so that the squares of rectangles wholly inside need not be examined.
 class Sampler {
  public:
   Sampler(const Polygon& polygon, double pitch) : pitch_(pitch) {
@@ -86,7 +86,7 @@ class Sampler {
   Vec2 at(std::size_t column, std::size_t row) const {
     return origin_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
   }
-  /// Lower left corner of the tile that a block is in.
+  /// Lower left corner of the tile that contains a block.
   Vec2 corner(const FoundBlock& b) const {
     const Place t = tile(b);
     return at(t.second * group_columns * tile_columns * Lattice::block_columns,

@@ -10,7 +10,7 @@
 namespace unicursal::core {
 namespace {
 
-constexpr std::size_t range = 4096;  ///< segments whose sums are gathered in one piece
+constexpr std::size_t range = 4096;  ///< segments in one piece of work when sums are gathered
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void LatticeOwners::make_lists() {
   } else {
     const SegmentRows rows(listed_);
     workers_.each(lists_.size(), [&](std::size_t tile) {
-      // The other owner of a split square is no farther than the nearest by more than its half diagonals.
+      // The second owner of a split square is at most one diagonal of a square farther than the nearest.
       const double farther = split_ ? std::numbers::sqrt2 * lattice_.pitch : 0;
       make_near_lists(lattice_, lattice_.tiles[tile], listed_, rows, slack_ + farther / 2, lists_[tile]);
     });
@@ -66,7 +66,7 @@ void LatticeOwners::make_lists() {
   number_sums();
 }
 
-/// A tile's samples add to sums of the tile's own; a segment finds its sums in order of tiles.
+/// Every tile has its own sum for each of its segments; the sums of one segment are listed in order of tiles.
 void LatticeOwners::number_sums() {
   first_sum_.assign(1, 0);
   for (const NearLists& lists : lists_) first_sum_.push_back(first_sum_.back() + lists.segments.size());
@@ -103,7 +103,7 @@ void LatticeOwners::scan(std::size_t number) {
                    split_ ? lists.segments.data() : nullptr, static_cast<std::int32_t>(current_.size())});
 }
 
-/// Calls add(segment, sum) for all sums of all segments, those of one segment in order.
+/// Calls add(segment, sum index) for all sums of all segments, in order for each segment.
 template <typename Add>
 void LatticeOwners::gather(Add add) const {
   workers_.ranges(current_.size(), range, [&](std::size_t first, std::size_t last) {

@@ -8,12 +8,12 @@
 namespace unicursal::core {
 namespace {
 
-constexpr float rounding = 1e-5F;  ///< relative, added to the distances that decide what is listed
-constexpr double first_reach = 9;  ///< lattice squares, where the first look ends
-constexpr double headroom = 1.1;   ///< of a look that has to reach farther
+constexpr float rounding = 1e-5F;  ///< relative; added to the limit that decides which segments are listed
+constexpr double first_reach = 9;  ///< lattice squares; how far the first search reaches
+constexpr double headroom = 1.1;   ///< on the reach of the next search, if the first was too short
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// Segments in arrays for vectors.
+/// Segments as one array per number, for vector code.
 struct SegmentArrays {
   std::vector<float> ax, ay, ux, uy, inverse;
 
@@ -27,13 +27,13 @@ struct SegmentArrays {
     uy.push_back(s.uy);
     inverse.push_back(s.inverse);
   }
-  /// What is far from everything, so that vectors may read past the end.
+  /// Adds segments far from everything, so that vector code may read past the end.
   void pad() {
     for (std::size_t k = 0; k < Lattice::lanes; ++k) add({1e18F, 1e18F, 0, 0, 0});
   }
 };
 
-/// Around the samples of a block, in the tile's frame.
+/// Encloses the samples of a block, relative to the corner of the tile.
 struct Circle {
   float x, y, radius;
 };
@@ -71,17 +71,17 @@ class ListMaker {
     }
   }
 
-  /// Looks as far around the blocks as turns out to be needed.
+  /// Searches as far around the blocks as turns out to be needed.
   void run() {
     for (double needed = look(); needed > reach_; needed = look()) {
       reach_ = std::min(headroom * needed, 2 * reach_);
     }
     lists_.entries.assign(entries_.begin(),
-                          entries_.end());  // no larger than it must be: there are many tiles
+                          entries_.end());  // without spare capacity: there are many tiles
   }
 
  private:
-  /// Entries in a row of squares, half-open, and where they are in the tile's arrays.
+  /// A half-open range of entries in a row of squares, and where it begins in the arrays of the tile.
   struct Run {
     std::ptrdiff_t row;
     std::size_t begin, end, local;
@@ -97,7 +97,7 @@ class ListMaker {
     return {box.min + tile_.corner - margin, box.max + tile_.corner + margin};
   }
 
-  /// Lists what is within reach; returns how far the farthest circle has to look.
+  /// Lists the segments within reach; returns the reach that the most demanding circle needs.
   double look() {
     gather();
     entries_.clear();
@@ -142,7 +142,7 @@ class ListMaker {
     arrays_.add(in_tile(segments_[static_cast<std::size_t>(segment)], tile_.corner));
   }
 
-  /// The parts of the tile's runs that lie in a group's box.
+  /// Chooses the parts of the tile's runs that lie in the box of a group.
   void choose_ranges(const Box& box) {
     ranges_.clear();
     const std::ptrdiff_t from = rows_.column(box.min.x()), to = rows_.column(box.max.x());
@@ -168,7 +168,7 @@ class ListMaker {
       }
     }
     const float limit = (std::sqrt(nearest2) + 2 * circle.radius + slack_) * (1 + rounding);
-    // Without branches: what to keep cannot be foreseen.
+    // Without branches: they would be unpredictable.
     std::size_t kept = entries_.size();
     entries_.resize(kept + count + 1);
     for (std::size_t k = 0; k < count; ++k) {

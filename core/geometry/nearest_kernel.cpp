@@ -21,12 +21,12 @@ using Doubles = double __attribute__((vector_size(32)));
 static_assert(Lattice::block_columns == 4 && Lattice::block_rows == 2);
 constexpr Floats square_x{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
 constexpr Floats square_y{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
-constexpr float same_direction = 0.5F;  ///< cosine above which two segments lie in the same direction
+constexpr float same_direction = 0.5F;  ///< cosine above which two nearest points lie in the same direction
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// The nearest point of a segment, per sample.
 struct Foot {
-  Floats distance2, share, x, y;  ///< share of the way from the segment's start; x, y from the sample
+  Floats distance2, share, x, y;  ///< `share`: position on the segment, 0 to 1; x, y relative to the sample
   Ints owner;
 };
 
@@ -73,8 +73,9 @@ UNICURSAL_INLINE void add(std::array<float, 4>* sums, const Foot& foot, const Fl
   }
 }
 
-/// The nearest of the listed segments that are not the owner's neighbours along the curve and lie in another
-/// direction: more of the owner's own strand comes as near without a border of its own.
+/// The second owner of a split square: the nearest of the listed segments that are not neighbours of the
+/// owner along the curve and lie in another direction. Other segments of the owner's own strand may be as
+/// near, but the border between them and the owner does not matter.
 UNICURSAL_INLINE Foot competitor(const TileScan& tile, std::uint32_t begin, std::uint32_t end,
                                  const Floats& x, const Floats& y, const Foot& own) {
   Ints place{};
@@ -95,8 +96,8 @@ UNICURSAL_INLINE Foot competitor(const TileScan& tile, std::uint32_t begin, std:
   return other;
 }
 
-/// The line where both segments are equally far cuts the square; distances change across it as their
-/// directions say. Returns the other's share, 0 to ½, and lowers the mean squared distance accordingly.
+/// The line on which both segments are equally far cuts the square. Returns the share of the square on the
+/// other segment's side, 0 to ½, and lowers the mean squared distance accordingly.
 UNICURSAL_INLINE Floats split(const Foot& own, const Foot& other, float pitch, Floats& mean) {
   const Floats zero{};
   const Ints both = (own.distance2 > zero) & (other.distance2 < zero + infinite);

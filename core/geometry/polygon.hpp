@@ -25,12 +25,12 @@ struct Box {
   Vec2 center() const { return (min + max) / 2; }
 };
 
-/// Signed: positive for counter-clockwise rings.
+/// Positive for counter-clockwise rings, negative for clockwise ones.
 double signed_area(const Ring& ring);
-/// The outer ring's area less that of the holes.
+/// The area of the outer ring minus that of the holes.
 double area(const Polygon& polygon);
 double area(const std::vector<Polygon>& polygons);
-/// Length of the closed line.
+/// Length of the closed line, or of all rings.
 double perimeter(const Ring& ring);
 double perimeter(const Polygon& polygon);
 
@@ -38,7 +38,7 @@ double perimeter(const Polygon& polygon);
 bool contains(const Ring& ring, const Vec2& point);
 bool contains(const Polygon& polygon, const Vec2& point);
 
-/// The smallest box; precondition: at least one point.
+/// The smallest box that contains everything. Precondition: at least one point.
 Box bounds(const Ring& ring);
 Box bounds(const Polygon& polygon);
 Box bounds(const std::vector<Polygon>& polygons);

@@ -9,8 +9,8 @@ namespace unicursal::core {
 namespace {
 
 constexpr double grid = 1e6;             ///< grid steps per mm
-constexpr double vertices_in_reach = 4;  ///< on straight borders, of the first step of an offset
-constexpr double between_steps = 0.1;    ///< of the tolerance, for what a step leaves to the next
+constexpr double vertices_in_reach = 4;  ///< in the first step of an offset, along a straight border
+constexpr double between_steps = 0.1;    ///< of the tolerance: how much a step but the last may simplify
 
 ClipperLib::Path to_path(const Ring& ring) {
   ClipperLib::Path path;
@@ -76,7 +76,7 @@ Region offset_once(const Region& region, double distance, double tolerance) {
   return to_region(tree);
 }
 
-/// mm between vertices, if the border ran straight around the region.
+/// mm between vertices, if the border were as long as that of the region's box.
 double vertex_distance(const Region& region) {
   std::size_t vertices = 0;
   for (const Polygon& polygon : region) {
@@ -124,8 +124,8 @@ Region subtract(const Region& a, const Region& b) {
 }
 
 Region offset(const Region& region, double distance, double tolerance) {
-  // Clipper's time grows with the square of the vertices within reach. Steps that grow keep them few: the
-  // first ones take away the detail that the later ones would stumble over.
+  // Clipper's time grows with the square of the number of vertices within reach. Growing steps keep that
+  // number small: the first steps remove the detail that would slow down the later ones.
   Region result = region;
   double left = std::abs(distance);
   for (double step = vertices_in_reach * vertex_distance(region); step > 0 && left > 2 * step; step *= 2) {

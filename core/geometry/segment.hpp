@@ -1,4 +1,4 @@
-// A straight stretch between two points, mm.
+// A straight line between two points, mm.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace unicursal::core {
 
 struct Segment {
-  Vec2 a{0, 0}, b{0, 0};  ///< equal for a point
+  Vec2 a{0, 0}, b{0, 0};  ///< equal if the segment is a point
 };
 
 /// The sides of a ring: segment i runs from vertex i to its successor.

@@ -1,4 +1,4 @@
-// Segments in a uniform grid, to find those near one another.
+// Segments in a uniform grid, to find those near each other. mm.
 #pragma once
 
 #include <algorithm>

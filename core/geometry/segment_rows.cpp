@@ -3,9 +3,9 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double longest = 2;  ///< squares; beyond it a segment is kept apart
-constexpr double least_pitch =
-    1e-3;  ///< of the largest side, so that thin boxes do not have too many squares
+constexpr double longest = 2;  ///< squares; longer segments are kept in their own list
+/// Of the largest side, so that thin boxes do not have too many squares.
+constexpr double least_pitch = 1e-3;
 constexpr double least_square = 1e-9;  ///< mm
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Segments sorted by the grid square of their middle, row by row: those near a place are a few runs of
-// neighbouring entries, each segment once. What is much longer than a square is kept apart.
+// Segments sorted by the grid square of their midpoint, row by row. The segments near a place are then a few
+// runs of neighbouring entries, with each segment once. Segments much longer than a square are kept in a list
+// of their own. mm.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +15,20 @@ namespace unicursal::core {
 
 class SegmentRows {
  public:
-  /// Squares about as large as a segment's share of the place, or as long as the mean segment.
+  /// The squares are about as large as a segment's share of the box, or as long as the mean segment.
   explicit SegmentRows(const std::vector<Segment>& segments);
 
   /// Indices of segments, square by square.
   const std::vector<std::int32_t>& order() const { return order_; }
-  /// Segments that are in no square.
+  /// Indices of the long segments, which are in no square.
   const std::vector<std::int32_t>& longer() const { return longer_; }
-  /// mm; no point of a segment in a square is farther from its middle.
+  /// No point of a segment in a square is farther from its midpoint than this, mm.
   double half_length() const { return pitch_; }
 
   std::ptrdiff_t column(double x) const { return bucket(x - origin_.x(), columns_); }
   std::ptrdiff_t row(double y) const { return bucket(y - origin_.y(), rows_); }
-  /// Where a square's entries begin in `order`; they end where the next one's begin, also across rows.
+  /// Where the entries of a square begin in `order`; they end where those of the next square begin, also
+  /// across rows.
   std::size_t begin(std::ptrdiff_t row, std::ptrdiff_t column) const {
     return start_[static_cast<std::size_t>(row * columns_ + column)];
   }

@@ -47,7 +47,7 @@ class WeldGrid {
  public:
   explicit WeldGrid(const std::vector<Vec3>& vertices) : vertices_(vertices) {}
 
-  /// `v` itself where no earlier one is near; then `v` can be found from now on.
+  /// Returns `v` itself if no earlier vertex is near; later calls can then find `v`.
   Index find_or_add(Index v) {
     const auto [x, y, z] = cell(vertices_[v]);
     for (int i = 0; i < 27; ++i) {
@@ -87,20 +87,20 @@ void weld_near(ClosedMesh& mesh) {
   }
 }
 
-/// Facets with two equal corners. Their other two sides are one edge, so that no hole opens.
+/// Drops facets with two equal corners. Their other two sides are one edge, so no hole opens.
 std::size_t drop_collapsed(ClosedMesh& mesh) {
   return std::erase_if(mesh.facets,
                        [](const Facet& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
 }
 
-/// The same three corners in rotation, smallest first: keeps the sense.
+/// The three corners rotated so that the smallest comes first, which keeps the orientation.
 Facet rotated(Facet f) {
   std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
   return f;
 }
 
-/// Facets on the same three corners: those of opposite sense are a wall between two solids in contact and
-/// annihilate, copies of the same sense count once.
+/// Treats facets with the same three corners: two of opposite orientation are a wall between solids in
+/// contact and are both dropped; copies of the same orientation count once.
 std::size_t drop_coincident(ClosedMesh& mesh) {
   std::map<Facet, std::vector<std::size_t>> by_corners;
   for (std::size_t i = 0; i < mesh.facets.size(); ++i) {
@@ -146,25 +146,26 @@ std::string edge_text(const std::pair<Vec3, Vec3>& edge) {
 void refuse_unpaired(const EdgePairing& edges, const std::string& file) {
   if (edges.open > 0) {
     throw ModelError(file, edge_text(*edges.example),
-                     fmt::format("the mesh is open: {} edges have one facet only", edges.open),
+                     fmt::format("the mesh is open: {} edges have only one facet", edges.open),
                      "close its holes in a modelling or mesh repair program");
   }
   if (edges.tangled > 0) {
     throw ModelError(
         file, edge_text(*edges.example),
-        fmt::format("at {} edges more than two facets meet and do not bound a solid", edges.tangled),
+        fmt::format("at {} edges more than two facets meet without bounding a solid", edges.tangled),
         "unite the bodies in a modelling program, or repair the mesh");
   }
 }
 
-void warn(const Cleaned& cleaned, const Turned& turned, const std::string& file, Warnings& warnings) {
-  const auto tell = [&](std::size_t count, const char* what) {
+void warn_of_repairs(const Cleaned& cleaned, const Turned& turned, const std::string& file,
+                     Warnings& warnings) {
+  const auto warn = [&](std::size_t count, const char* what) {
     if (count > 0) warnings.add(fmt::format("{}: {} {}", file, count, what));
   };
-  tell(cleaned.collapsed, "facets without area were dropped");
-  tell(cleaned.coincident, "facets lying on each other were dropped");
-  tell(turned.facets, "facets looked the wrong way and were turned");
-  tell(turned.shells, "shells were inside out and were turned");
+  warn(cleaned.collapsed, "facets without area were dropped");
+  warn(cleaned.coincident, "facets lying on one another were dropped");
+  warn(turned.facets, "facets faced the wrong way and were turned");
+  warn(turned.shells, "shells were inside out and were turned");
 }
 
 }  // namespace
@@ -185,9 +186,9 @@ ClosedMesh closed_mesh(const std::vector<Triangle>& triangles, const std::string
     throw ModelError(file, "", "the mesh encloses no volume", "export the model again");
   const Turned turned = orient(mesh);
   if (!turned.two_sided) {
-    throw ModelError(file, "", "the surface has only one side, so that it bounds no solid", "model it anew");
+    throw ModelError(file, "", "the surface has only one side, so it bounds no solid", "model it again");
   }
-  warn(cleaned, turned, file, warnings);
+  warn_of_repairs(cleaned, turned, file, warnings);
   return mesh;
 }
 

@@ -195,7 +195,7 @@ std::optional<std::string> from_hex(const std::string& text) {
   return "#" + digits.substr(0, 6);
 }
 
-/// One argument of rgb(): a number or a percentage of `whole`.
+/// Reads one argument of rgb(): a number or a percentage of `whole`.
 double channel(NumberScanner& scanner, double whole) {
   const double value = scanner.required();
   if (scanner.peek() != '%') return value;

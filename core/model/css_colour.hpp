@@ -1,4 +1,4 @@
-// Colours as CSS writes them: the 148 names, #rgb, #rrggbb (and #rgba, #rrggbbaa), rgb(), rgba().
+// Colours in CSS notation: the 148 names, #rgb, #rrggbb (and #rgba, #rrggbbaa), rgb(), rgba().
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace unicursal::core {
 
-/// "#rrggbb" in lower case, or "none" for a colour that is wholly transparent; nothing where `text` is no
-/// colour. Case does not matter. Partly transparent colours count as if they were not.
+/// Returns "#rrggbb" in lower case, "none" for a fully transparent colour, or nullopt if `text` is not a
+/// colour. Case does not matter. Partly transparent colours count as opaque.
 std::optional<std::string> css_colour(std::string_view text);
 
 }  // namespace unicursal::core

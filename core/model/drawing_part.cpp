@@ -124,7 +124,7 @@ void warn_of_covered(const std::vector<Zone>& zones, const std::vector<Island>& 
   }
   for (std::size_t i = 0; i < zones.size(); ++i) {
     if (!seen.contains(i)) {
-      warnings.add("nothing is left of the zone " + in_quotes(zones[i].select) + ": later shapes cover it");
+      warnings.add("the zone " + in_quotes(zones[i].select) + " is empty: later shapes cover it");
     }
   }
 }

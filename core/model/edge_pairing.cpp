@@ -30,7 +30,7 @@ std::vector<Use> uses_by_edge(const ClosedMesh& mesh) {
   return uses;
 }
 
-/// Angles of facets around an edge, counter-clockwise seen against the direction from low to high.
+/// Measures the angles of facets around an edge, counter-clockwise as seen looking from `high` towards `low`.
 class Around {
  public:
   Around(const ClosedMesh& mesh, const Use& use) : mesh_(mesh), origin_(mesh.vertices[use.low]) {
@@ -49,10 +49,11 @@ class Around {
   Vec3 origin_, axis_, right_, up_;
 };
 
-/// A facet that runs against the edge (high to low) has material on the side of growing angles; it belongs to
-/// the first facet in that direction that runs along the edge. False where that is no one-to-one choice.
+/// A facet that runs against the edge (high to low) has material on the side of growing angles. It belongs to
+/// the first facet in that direction that runs along the edge. Returns false if that choice is not
+/// one-to-one.
 bool pair_wedges(ClosedMesh& mesh, std::span<const Use> uses) {
-  constexpr double touching = 1e-6;  // radians: a wedge this thin is two solids in contact, not material
+  constexpr double touching = 1e-6;  // radians: a wedge this thin is the contact of two solids, not material
   const Around around(mesh, uses.front());
   std::vector<HalfEdge> taken;
   for (const Use& start : uses) {
@@ -74,7 +75,7 @@ bool pair_wedges(ClosedMesh& mesh, std::span<const Use> uses) {
 }
 
 bool pair_uses(ClosedMesh& mesh, std::span<const Use> uses) {
-  constexpr std::size_t most = 64;  // facets at one edge; more are no touching solids but damage
+  constexpr std::size_t most = 64;  // facets at one edge; more mean damage, not touching solids
   if (uses.size() % 2 != 0 || uses.size() > most) return false;
   if (uses.size() > 2) return pair_wedges(mesh, uses);
   mesh.twins[uses[0].half_edge] = uses[1].half_edge;

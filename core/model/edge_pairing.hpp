@@ -1,5 +1,5 @@
-// Which facets meet at an edge. Normally two; where solids touch along an edge four or more do, and the two
-// that bound the same wedge of material belong together.
+// Finds the two facets that meet at each edge. Where solids touch along an edge, four or more facets meet
+// there; two facets that bound the same wedge of material belong together.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace unicursal::core {
 struct EdgePairing {
   std::size_t open = 0;                          ///< edges with one facet
   std::size_t tangled = 0;                       ///< edges whose facets cannot be paired
-  std::optional<std::pair<Vec3, Vec3>> example;  ///< the ends of one of them, an open one if there is any
+  std::optional<std::pair<Vec3, Vec3>> example;  ///< the ends of one such edge, of an open one if possible
 };
 
-/// Sets `mesh.twins` from `mesh.vertices` and `mesh.facets`; complete if neither count is above zero.
+/// Sets `mesh.twins` from `mesh.vertices` and `mesh.facets`. The twins are complete if both counts are zero.
 EdgePairing pair_edges(ClosedMesh& mesh);
 
 }  // namespace unicursal::core

@@ -18,7 +18,7 @@ using HalfEdge = std::uint32_t;
 struct ClosedMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> facets;
-  std::vector<HalfEdge> twins;  ///< per half-edge the one of the neighbouring facet, which runs the other way
+  std::vector<HalfEdge> twins;  ///< per half-edge: that of the neighbouring facet, which runs the other way
 
   std::uint32_t from(HalfEdge h) const { return facets[h / 3][h % 3]; }
   std::uint32_t to(HalfEdge h) const { return facets[h / 3][(h % 3 + 1) % 3]; }

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> HeightIndex::at(double height) const {
   return found;
 }
 
-/// Of the leaves from `first` on that the node spans, those before `end` that reach above the height.
+/// Finds, among the `count` leaves of `node` from `first` on, those before `end` that reach above the height.
 void HeightIndex::collect(std::size_t node, std::size_t first, std::size_t count, std::size_t end,
                           double height, std::vector<std::uint32_t>& found) const {
   if (first >= end || !(greatest_[node] > height)) return;

@@ -1,4 +1,5 @@
-// Which of many intervals of height hold a given height: n log n to build, log n + answers·log n to ask.
+// Finds those of n intervals of height that contain a given height. Building takes O(n log n), a query with k
+// results O((k + 1) log n).
 #pragma once
 
 #include <cstdint>
@@ -6,17 +7,18 @@
 
 namespace unicursal::core {
 
-/// From low (included) to high (excluded), mm.
+/// From `low` (included) to `high` (excluded), mm.
 struct HeightSpan {
   double low = 0, high = 0;
 };
 
-/// Intervals in order of their low ends, with a tree of the greatest high end below each node.
+/// Keeps the intervals in order of their low ends, with a tree that holds the greatest high end below each
+/// node.
 class HeightIndex {
  public:
   explicit HeightIndex(const std::vector<HeightSpan>& spans);
 
-  /// Indices into the spans, in ascending order.
+  /// The indices of the spans that contain `height`, ascending.
   std::vector<std::uint32_t> at(double height) const;
 
  private:
@@ -25,8 +27,9 @@ class HeightIndex {
 
   std::vector<std::uint32_t> order_;
   std::vector<double> lows_;  ///< sorted
-  std::vector<double>
-      greatest_;            ///< node 1 is the root, node i has children 2i and 2i + 1; leaves follow order_
+  /// Per node the greatest high end. Node 1 is the root, node i has the children 2i and 2i + 1; leaves follow
+  /// order_.
+  std::vector<double> greatest_;
   std::size_t leaves_ = 1;  ///< a power of two
 };
 

@@ -1,5 +1,5 @@
-// How a height is cut into layers of equal thickness, but for the first, which may have its own. All lengths
-// in mm above the part's underside.
+// Divides a height into layers of equal thickness; the first layer may have a different one. All lengths in
+// mm above the part's underside.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,26 @@ namespace unicursal::core {
 
 struct LayerStack {
   std::size_t count = 0;
-  double thickness = 0;  ///< of all but the first
-  double first = 0;      ///< thickness of that
+  double thickness = 0;  ///< of all layers but the first
+  double first = 0;      ///< thickness of the first layer
 
   double height() const { return double(count) * thickness + raised(); }
-  /// Without islands; cut at mid-height.
+  /// The layer without its islands; the cut is at mid-height.
   Layer layer(std::size_t index) const;
 
-  /// How much higher all lies than it would on a first layer like the others; exactly 0 if it is.
+  /// Extra height due to the first layer (first − thickness); exactly 0 if they are equal.
   double raised() const { return first - thickness; }
 };
 
-/// The nearest whole number of layers, at least one; warns when the height is off by more than 1 % of a
-/// layer. Throws ModelError for a height or layer height that is not positive or gives more than a million
-/// layers. A first layer height of 0 is that of the others.
+/// Takes the nearest whole number of layers, at least one; warns if the height is off by more than 1 % of a
+/// layer. A first layer height of 0 means that of the others. Throws ModelError if a height is not positive,
+/// or for more than a million layers.
 LayerStack layers_of_drawing(double height, double layer_height, double first_layer_height,
                              Warnings& warnings);
 
-/// As many layers as have their mid-height below the top, at least one: the last layer may end up to half a
-/// layer above or below the mesh. Throws as above. Precondition: `height` is not negative.
+/// Takes as many layers as have their mid-height below the top, at least one. So the last layer ends up to
+/// half a layer above or below the top of the mesh. Throws like layers_of_drawing(). Precondition: `height`
+/// is not negative.
 LayerStack layers_of_mesh(double height, double layer_height, double first_layer_height);
 
 }  // namespace unicursal::core

@@ -1,5 +1,4 @@
-// Text that does not follow its grammar, told without a place: whoever knows the file and the element adds
-// them.
+// Text that does not follow its grammar. The error names no place: the caller adds the file and the element.
 #pragma once
 
 #include <stdexcept>

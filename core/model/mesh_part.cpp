@@ -44,7 +44,7 @@ class MeshPart final : public Part {
   Layer layer(std::size_t index) const override {
     assert(index < stack_.count);
     Layer layer = stack_.layer(index);
-    // Only a part thinner than half its one layer: it is cut in its own middle.
+    // A part thinner than half of its only layer is cut in its own middle.
     if (layer.z >= box_.sizes().z()) layer.z = box_.sizes().z() / 2;
     std::vector<Painted> sections;
     for (const Body& body : bodies_) {
@@ -111,7 +111,7 @@ void refuse_unmatched(const PartSource& source) {
 std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
   Warnings warnings;
   layers_of_mesh(0, source.layer_height,
-                 source.first_layer_height);  // refuse a bad layer height before reading for long
+                 source.first_layer_height);  // refuses a bad layer height before the files are read
   refuse_unmatched(source);
   std::vector<Body> bodies;
   Eigen::AlignedBox3d box;

@@ -1,4 +1,5 @@
-// One or more meshes printed together, each a zone's; later files cover earlier ones where they overlap.
+// A part made of one or more meshes, each of which belongs to one zone. Where meshes overlap, later files
+// cover earlier ones.
 #pragma once
 
 #include <memory>

@@ -10,10 +10,10 @@ namespace {
 struct Shell {
   std::vector<std::uint32_t> facets;
   Eigen::AlignedBox3d box;
-  double volume = 0;  ///< mm³, negative when the facets look inward
+  double volume = 0;  ///< mm³, negative if the facets face inwards
 };
 
-/// Reverses the facet's sense; half-edges 0 and 2 change places.
+/// Reverses the facet's orientation; half-edges 0 and 2 change places.
 void turn(ClosedMesh& mesh, const std::vector<bool>& turned) {
   const auto renamed = [&](HalfEdge h) { return turned[h / 3] ? 3 * (h / 3) + (2 - h % 3) : h; };
   std::vector<HalfEdge> twins(mesh.twins.size());
@@ -24,7 +24,7 @@ void turn(ClosedMesh& mesh, const std::vector<bool>& turned) {
   }
 }
 
-/// Floods over the edges; `turned` tells which facets must turn to agree with the first of their shell.
+/// Floods over the edges. `turned`: whether a facet must be turned to agree with the first one of its shell.
 class Flood {
  public:
   explicit Flood(const ClosedMesh& mesh)
@@ -86,14 +86,14 @@ void measure(const ClosedMesh& mesh, Shell& shell) {
   }
 }
 
-/// Where the edge passes height z; the same for both facets of the edge.
+/// Where the edge crosses height z; gives the same point for both facets of the edge.
 Vec3 at_height(const Vec3& a, const Vec3& b, double z) {
   const Vec3 &low = a.z() <= z ? a : b, &high = a.z() <= z ? b : a;
   return low + (z - low.z()) / (high.z() - low.z()) * (high - low);
 }
 
-/// Does the ray from p along +x pass the facet? A vertex exactly at the ray's height counts as below it, in y
-/// as in z, so that a ray through an edge or a vertex is counted right.
+/// Whether the ray from p along +x crosses the facet. A vertex exactly at the height of the ray counts as
+/// below it, in y as in z, so that rays through an edge or a vertex are counted correctly.
 bool ray_passes(const ClosedMesh& mesh, std::uint32_t f, const Vec3& p) {
   Vec3 crossing[2];
   int count = 0;
@@ -112,7 +112,7 @@ bool inside(const ClosedMesh& mesh, const Shell& shell, const Vec3& p) {
   return count % 2 == 1;
 }
 
-/// Asks a few vertices all over the inner shell: solids that merely overlap are not nested.
+/// Checks a few vertices all over the inner shell, since solids that merely overlap are not nested.
 bool nested(const ClosedMesh& mesh, const Shell& inner, const Shell& outer) {
   if (!outer.box.contains(inner.box)) return false;
   constexpr std::size_t probes = 16;

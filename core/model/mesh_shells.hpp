@@ -1,6 +1,6 @@
-// Orientation: facets of a shell (a piece connected through its edges) are made to agree, then whole shells
-// are turned so that they bound a volume: outward, or inward where they lie inside an odd number of other
-// shells.
+// Orients facets. First the facets of a shell (a piece that is connected through edges) are made to agree.
+// Then whole shells are turned so that they bound a volume: they face outwards, or inwards if they lie inside
+// an odd number of other shells.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,13 @@
 namespace unicursal::core {
 
 struct Turned {
-  std::size_t facets = 0;  ///< that did not agree with the rest of their shell
-  std::size_t shells = 0;  ///< that were inside out as a whole
-  bool two_sided = true;   ///< false: a shell has but one side (a Möbius strip, a Klein bottle)
+  std::size_t facets = 0;  ///< number of facets turned, to agree with the rest of their shell
+  std::size_t shells = 0;  ///< number of shells turned, because they were inside out
+  bool two_sided = true;   ///< false: a shell has only one side, like a Möbius strip
 };
 
-/// `mesh.twins` may join half-edges that run the same way; afterwards none does, unless it is not two-sided.
+/// `mesh.twins` may join half-edges that run the same way. Afterwards none does, unless a shell has only one
+/// side.
 Turned orient(ClosedMesh& mesh);
 
 }  // namespace unicursal::core

@@ -44,7 +44,7 @@ bool NumberScanner::starts_number() const {
 
 std::optional<double> NumberScanner::number() {
   if (!starts_number()) return std::nullopt;
-  if (peek() == '+') ++at_;  // which from_chars does not know
+  if (peek() == '+') ++at_;  // from_chars does not accept it
   double value = 0;
   const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
   if (error != std::errc{}) throw Malformed("the number at " + in_quotes(rest()) + " is out of range");
@@ -56,7 +56,7 @@ double NumberScanner::required() {
   skip_separator();
   if (const auto value = number()) return *value;
   if (at_end()) throw Malformed("it ends where a number is missing");
-  throw Malformed(fmt::format("character {} should start a number but reads {}", at_ + 1, in_quotes(rest())));
+  throw Malformed(fmt::format("character {} should start a number but is {}", at_ + 1, in_quotes(rest())));
 }
 
 bool NumberScanner::flag() {

@@ -12,13 +12,14 @@ namespace {
 
 using std::numbers::pi;
 
-/// Chords for a Bézier curve whose second differences of control points are at most `bend` mm, with
-/// `factor` = degree·(degree − 1)/8: the bound of a chord's distance from a curve by its second derivative.
+/// The number of chords for a Bézier curve whose control points have second differences of at most `bend` mm.
+/// `factor` = degree·(degree − 1)/8 comes from the bound on a chord's distance by the curve's second
+/// derivative.
 int chords(double factor, double bend) {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(factor * bend / flattening))));
 }
 
-/// Chords for `turn` radians of a circle of `radius` mm; more than `most` say nothing but that it is huge.
+/// The number of chords for `turn` radians of a circle of `radius` mm, at most `most`.
 int arc_chords(double radius, double turn) {
   constexpr double most = 1e5;
   const double sagitta = std::min(flattening / radius, 1.0);
@@ -90,7 +91,7 @@ void Outline::cubic_to(const Vec2& control1, const Vec2& control2, const Vec2& t
 
 void Outline::arc(const Vec2& center, const Eigen::Matrix2d& axes, double from, double turn) {
   const Eigen::Matrix2d mapped = to_part_.linear() * axes;
-  // The Frobenius norm is at least the longest half axis, so the chords are never too long.
+  // The Frobenius norm is at least the longer half axis, so the chords are never too long.
   const int n = arc_chords(mapped.norm(), turn);
   const Vec2 middle = to_part_ * center;
   for (int i = 1; i < n; ++i) {
@@ -105,7 +106,7 @@ void Outline::arc_to(const Vec2& radii, double rotation, bool large, bool sweep,
   const Vec2 end = checked(to);
   if (size.minCoeff() > 0 && start != to) {
     Eigen::Matrix2d axes = Eigen::Rotation2Dd(rotation).toRotationMatrix() * size.asDiagonal();
-    // In the frame where the ellipse is the unit circle, half the chord from the end to the start.
+    // Half the chord from the end to the start, in the frame in which the ellipse is the unit circle.
     Vec2 half = axes.inverse() * (start - to) / 2;
     double stretch = half.norm();
     if (stretch > 1) {

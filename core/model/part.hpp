@@ -1,4 +1,4 @@
-// A part as core sees it: zones with patterns and materials, cut into layers of islands on demand.
+// A part: zones with patterns and materials, cut into layers of islands on demand.
 // Frame: the part's own, mm, y up (an SVG's y is flipped about its viewBox), z up from the first layer's
 // underside. Slices are taken at mid-layer heights. Paper §3: the input polygon P and its zones.
 #pragma once
@@ -13,22 +13,22 @@
 
 namespace unicursal::core {
 
-/// What the curve is asked to do inside a zone (paper §3.1).
+/// How the curve is to run inside a zone (paper §3.1).
 enum class PatternKind { none, isotropic, anisotropic, parallel, orthogonal, angle, field };
 
 struct Pattern {
   PatternKind kind = PatternKind::isotropic;
   double angle = 0;             ///< radians counter-clockwise from +x, for PatternKind::angle
   std::filesystem::path field;  ///< the CSV of directions, for PatternKind::field
-  bool along_zone_border =
-      false;  ///< parallel/orthogonal: the zone's own borders count, not the island's only
+  /// For parallel and orthogonal: whether the zone's own borders count, not only the island's.
+  bool along_zone_border = false;
 };
 
 /// A region of one pattern and one material. Zones of equal `material` form one material zone.
 struct Zone {
-  std::string select;  ///< fill colour "#rrggbb", object name, or file base name that it covers
+  std::string select;  ///< the fill colour "#rrggbb", object name or file base name that it covers
   Pattern pattern;
-  std::size_t material = 0;  ///< index of the mixture; core knows no more of it
+  std::size_t material = 0;  ///< index of the mixture, which core knows nothing else about
 };
 
 /// The part of one zone that lies in one island.
@@ -48,33 +48,33 @@ struct Layer {
   double z = 0;                 ///< height of the cut above the part's underside, mm
   double top = 0;               ///< height of the layer's upper face above the part's underside, mm
   double height = 0;            ///< thickness, mm
-  std::vector<Island> islands;  ///< largest first; may be empty in a gap
+  std::vector<Island> islands;  ///< largest first; may be empty
 };
 
 /// What to read and how to cut it.
 struct PartSource {
   std::vector<std::filesystem::path> files;  ///< one SVG, or one or more STL
-  double height = 0;        ///< mm, for drawings: how far they are extruded; ignored for meshes
-  double layer_height = 0;  ///< mm
+  double height = 0;                         ///< mm: the height of an extruded drawing; ignored for meshes
+  double layer_height = 0;                   ///< mm
   std::vector<Zone> zones;
-  double first_layer_height = 0;  ///< mm, 0: like the others
+  double first_layer_height = 0;  ///< mm; 0: like the others
 };
 
-/// A part that slices itself; layers are computed when asked for and not kept, so memory does not grow
-/// with their number. `layer()` is const and may be called from several threads at once.
+/// A part that slices itself. Layers are computed on demand and not kept, so memory does not grow with their
+/// number. `layer()` may be called from several threads at once.
 class Part {
  public:
   virtual ~Part() = default;
 
   virtual std::size_t layer_count() const = 0;
-  /// Throws ModelError naming the height if the section there is not a set of closed contours.
+  /// Throws ModelError naming the height if the section there does not consist of closed contours.
   virtual Layer layer(std::size_t index) const = 0;
   /// Extent in x and y of everything that will be printed.
   virtual Box extent() const = 0;
   /// Height of the last layer's upper face, mm.
   virtual double height() const = 0;
   virtual const std::vector<Zone>& zones() const = 0;
-  /// What was odd but harmless while reading, one sentence each.
+  /// Odd but harmless findings while reading, one sentence each.
   virtual const std::vector<std::string>& warnings() const = 0;
 };
 

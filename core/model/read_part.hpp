@@ -1,4 +1,4 @@
-// From model files to a part that slices itself.
+// Reads model files into a part that slices itself.
 #pragma once
 
 #include <memory>

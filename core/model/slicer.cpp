@@ -16,8 +16,8 @@ std::vector<HeightSpan> spans(const ClosedMesh& mesh) {
   return result;
 }
 
-/// The half-edge through which the contour leaves the facet: the one that rises through the plane.
-/// Precondition: the facet passes the plane.
+/// The half-edge through which the contour leaves the facet: it rises through the plane.
+/// Precondition: the facet crosses the plane.
 HalfEdge rising(const ClosedMesh& mesh, std::uint32_t facet, double z) {
   HalfEdge h = 3 * facet;
   while (!(mesh.vertices[mesh.from(h)].z() <= z && mesh.vertices[mesh.to(h)].z() > z)) ++h;

@@ -1,10 +1,10 @@
 // Horizontal sections of a closed mesh.
 //
-// A vertex exactly in the plane counts as below it. So every facet either passes the plane through two of its
-// edges or does not pass it at all, facets lying in the plane included, and since every edge joins two facets
-// the section falls into closed contours without a special case (a symbolic perturbation in the sense of
-// Edelsbrunner and Mücke, Simulation of Simplicity, 1990). The only predicate compares two doubles, so it is
-// exact; only the contours' points are rounded.
+// A vertex exactly in the plane counts as below it. So every facet, even one lying in the plane, either
+// crosses the plane with two of its edges or does not cross it at all. As every edge joins two facets, the
+// section consists of closed contours, without special cases (a symbolic perturbation: Edelsbrunner and
+// Mücke, Simulation of Simplicity, 1990). The only predicate compares two doubles and is exact; only the
+// points of the contours are rounded.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,9 @@ class Slicer {
  public:
   explicit Slicer(ClosedMesh mesh);
 
-  /// Contours at height z (mm, the mesh's own frame), the solid to their left; costs what the plane passes.
-  /// Where shells overlap the contours do, too: the section is what they enclose by the non-zero rule.
+  /// Contours at height z (mm, the mesh's own frame), with the solid to their left. Time grows with the
+  /// number of facets that cross the plane. Where shells overlap, so do contours: the section is what they
+  /// enclose by the non-zero rule.
   std::vector<Ring> contours(double z) const;
 
   const ClosedMesh& mesh() const { return mesh_; }

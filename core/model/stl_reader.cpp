@@ -39,7 +39,7 @@ bool is_binary(std::string_view bytes) {
 std::vector<Triangle> binary_triangles(std::string_view bytes) {
   std::vector<Triangle> triangles((bytes.size() - header_size) / record_size);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const std::size_t corners = header_size + i * record_size + 12;  // behind the normal
+    const std::size_t corners = header_size + i * record_size + 12;  // after the normal
     for (std::size_t k = 0; k < 9; ++k) {
       triangles[i][k / 3][Eigen::Index(k % 3)] =
           double(std::bit_cast<float>(little_endian(bytes, corners + 4 * k)));
@@ -105,11 +105,12 @@ class AsciiReader {
     double value = 0;
     const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
     if (error == std::errc::result_out_of_range) return word.find("e-") != std::string::npos ? 0 : HUGE_VAL;
-    // "1.#QNAN", "nan(ind)" and the like are how some compilers write what is no number.
+    // Some compilers write NaN as "1.#QNAN", "nan(ind)" and the like.
     if (word.find("nan") != std::string::npos || word.find("#ind") != std::string::npos) return NAN;
     if (word.find("#inf") != std::string::npos) return HUGE_VAL;
     if (error != std::errc{} || end != word.data() + word.size()) {
-      refuse(word.empty() ? "the file ends where a number should stand" : in_quotes(word) + " is no number");
+      refuse(word.empty() ? "the file ends where a number should stand"
+                          : in_quotes(word) + " is not a number");
     }
     return value;
   }
@@ -133,7 +134,7 @@ class AsciiReader {
   const std::string& file_;
   std::size_t at_ = 0;
   std::size_t line_ = 1;
-  bool inside_ = true;  ///< of solid … endsolid
+  bool inside_ = true;  ///< between solid and endsolid
 };
 
 bool begins_with_solid(std::string_view bytes) {
@@ -142,7 +143,7 @@ bool begins_with_solid(std::string_view bytes) {
   return lower(bytes.substr(first, 5)) == "solid";
 }
 
-/// Neither size nor text fits: say which of the two it seems to be.
+/// Neither the size nor the text is right: reports what the file seems to be.
 [[noreturn]] void refuse_size(std::string_view bytes, const std::string& file) {
   const std::string remedy = "export or copy the mesh again";
   if (bytes.size() < header_size) throw ModelError(file, "", "this is too short for an STL file", remedy);
@@ -154,7 +155,7 @@ bool begins_with_solid(std::string_view bytes) {
 
 std::vector<Triangle> triangles_of(std::string_view bytes, const std::string& file) {
   if (is_binary(bytes)) return binary_triangles(bytes);
-  // A binary file that begins with "solid" but was cut short is no text: it holds zero bytes.
+  // A binary file that begins with "solid" but was cut short is recognised by its zero bytes.
   const bool text = begins_with_solid(bytes) && bytes.find('\0') == std::string_view::npos;
   if (!text) refuse_size(bytes, file);
   return AsciiReader(bytes, file).read();

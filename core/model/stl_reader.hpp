@@ -1,6 +1,6 @@
-// Triangles of an STL file, binary or ASCII, as they stand there: nothing is welded or repaired.
-// A file whose size is 84 + 50·n, n being the count in its header, is binary whatever its first bytes say:
-// many programs begin binary files with "solid". The file's normals are ignored.
+// Reads the triangles of an STL file, binary or ASCII, without welding or repairs. A file of 84 + 50·n bytes,
+// where n is the count in its header, is binary even if it begins with "solid": many programs write that.
+// Normals are ignored.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,8 @@ namespace unicursal::core {
 using Vec3 = Eigen::Vector3d;
 using Triangle = std::array<Vec3, 3>;  ///< mm
 
-/// At least one triangle, all coordinates finite. Throws FileError, and ModelError naming triangle or line.
+/// Returns at least one triangle, with finite coordinates. Throws FileError, or ModelError naming triangle or
+/// line.
 std::vector<Triangle> read_stl(const std::filesystem::path& file);
 
 }  // namespace unicursal::core

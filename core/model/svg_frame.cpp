@@ -29,7 +29,7 @@ double px_per_unit(std::string_view unit, double whole) {
   if (unit == "%") return whole / 100;
   const auto found = std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.first == unit; });
   if (found == units.end()) {
-    throw Malformed("the unit " + in_quotes(unit) + " is none of mm, cm, Q, in, pt, pc, px, %");
+    throw Malformed("the unit " + in_quotes(unit) + " is not one of mm, cm, Q, in, pt, pc, px, %");
   }
   return found->second;
 }
@@ -78,8 +78,8 @@ std::vector<double> arguments(NumberScanner& scanner) {
 
 struct Alignment {
   bool uniform = true;
-  bool slice = false;    ///< cover the page instead of fitting into it
-  Vec2 share{0.5, 0.5};  ///< of the free space that lies left of (above) the drawing
+  bool slice = false;    ///< the drawing covers the page instead of fitting into it
+  Vec2 share{0.5, 0.5};  ///< of the free space, the part to the left of (above) the drawing
 };
 
 double share(std::string_view name) {
@@ -97,7 +97,7 @@ Alignment alignment(std::string_view text) {
   return result;
 }
 
-/// ViewBox → page, px, y down. `preserve_aspect_ratio` as in SVG 1.1, section 7.8.
+/// Maps the viewBox to the page (px, y down). `preserve_aspect_ratio` as in SVG 1.1, section 7.8.
 Eigen::Affine2d fitted(const Box& view, const Vec2& paper, const Alignment& how) {
   Vec2 scale = paper.cwiseQuotient(view.size());
   if (how.uniform) scale.setConstant(how.slice ? scale.maxCoeff() : scale.minCoeff());
@@ -152,7 +152,7 @@ Page page(const PageAttributes& attributes, Warnings& warnings) {
   const std::optional<double> width = paper_length(attributes.width),
                               height = paper_length(attributes.height);
   if (!width && !height) {
-    warnings.add("the drawing has no width and height, so that one unit is taken as a pixel of 1/96 inch");
+    warnings.add("the drawing has no width and height, so one unit is taken as a pixel of 1/96 inch");
   }
   const Vec2 natural = view ? view->size() : Vec2(100, 100);
   // A missing side follows from the other by the viewBox's proportions.

@@ -1,6 +1,6 @@
-// Where an SVG's numbers lie: lengths with units, transform lists, and the map from the root's user units to
-// the part's frame (mm, y up, origin at the lower left corner of the drawing's page).
-// One CSS pixel is 1/96 inch = 25.4/96 mm.
+// Places an SVG drawing: lengths with units, transform lists, and the map from the root's user units to the
+// part's frame (mm, y up, origin at the lower left corner of the page). One CSS pixel is 1/96 inch = 25.4/96
+// mm.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,11 +12,11 @@
 
 namespace unicursal::core {
 
-/// Pixels (user units). `whole` is what 100 % means, px. Units: none, px, mm, cm, in, pt, pc, Q, %.
+/// Converts a length to pixels (user units). `whole` is 100 %, px. Units: none, px, mm, cm, in, pt, pc, Q, %.
 /// Throws Malformed for anything else.
 double length(std::string_view text, double whole);
 
-/// A list of matrix, translate, scale, rotate, skewX, skewY; angles in degrees. Throws Malformed.
+/// Parses a list of matrix, translate, scale, rotate, skewX, skewY, with angles in degrees. Throws Malformed.
 Eigen::Affine2d transform(std::string_view text);
 
 /// The attributes of the root element that place the drawing; empty where absent.
@@ -26,10 +26,10 @@ struct PageAttributes {
 
 struct Page {
   Eigen::Affine2d to_part = Eigen::Affine2d::Identity();  ///< user units → part frame, mm
-  Vec2 size{0, 0};  ///< of the viewBox, user units: what percentages of lengths refer to
+  Vec2 size{0, 0};  ///< of the viewBox, user units; percentages of lengths refer to it
 };
 
-/// Throws Malformed for sizes that are not positive; warns when nothing gives a physical size.
+/// Throws Malformed for sizes that are not positive; warns if no attribute gives a physical size.
 Page page(const PageAttributes& attributes, Warnings& warnings);
 
 }  // namespace unicursal::core

@@ -28,7 +28,7 @@ class PathReader {
   char upper() const { return relative() ? static_cast<char>(command_ - 'a' + 'A') : command_; }
   bool relative() const { return command_ >= 'a'; }
 
-  /// Takes a letter, or keeps the last command where its arguments repeat.
+  /// Reads a command letter, or keeps the last command if its arguments repeat.
   void next_command() {
     const char before = command_;
     if (before != '\0') scanner_.skip_separator();
@@ -40,8 +40,8 @@ class PathReader {
     command_ = scanner_.peek();
     if (std::string_view("MmLlHhVvCcSsQqTtAaZz").find(command_) == std::string_view::npos ||
         command_ == '\0') {
-      throw Malformed(fmt::format("character {} should be a path command but reads {}",
-                                  scanner_.position() + 1, in_quotes(scanner_.rest())));
+      throw Malformed(fmt::format("character {} should be a path command but is {}", scanner_.position() + 1,
+                                  in_quotes(scanner_.rest())));
     }
     if (before == '\0' && upper() != 'M') throw Malformed("the path does not start with M");
     scanner_.advance();

@@ -22,7 +22,7 @@
 namespace unicursal::core {
 namespace {
 
-constexpr int deepest_nesting = 256;  ///< of groups; deeper ones are no drawing but an attack on the stack
+constexpr int deepest_nesting = 256;  ///< of groups; deeper nesting could overflow the stack
 
 bool any_of(std::string_view name, std::initializer_list<std::string_view> names) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -33,7 +33,7 @@ std::string_view local_name(const pugi::xml_node& node) {
   return name.substr(0, 4) == "svg:" ? name.substr(4) : name;
 }
 
-/// What a group hands down to its children.
+/// What children inherit from their group.
 struct Context {
   Style style;
   Eigen::Affine2d to_part = Eigen::Affine2d::Identity();
@@ -138,7 +138,7 @@ void SvgReader::element(const pugi::xml_node& node, const Context& parent) {
       shape(node, context);
     }
   } catch (const Malformed& problem) {
-    refuse(node, problem.what(), "correct the element or draw it anew");
+    refuse(node, problem.what(), "correct the element or draw it again");
   }
 }
 

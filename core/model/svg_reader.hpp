@@ -1,6 +1,6 @@
-// Filled shapes of an SVG drawing (1.1, the static part that has an area): path, rect, circle, ellipse,
-// polygon, polyline, inside any nesting of groups. Strokes, text, images, clones and clipping are not read.
-// Coordinates come out in the part's frame: mm, y up, origin at the page's lower left corner.
+// Reads the filled shapes of an SVG 1.1 drawing: path, rect, circle, ellipse, polygon and polyline, in groups
+// nested to any depth up to 256. Strokes, text, images, clones and clipping are not read. Coordinates are in
+// the part's frame: mm, y up, origin at the lower left corner of the page.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct Shape {
   std::vector<std::string> names;  ///< id, label and name of the element, then those of the groups around it
 };
 
-/// In painter's order: later shapes cover earlier ones; may be empty. Throws FileError, and ModelError naming
-/// line and element.
+/// Returns shapes in painter's order: later shapes cover earlier ones; may be empty. Throws FileError, or
+/// ModelError naming line and element.
 std::vector<Shape> read_svg(const std::filesystem::path& file, Warnings& warnings);
 
 }  // namespace unicursal::core

@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n\f") - first + 1);
 }
 
-/// Cuts at `separator`, but not inside parentheses (url(data:…;…)).
+/// Splits at `separator`, but not inside parentheses (url(data:…;…)).
 std::string_view take_entry(std::string_view& text) {
   int depth = 0;
   std::size_t end = 0;
@@ -50,7 +50,7 @@ std::optional<double> opacity(std::string_view value) {
   }
 }
 
-/// False where the value makes no sense; unknown properties are none of our business and pass.
+/// Returns false if the value is invalid; unknown properties are ignored and give true.
 bool apply(Style& style, std::string_view name, std::string_view value) {
   if (value == "inherit") return true;
   if (name == "fill") {

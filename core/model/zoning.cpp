@@ -7,12 +7,11 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double half_weld = weld_width / 2;  ///< mm, radius of the disc that tells slivers from shape
-constexpr double rounding = weld_width / 10;  ///< mm, how finely that disc's arcs are drawn
-constexpr double smoothing =
-    weld_width / 2;               ///< mm, how far a border may move to lose vertices that say nothing
-constexpr double overlap = 3e-6;  ///< mm, a few steps of the grid, so that patches really join
-constexpr double dust_area = speck_area * 1e-4;  ///< mm², leftovers of rounding on the grid
+constexpr double half_weld = weld_width / 2;  ///< mm, radius of the disc that cannot enter slivers
+constexpr double rounding = weld_width / 10;  ///< mm, tolerance of that disc's arcs
+constexpr double smoothing = weld_width / 2;  ///< mm, how far a border may move to lose unimportant vertices
+constexpr double overlap = 3e-6;              ///< mm, a few steps of the grid, so that patches really overlap
+constexpr double dust_area = speck_area * 1e-4;  ///< mm², pieces left by rounding on the grid
 
 using Claims = std::map<std::size_t, Region>;
 
@@ -28,7 +27,7 @@ Region near(const Region& region, const Box& box) {
 }
 
 bool is_sliver(const Polygon& polygon) {
-  // What a disc cannot enter has less area than a strip of the disc's width along its border.
+  // A place that the disc cannot enter has less area than a strip of the disc's width along its border.
   if (area(polygon) > weld_width * perimeter(polygon)) return false;
   return offset({polygon}, -half_weld, rounding).empty();
 }
@@ -43,12 +42,12 @@ void report_unclaimed(const Region& visible, const std::string& label, std::vect
 Region welded(const Region& region) {
   const Region closed = offset(offset(region, half_weld + overlap, rounding), -half_weld - overlap, rounding);
   Region gaps = subtract(closed, region);
-  // The disc leaves a fillet in every corner, too; those are short.
+  // The disc also leaves a fillet in every corner; fillets are short.
   std::erase_if(gaps, [](const Polygon& gap) { return bounds(gap).size().norm() < 2 * weld_width; });
   return gaps.empty() ? region : unite(region, offset(gaps, overlap, rounding));
 }
 
-/// Starts at an extreme vertex, because the first one always stays.
+/// Starts at an extreme vertex, because simplification always keeps the first one.
 Ring smoothed(Ring ring) {
   const auto extreme = std::min_element(ring.begin(), ring.end(), [](const Vec2& a, const Vec2& b) {
     return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
@@ -57,7 +56,7 @@ Ring smoothed(Ring ring) {
   return simplified(ring, smoothing);
 }
 
-/// Without the tiny steps that overlapping outlines, welds and facets leave in borders.
+/// Removes the tiny steps that overlapping outlines, welds and facets leave in borders.
 Region smoothed(const Region& region) {
   std::vector<Ring> rings;
   for (const Polygon& polygon : region) {
@@ -73,7 +72,7 @@ void remove_specks(Region& region) {
   for (Polygon& polygon : region) std::erase_if(polygon.holes, is_speck);
 }
 
-/// The zones' claims inside one island, without slivers, which are free for any neighbour.
+/// The areas of the zones inside one island, without slivers, which any neighbour may take.
 std::vector<ZoneRegion> local_claims(const Polygon& outline, const Claims& claims) {
   std::vector<ZoneRegion> result;
   const Box box = bounds(outline);
@@ -88,7 +87,7 @@ std::vector<ZoneRegion> local_claims(const Polygon& outline, const Claims& claim
   return result;
 }
 
-/// Gives a leftover to the zone that it touches most.
+/// Gives a leftover piece to the zone that it touches most.
 void give(const Polygon& piece, std::vector<ZoneRegion>& zones) {
   const Region reach = offset({piece}, half_weld, rounding);
   std::vector<double> touch;
@@ -98,7 +97,7 @@ void give(const Polygon& piece, std::vector<ZoneRegion>& zones) {
   taker.polygons = unite(taker.polygons, {piece});
 }
 
-/// Lets each zone grow by the weld's width into what nobody claims, so that all of them cover the outline.
+/// Lets each zone grow by the weld width into areas of no zone, so that together they cover the outline.
 std::vector<ZoneRegion> grown_together(const Polygon& outline, const std::vector<ZoneRegion>& claims) {
   std::vector<ZoneRegion> result;
   Region free{outline};
@@ -141,9 +140,9 @@ double mismatch(const Polygon& outline, const std::vector<ZoneRegion>& zones) {
   return std::abs(sum);
 }
 
-/// Clipper's sweep now and then puts a hole that touches another ring into the wrong one (about one time in a
-/// hundred piles of near copies). The areas tell, and a sweep along another axis does not err at the same
-/// place; reflections along axes and diagonals lose no digit.
+/// Clipper's sweep sometimes assigns a hole that touches another ring to the wrong one (about once in a
+/// hundred piles of near copies). The areas reveal it, and a sweep along another axis does not err at the
+/// same place. Reflections along axes and diagonals are exact.
 std::vector<ZoneRegion> covering(const Polygon& outline, const std::vector<ZoneRegion>& claims) {
   constexpr double tolerance = 1e-7;  // of the outline's area
   std::vector<ZoneRegion> best = grown_together(outline, claims);
@@ -174,7 +173,7 @@ Zoning zoned(const std::vector<Painted>& shapes) {
   Claims claims;
   Region whole;
   for (auto shape = shapes.rbegin(); shape != shapes.rend();) {
-    // Neighbours in the pile that belong to one zone need not be told apart.
+    // Neighbours in the pile that belong to the same zone can be united.
     const auto first = shape;
     std::vector<const Region*> pile{&(shape++)->region};
     while (first->zone && shape != shapes.rend() && shape->zone == first->zone)

@@ -1,4 +1,4 @@
-// From painted shapes to islands whose zones cover them without overlap.
+// Turns painted shapes into islands whose zones cover them without overlap.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace unicursal::core {
 
-/// mm: shapes closer than this are joined, and bare strips narrower than this go to a neighbouring zone.
+/// mm: shapes closer than this are joined, and uncovered strips narrower than this go to a neighbouring zone.
 inline constexpr double weld_width = 0.01;
 /// mm²: pieces and holes smaller than this are rounding, not shape.
 inline constexpr double speck_area = weld_width * weld_width;
@@ -20,10 +20,10 @@ inline constexpr double speck_area = weld_width * weld_width;
 struct Painted {
   Region region;
   std::optional<std::size_t> zone;
-  std::string label;  ///< how to name the shape to a person
+  std::string label;  ///< how messages name the shape
 };
 
-/// A piece of the part, wider than a sliver, that no zone claims.
+/// A piece of the part, wider than a sliver, that belongs to no zone.
 struct Unclaimed {
   std::string label;
   Vec2 place{0, 0};  ///< a point inside or near it
@@ -32,12 +32,12 @@ struct Unclaimed {
 
 struct Zoning {
   std::vector<Island> islands;       ///< largest first
-  std::vector<Unclaimed> unclaimed;  ///< largest first; the islands hold no such area
+  std::vector<Unclaimed> unclaimed;  ///< largest first; not part of the islands
 };
 
-/// Later shapes cover earlier ones. The part is the union of all shapes. Every island's zone regions add up
-/// to its outline; borders of zones that nearly meet are made to meet, and lie within half the weld's width
-/// of where they were drawn.
+/// Later shapes cover earlier ones, and the part is the union of all shapes. The zone regions of every island
+/// add up to its outline. Borders of zones that nearly meet are made to meet; they lie within half of
+/// `weld_width` of where they were drawn.
 Zoning zoned(const std::vector<Painted>& shapes);
 
 }  // namespace unicursal::core

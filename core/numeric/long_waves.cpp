@@ -7,9 +7,10 @@
 namespace unicursal::core {
 namespace {
 
-constexpr std::size_t range = 4096;  ///< points that one worker takes at a time
+constexpr std::size_t range = 4096;  ///< points in one piece of work
 
-/// Calls visit(coarse node, share) for the nodes of a grid of meshes twice as wide that a node lies between.
+/// A node of one grid lies between one, two or four nodes of the next coarser grid: calls visit(node, share)
+/// for each of them.
 template <typename Visit>
 void for_parents(std::size_t column, std::size_t row, std::size_t columns, Visit visit) {
   const std::size_t c = column / 2, r = row / 2;
@@ -87,7 +88,8 @@ void LongWaves::add_finer(Field& nodes, const Grid& at, const Field& coarse, con
 void LongWaves::apply(std::vector<Vec2>& field, Workers* workers) const {
   if (empty()) return;
   assert(field.size() == places_.size());
-  // Bilinear functions of a coarse grid are such of the finer ones, so all sums pass through the finest.
+  // A bilinear function on a coarse grid is also one on the finer grids, so all sums go through the finest
+  // grid.
   std::vector<Field> levels{gathered(field)};
   for (std::size_t k = 1; k < grids_.size(); ++k)
     levels.push_back(coarser(levels.back(), grids_[k - 1], grids_[k]));

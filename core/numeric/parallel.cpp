@@ -11,7 +11,7 @@
 
 namespace unicursal::core {
 
-/// Threads that wait for a round number to change, take pieces until none is left, and report back.
+/// Threads that wait until the round number changes, take pieces until none is left, and report back.
 class Workers::Helpers {
  public:
   explicit Helpers(int count) {

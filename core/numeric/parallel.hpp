@@ -1,5 +1,5 @@
-// A few threads that share out the pieces of one job. The pieces are cut by the caller and do not depend on
-// how many threads there are, so sums made piece by piece are the same bytes with any number of them.
+// Worker threads that share the pieces of one job. The caller cuts the pieces, independently of the number of
+// threads, so sums made piece by piece have the same bytes for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,18 @@ namespace unicursal::core {
 
 class Workers {
  public:
-  /// `threads` ≥ 1, the calling one included: 1 starts none.
+  /// `threads` ≥ 1 includes the calling thread; 1 starts no other.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
   /// Calls job(0) … job(count − 1), each once, in any order and on any thread; returns when all are done.
-  /// Not to be called from within a job, nor by two threads at once. An exception of a job ends the job and
-  /// is thrown here.
+  /// Must not be called from within a job, nor by two threads at once. If a job throws, no further piece is
+  /// begun, and the exception is rethrown here.
   void each(std::size_t count, const std::function<void(std::size_t)>& job);
 
-  /// The same for ranges of `size` numbers: job(first, last).
+  /// Like each(), for ranges of `size` numbers: job(first, last), `last` excluded.
   void ranges(std::size_t count, std::size_t size, const std::function<void(std::size_t, std::size_t)>& job);
 
  private:

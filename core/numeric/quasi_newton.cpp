@@ -5,11 +5,11 @@
 namespace unicursal::core {
 namespace {
 
-constexpr std::size_t memory = 7;          ///< pairs, as in the paper
-constexpr double least_curvature = 1e-12;  ///< relative, of a pair worth keeping
-constexpr std::size_t range = 4096;        ///< vectors that are added up in one piece
+constexpr std::size_t memory = 7;          ///< pairs of step and change; the paper's M
+constexpr double least_curvature = 1e-12;  ///< least relative curvature of a pair that is kept
+constexpr std::size_t range = 4096;        ///< vectors in one piece of a sum
 
-/// Four sums side by side, so that none waits for the last.
+/// Four sums side by side, so that no addition waits for the one before it.
 template <typename Vector>
 double dot_of_range(const Vec2* a, const Vector* b, std::size_t count) {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -35,7 +35,7 @@ void add_to_range(Vec2* a, double factor, const Vector* b, std::size_t count) {
   }
 }
 
-/// Calls work(first, count) for every range, and adds up what it returns in order.
+/// Calls work(first, count) for every range and adds up the results in order.
 template <typename Work>
 double sum_of_ranges(std::size_t count, Workers* workers, Work work) {
   const std::size_t pieces = (count + range - 1) / range;
@@ -53,7 +53,7 @@ double sum_of_ranges(std::size_t count, Workers* workers, Work work) {
 
 using Floats = std::vector<std::array<float, 2>>;
 
-/// a += factor · b, and then a · c, in one go.
+/// a += factor · b; returns a · c.
 double add_and_dot(std::vector<Vec2>& a, double factor, const Floats& b, const Floats& c, Workers* workers) {
   return sum_of_ranges(a.size(), workers, [&](std::size_t first, std::size_t count) {
     add_to_range(a.data() + first, factor, b.data() + first, count);
@@ -111,7 +111,7 @@ std::vector<Vec2> QuasiNewton::direction(const std::vector<Vec2>& gradient) cons
       waves_.apply(q, workers_);
       product = add_and_dot(q, 0, pairs_[0].change, pairs_[0].change, workers_);
     }
-    // Instead of scaling q here, its products are scaled, and q at the end.
+    // q is scaled only at the end; until then its products are scaled instead.
     const double scale = pairs_.back().curvature;
     for (std::size_t k = 0; k < count; ++k) {
       const double beta = pairs_[k].inverse * scale * product;

@@ -1,5 +1,6 @@
-// The L-BFGS direction (D. Liu and J. Nocedal 1989) for unknowns that are points of the plane. Callers own
-// the line search: they can guard steps, pause, and forget what was learned when the objective changes.
+// The L-BFGS direction (D. Liu and J. Nocedal 1989) for unknowns that are points of the plane. The line
+// search is the caller's, so that it can limit steps, pause, and forget earlier steps when the objective
+// changes.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace unicursal::core {
 
-/// Sum of the dot products of corresponding vectors, added up in the same order for any number of workers.
-/// Precondition: equal sizes, here and below.
+/// Sum of the dot products of corresponding vectors; the same bytes for any number of workers.
+/// Precondition, also of the next function: equal sizes.
 double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b, Workers* workers = nullptr);
 /// a += factor · b
 void add_scaled(std::vector<Vec2>& a, double factor, const std::vector<Vec2>& b, Workers* workers = nullptr);
@@ -23,26 +24,28 @@ class QuasiNewton {
  public:
   explicit QuasiNewton(Workers* workers = nullptr) : workers_(workers) {}
 
-  /// Forgets all steps. `waves` stand before the gradient from now on, in the place of the unit matrix.
+  /// Forgets all steps. From now on `waves` is the initial matrix instead of the identity.
   void forget(LongWaves waves = {}) {
     pairs_.clear();
     waves_ = std::move(waves);
   }
-  /// The same, and keeps the waves.
+  /// Forgets all steps but keeps the initial matrix.
   void forget_steps() { pairs_.clear(); }
   bool empty() const { return pairs_.empty(); }
 
-  /// What a step did to the gradient; pairs without positive curvature are left out.
+  /// Takes in a step and the change of the gradient that it caused. Pairs without positive curvature are
+  /// ignored.
   void remember(const std::vector<Vec2>& step, const std::vector<Vec2>& change);
-  /// Points downhill; the negative gradient, times the waves' matrix, as long as nothing is remembered.
+  /// The direction of the next step, downhill. Without remembered steps: the negative gradient times the
+  /// initial matrix.
   std::vector<Vec2> direction(const std::vector<Vec2>& gradient) const;
 
  private:
-  /// In floats: a direction needs no more, and large islands have many.
+  /// Stored as floats: a direction needs no more, and large islands have many unknowns.
   struct Pair {
     std::vector<std::array<float, 2>> step, change;
     double inverse;    ///< 1 ÷ their dot product
-    double curvature;  ///< their dot product ÷ the change's square, in the waves' metric
+    double curvature;  ///< their dot product ÷ the squared change, in the metric of the initial matrix
   };
   std::deque<Pair> pairs_;
   LongWaves waves_;

@@ -1,5 +1,5 @@
-// Random numbers that are the same on every machine: the engine is fixed by the standard, the distributions
-// of <random> are not, so the few that are needed are written out.
+// Random numbers that are the same on every machine. The standard fixes the engine but not the distributions
+// of <random>, so the few distributions that are needed are written out.
 #pragma once
 
 #include <cstdint>

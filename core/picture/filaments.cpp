@@ -9,7 +9,7 @@ namespace unicursal::picture {
 
 namespace {
 
-constexpr double darkest = 0.002;  // reflectance; none is black to the last
+constexpr double darkest = 0.002;  // reflectance: no filament is perfectly black
 
 double to_light(std::uint8_t value) {
   const double v = value / 255.0;

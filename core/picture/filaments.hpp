@@ -1,7 +1,7 @@
-// What a mixture of filaments looks like. Pigments do not mix like light: dark ones cover light ones. The
-// model is Beer and Lambert's for translucent plastic: light passes the parts one after the other, so for
-// each of red, green and blue the logarithm of what comes back is the mean of the parts', weighted by their
-// shares.
+// The colour of a mixture of filaments. Pigments do not mix like light: dark ones dominate light ones. The
+// model is the Beer–Lambert law for translucent plastic, in which light passes through one part after the
+// other: for red, green and blue alike, the logarithm of the reflected light is the mean over the parts,
+// weighted by their shares.
 #pragma once
 
 #include <array>
@@ -15,10 +15,11 @@ namespace unicursal::picture {
 inline constexpr std::array<Colour, 6> filaments{
     {{38, 96, 196}, {214, 52, 48}, {246, 240, 226}, {240, 190, 40}, {60, 150, 84}, {52, 52, 56}}};
 
-/// `shares` of the first feeders; they add up to 1. At most six.
+/// `shares`: one for each of the first feeders, at most six, with a sum of 1.
 Colour mixed_filaments(std::span<const double> shares);
 
-/// `light` times the colour's own, in linear light; white where that exceeds it.
+/// The colour with its brightness in linear light multiplied by `light`; each of red, green and blue ends at
+/// its maximum.
 Colour lit(Colour colour, double light);
 
 }  // namespace unicursal::picture

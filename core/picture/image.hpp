@@ -1,4 +1,4 @@
-// A small colour picture that can be drawn on and written as PNG. Units: pixels, y down.
+// A colour picture to draw on and to write as PNG. Units: pixels, y down.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@ class Image {
 
   Colour at(std::size_t x, std::size_t y) const;
   void set(std::size_t x, std::size_t y, Colour colour);
-  /// Mixes `colour` over the pixel; `cover` in 0…1. Outside pixels are ignored.
+  /// Mixes `colour` over the pixel; `cover` in 0…1. Pixels outside the picture are ignored.
   void blend(std::ptrdiff_t x, std::ptrdiff_t y, Colour colour, double cover);
-  /// A straight stroke with round ends and smooth borders, `thickness` pixels wide.
+  /// Draws a straight stroke with round ends and smooth borders, `thickness` pixels wide.
   void stroke(double x0, double y0, double x1, double y1, double thickness, Colour colour);
 
  private:
@@ -33,7 +33,7 @@ class Image {
   std::vector<Colour> pixels_;
 };
 
-/// Throws std::system_error with the path when the file cannot be written.
+/// Throws std::system_error with the path if the file cannot be written.
 void write_png(const std::filesystem::path& file, const Image& image);
 
 }  // namespace unicursal::picture

@@ -7,10 +7,10 @@
 
 namespace unicursal::picture {
 
-inline constexpr std::size_t glyph_width = 4, glyph_height = 5;  ///< dots, the space behind it included
+inline constexpr std::size_t glyph_width = 4, glyph_height = 5;  ///< dots, including the gap after the glyph
 
-/// Writes from the upper left corner; a dot is a square of `dot` pixels. Other characters are left blank;
-/// what lies outside the picture is not drawn.
+/// Writes with the upper left corner at (x, y); a dot is a square of `dot` pixels. Other characters leave a
+/// blank, and parts outside the picture are not drawn.
 void write(Image& image, std::ptrdiff_t x, std::ptrdiff_t y, std::string_view text, std::size_t dot,
            Colour colour);
 

@@ -22,7 +22,7 @@ std::string file_bytes(const std::filesystem::path& file) {
     throw FileError(file.string(), "", "this is not a file", "name a drawing or a mesh");
   }
   const std::uintmax_t size = fs::file_size(file, error);
-  if (error) throw FileError(file.string(), "", "its size cannot be told", "check the disk");
+  if (error) throw FileError(file.string(), "", "its size cannot be read", "check the disk");
   if (size > largest_file)
     throw FileError(file.string(), "", "it is larger than 2 GiB", "simplify the model");
   std::string bytes(size, '\0');

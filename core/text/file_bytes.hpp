@@ -1,4 +1,4 @@
-// A whole file in memory.
+// Reads a whole file into memory.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace unicursal::core {
 
-/// Throws FileError when `file` is not a readable regular file of at most 2 GiB.
+/// Throws FileError if `file` is not a readable regular file of at most 2 GiB.
 std::string file_bytes(const std::filesystem::path& file);
 
 }  // namespace unicursal::core

@@ -19,7 +19,7 @@ std::string in_quotes(std::string_view text) {
     const auto code = static_cast<unsigned char>(c);
     result += code < 0x20 || code == 0x7f ? '?' : c;
   }
-  // A cut may fall inside a character of several bytes: drop what is left of it.
+  // The cut may fall inside a character of several bytes: drop the bytes that are left of it.
   if (text.size() > longest_quote) {
     while ((static_cast<unsigned char>(text[longest_quote]) & 0xc0) == 0x80 && result.size() > 1 &&
            (static_cast<unsigned char>(result.back()) & 0xc0) == 0x80) {

@@ -1,8 +1,8 @@
-// How long layers will print that nobody has planned yet: a thread of its own slices them all and adds up
-// area × height ÷ flow, which takes about a millisecond a layer.
+// Estimates how long layers will print that have not been planned yet. A thread of its own slices all of them
+// and adds up area × height ÷ flow, which takes about a millisecond per layer.
 //
 //   ForetoldTimes times(*part, first, count, flow);
-//   if (const auto seconds = times.between(20, count)) tell(*seconds);
+//   if (const auto seconds = times.between(20, count)) show(*seconds);
 #pragma once
 
 #include <atomic>
@@ -15,23 +15,23 @@
 
 namespace unicursal::host {
 
-/// s that a layer takes at `flow`, mm³/s; 0 where that is unknown.
+/// The time that a layer prints at `flow` mm³/s, s; 0 if the flow is 0 (unknown).
 double foretold_seconds(const core::Layer& layer, double flow);
 
 class ForetoldTimes {
  public:
-  /// Of `count` layers from `first` on. `part` must outlive this object.
+  /// Starts to slice `count` layers from `first` on. `part` must outlive this object.
   ForetoldTimes(const core::Part& part, std::size_t first, std::size_t count, double flow);
 
-  /// s of the layers from `begin` up to `end`, which is not one of them, counted from the first; those that
-  /// are not there take no time. Nothing until all are known, nor when one could not be sliced: planning
-  /// tells why. From any thread.
+  /// Time of the layers from `begin` up to but without `end`, s. Layers are counted from `first`; layers that
+  /// do not exist take no time. Returns nullopt until all times are known, and forever if a layer cannot be
+  /// sliced (planning then reports the reason). May be called from any thread.
   std::optional<double> between(std::size_t begin, std::size_t end) const;
 
  private:
-  std::vector<double> behind_;  ///< s of the layer and all after it
+  std::vector<double> behind_;  ///< per layer: time of it and of all later layers, s
   std::atomic<bool> known_ = false;
-  std::jthread thread_;  ///< last, so that it ends before what it fills
+  std::jthread thread_;  ///< the last member, so that it ends before the members that it fills
 };
 
 }  // namespace unicursal::host

@@ -20,9 +20,9 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double margin = 1;  ///< s before a layer is needed, for what nobody can foretell
+constexpr double margin = 1;  ///< how long before the printer needs it a layer is to be ready, s
 
-/// Steele, Lea, Flood 2014: the finaliser of SplitMix64, which spreads every bit over all.
+/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014), in which every input bit affects all output bits.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -36,17 +36,17 @@ double area_of(const core::Layer& layer) {
   return area;
 }
 
-/// A layer between being sliced and being handed over.
+/// A layer that is being sliced or planned, or waits to be handed over.
 struct OpenLayer {
   PlannedLayer result;
   bool sliced = false;
-  std::size_t begun = 0;     ///< islands
-  std::size_t finished = 0;  ///< islands
+  std::size_t begun = 0;     ///< number of islands
+  std::size_t finished = 0;  ///< number of islands
   std::exception_ptr error;
   double area = 0;           ///< mm²
-  double print_seconds = 0;  ///< as the flow foretells
-  double sliced_at = 0;      ///< s of the printer's clock, in virtual time
-  double planned_cells = 0;  ///< of its islands so far
+  double print_seconds = 0;  ///< estimated from the flow
+  double sliced_at = 0;      ///< time on the printer's clock, s; in virtual time only
+  double planned_cells = 0;  ///< total of the islands planned so far
 
   bool has_work() const { return sliced && !error && begun < result.plans.size(); }
   bool complete() const { return error ? begun == finished : sliced && finished == result.plans.size(); }
@@ -58,12 +58,12 @@ struct OpenLayer {
   }
 };
 
-/// An island on its way, whose planning asks whether that is enough.
+/// An island that is being planned.
 struct Attempt {
   double cells = 0;  ///< area ÷ bead width²
-  double begun = 0;  ///< s of the clock
+  double begun = 0;  ///< time on the clock, s
   double allowed = no_hurry;
-  std::optional<double> cut;  ///< when it was told that it is enough
+  std::optional<double> cut;  ///< when its optimisers were stopped, s
 };
 
 }  // namespace
@@ -85,7 +85,7 @@ struct Lookahead::State {
     if (options.pace) pacer = Pacer(options.threads, options.pace->now ? 1 : options.pace->charge);
   }
 
-  /// Apart from construction, so that the destructor stops those that did start when one could not.
+  /// Separate from the constructor, so that if one thread cannot be started the destructor stops the others.
   void start() {
     for (std::size_t i = 0; i < options.threads; ++i) workers.emplace_back([this] { work(); });
   }
@@ -110,7 +110,7 @@ struct Lookahead::State {
     return sum;
   }
 
-  /// When the nozzle needs the layer.
+  /// The time at which the nozzle needs the layer, s.
   double need_of(const OpenLayer& layer) const {
     if (!position) return no_hurry;
     double need = *position;
@@ -126,7 +126,7 @@ struct Lookahead::State {
     return found == open.end() ? nullptr : found->get();
   }
 
-  /// Older layers first: islands of open layers come before a new layer is cut.
+  /// Older layers first: islands of open layers are planned before a new layer is sliced.
   void work() {
     lower_priority();
     Timeline time(options.pace);
@@ -173,8 +173,8 @@ struct Lookahead::State {
     ++layer.finished;
   }
 
-  /// Somebody waits for the first layer, so that its only island may take all threads. Virtual time, in which
-  /// threads are told apart by what they spend, could not tell.
+  /// The print waits for its first layer, so if that has a single island, it may use all threads. Not in
+  /// virtual time, which charges every thread for its own work.
   int threads_for(const OpenLayer& layer) const {
     const bool alone = layer.result.layer.index == options.first && layer.result.plans.size() == 1;
     return alone && options.pace && options.pace->now ? static_cast<int>(options.threads) : 1;
@@ -189,7 +189,7 @@ struct Lookahead::State {
     return attempt;
   }
 
-  /// Asked unlocked, between the steps of the optimisers.
+  /// Called without the lock, between the steps of the optimisers: whether they are to stop.
   bool enough(const OpenLayer& layer, Attempt& attempt, const Timeline& time) const {
     if (cancelled || attempt.cut) return true;
     if (!options.pace || options.patient) return false;
@@ -200,7 +200,7 @@ struct Lookahead::State {
     return true;
   }
 
-  /// What this island teaches for the next ones.
+  /// Updates the pacer and the layer's effort after an island.
   void learn(OpenLayer& layer, const Attempt& attempt, const core::Effort& effort_taken, double now) {
     const double steps = std::accumulate(effort_taken.begin(), effort_taken.end(), 0.0);
     if (attempt.cut)
@@ -210,7 +210,7 @@ struct Lookahead::State {
     layer.add_effort(attempt.cut ? pacer.part_of_full(steps) : 1, attempt.cells);
   }
 
-  /// Runs `step` unlocked and keeps the first error for the consumer.
+  /// Runs `step` without the lock and keeps the first error for the consumer.
   void run(std::unique_lock<std::mutex>& lock, OpenLayer& layer, Timeline& time,
            const std::function<void()>& step) {
     std::exception_ptr error;
@@ -248,8 +248,8 @@ struct Lookahead::State {
     if (cancelled || open.empty()) return {};
     const std::unique_ptr<OpenLayer> layer = std::move(open.front());
     open.pop_front();
-    room_since = now_told;
-    // Until it is told anew: the next one is needed when this one is printed.
+    room_since = last_report;
+    // Until the next report, the next layer is assumed to be needed when this one is printed.
     if (position) *position = std::max(*position, layer->result.ready_at) + layer->print_seconds;
     work_available.notify_all();
     if (!layer->error) return std::move(layer->result);
@@ -269,17 +269,18 @@ struct Lookahead::State {
   mutable std::mutex mutex;
   std::condition_variable work_available, consumer;
   std::function<void()> listener;
-  std::deque<std::unique_ptr<OpenLayer>> open;  ///< by layer
+  std::deque<std::unique_ptr<OpenLayer>> open;  ///< in order of layers
   std::size_t next_layer = 0;
   std::size_t most_open = 0;
   std::atomic<bool> cancelled = false;
-  std::optional<double> position;  ///< s of the clock when the printer needs the next layer, once it prints
-  double now_told = 0;             ///< s of the clock, as last told
-  double room_since = 0;           ///< s of the clock at which a layer was last taken
+  /// Time at which the printer needs the next layer, s; absent until it prints.
+  std::optional<double> position;
+  double last_report = 0;  ///< time of the last report, s
+  double room_since = 0;   ///< time at which a layer was last taken, s
   PlanningEffort effort;
-  std::size_t active = 0;  ///< threads that are slicing or planning
+  std::size_t active = 0;  ///< number of threads that are slicing or planning
   Clock::time_point busy_since;
-  std::vector<std::jthread> workers;  ///< last, so that they end before what they use
+  std::vector<std::jthread> workers;  ///< the last member, so that they end before the members that they use
 };
 
 Lookahead::Lookahead(const core::Part& part, const LookaheadOptions& options)
@@ -308,7 +309,7 @@ void Lookahead::on_ready(std::function<void()> listener) {
 
 void Lookahead::printed(double now, double left) {
   const std::lock_guard lock(state_->mutex);
-  state_->now_told = now;
+  state_->last_report = now;
   state_->position = now + left;
 }
 

@@ -1,12 +1,11 @@
-// Planning ahead of the nozzle: layers are sliced and planned on worker threads of lower priority and
-// handed over in order. Only so many layers, and so many seconds of printing, are open or waiting at any
-// time: memory does not grow with the height of the part. The result does not depend on the number of
-// threads.
+// Plans ahead of the nozzle. Worker threads of lower priority slice and plan layers, which are handed over in
+// order. The number of layers, and of seconds of printing, that are being planned or waiting is bounded, so
+// memory does not grow with the height of the part. The result does not depend on the number of threads.
 //
-// With a `pace`, every island gets the time that the printing of earlier layers leaves (pacer.hpp); whoever
-// prints tells where the printer is. In virtual time, the printer's clock stands still while this computer
-// plans: every thread then keeps a time of its own, which planning moves by `charge` times what it took, and
-// a layer tells when it would have been there.
+// With a `pace`, every island gets the time that the printing of earlier layers leaves (pacer.hpp), and the
+// caller reports the printer's progress with printed(). In virtual time the printer's clock stands still
+// while this computer plans. Each thread then has a clock of its own, which planning advances by `charge`
+// times the time it took, and PlannedLayer::ready_at is the time at which the layer would have been ready.
 //
 //   Lookahead lookahead(*part, options);
 //   while (std::optional<PlannedLayer> layer = lookahead.wait()) use(*layer);
@@ -27,51 +26,52 @@
 namespace unicursal::host {
 
 struct LookaheadOptions {
-  core::PlanOptions plan;  ///< `seed` is the job's; every island gets its own, made from it
-  std::shared_ptr<const core::IslandPlanner> planner;  ///< of the part's zones; made from them when absent
+  core::PlanOptions plan;  ///< `seed` is that of the job; every island gets its own, derived from it
+  std::shared_ptr<const core::IslandPlanner> planner;  ///< for the part's zones; created if null
   std::size_t first = 0;                               ///< index of the first layer to plan
-  std::size_t count = 0;                               ///< how many layers from there
-  std::size_t threads = 0;                             ///< 0: one for each core
-  double flow = 0;  ///< mm³/s, by which the time that a layer prints is foretold; 0: unknown
-  /// s of printing that are planned ahead, where the flow is known; but always one layer more than threads,
-  /// so that these have work. 0: as many layers as may be open.
+  std::size_t count = 0;                               ///< number of layers to plan
+  std::size_t threads = 0;                             ///< 0: one per core
+  double flow = 0;  ///< mm³/s, to estimate how long a layer prints; 0: unknown
+  /// Printing time that is planned ahead if the flow is known, s. At least one layer more than there are
+  /// threads is always open, so that the threads have work. 0: only `ahead` limits the layers.
   double horizon = 0;
-  std::size_t ahead = 0;  ///< layers that may be open or waiting; 0: default_ahead(), or most_ahead
+  std::size_t ahead = 0;  ///< most layers open or waiting; 0: default_ahead(), or most_ahead with a horizon
   std::optional<PlanningClock> pace;  ///< absent: every island takes as long as it needs
-  bool patient = false;               ///< it does so with a pace as well: the nozzle may wait
+  bool patient = false;  ///< every island takes as long as it needs even with a pace; the nozzle may wait
 };
 
-/// Layers that may be open when there is no horizon in seconds.
+/// Most layers that are open without a horizon in seconds.
 constexpr std::size_t default_ahead(std::size_t threads) {
   return threads + 2;
 }
-/// And when there is one: what bounds memory for layers that print in no time.
+/// Most layers that are open with a horizon: bounds memory if layers print in almost no time.
 inline constexpr std::size_t most_ahead = 64;
 
-/// The seed of one island's random jitter: layers differ, so that gaps do not line up through the height.
+/// The seed of the random numbers of one island. Layers get different seeds, so that gaps do not line up.
 std::uint64_t island_seed(std::uint64_t job_seed, std::size_t layer, std::size_t island);
 
 class Lookahead {
  public:
   /// `part` must outlive this object.
   Lookahead(const core::Part& part, const LookaheadOptions& options);
-  /// Islands that are being planned are dropped at their next step.
+  /// Stops the planning of all islands at their next step.
   ~Lookahead();
 
-  /// The next layer, or nothing after the last and after cancel(). Rethrows what slicing or planning threw,
-  /// when its turn has come. Blocks; one caller at a time.
+  /// Waits for the next layer. Returns nullopt after the last one and after cancel(). Rethrows an exception
+  /// of slicing or planning when it is that layer's turn. One caller at a time.
   std::optional<PlannedLayer> wait();
   /// Whether wait() would return at once.
   bool ready() const;
-  /// Called, mostly by a planning thread, when ready() may have become true; not any more once this returns
-  /// with an empty one. It must not call back.
+  /// Sets a function that is called, mostly by a planning thread, when ready() may have become true. It must
+  /// not call back. After on_ready({}) has returned, it is not called any more.
   void on_ready(std::function<void()> listener);
 
-  /// The printer has, at `now`, `left` s of printing before it needs the next layer. Until this is told for
-  /// the first time nobody hurries. From any thread.
+  /// Reports that at time `now` the printer has `left` s of printing before it needs the next layer. Until
+  /// the first report islands have unlimited time. May be called from any thread.
   void printed(double now, double left);
 
-  /// No further island is begun, those at work end soon; who waits is woken. From any thread.
+  /// Begins no further island and ends those being planned soon; wakes a caller of wait(). May be called from
+  /// any thread.
   void cancel();
 
   PlanningEffort effort() const;

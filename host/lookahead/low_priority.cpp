@@ -16,7 +16,7 @@ constexpr int planner_niceness = 10;
 void lower_priority() {
   const sched_param parameters{};
   pthread_setschedparam(pthread_self(), SCHED_BATCH, &parameters);
-  pthread_setname_np(pthread_self(), "planner");  // for those who look at what the processor does
+  pthread_setname_np(pthread_self(), "planner");  // shown by top and the like
   const auto thread = static_cast<id_t>(gettid());
   setpriority(PRIO_PROCESS, thread, planner_niceness);
 }

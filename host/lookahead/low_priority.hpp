@@ -1,9 +1,10 @@
-// Threads that plan stand back behind the one that talks to the printer.
+// Planning threads have a lower priority than the thread that talks to the printer.
 #pragma once
 
 namespace unicursal::host {
 
-/// Of the calling thread. Best effort: where it is refused, it just competes on equal terms.
+/// Lowers the priority of the calling thread. Best effort: if the system refuses, the priority stays as it
+/// is.
 void lower_priority();
 
 }  // namespace unicursal::host

@@ -5,11 +5,11 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double enough_ahead = 30;       ///< s of look-ahead, above which no island is cut for its sake
-constexpr double spent_of_surplus = 0.5;  ///< of what is ahead beyond that
-constexpr double caution = 1.3;           ///< on the longest tail seen so far
-constexpr double least_cells = 1;         ///< of which a time for each can be told
-constexpr double memory = 0.8;            ///< of earlier islands, in the mean of full steps
+constexpr double enough_ahead = 30;       ///< look-ahead that need not grow any more, s
+constexpr double spent_of_surplus = 0.5;  ///< share of the look-ahead beyond that which may be spent
+constexpr double caution = 1.3;           ///< factor on the longest tail so far
+constexpr double least_cells = 1;         ///< islands with fewer cells say nothing about the time per cell
+constexpr double memory = 0.8;            ///< weight of earlier islands in the mean of full steps
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// A layer that is sliced and planned, and how many of them wait. s.
+// A layer that has been sliced and planned, and figures about planning. s.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@ namespace unicursal::host {
 
 struct PlannedLayer {
   core::Layer layer;
-  std::vector<core::IslandPlan> plans;  ///< one for each island, in the same order
-  double cpu_seconds = 0;               ///< that slicing and planning it have cost
-  /// Of the optimisers' steps that its islands would have taken had nobody hurried, by area; 1 when none was
-  /// cut.
+  std::vector<core::IslandPlan> plans;  ///< one per island, in the same order
+  double cpu_seconds = 0;               ///< processor time of slicing and planning it
+  /// The optimisers' steps as a share of those that unhurried islands take, weighted by area; 1 if no island
+  /// was hurried.
   double effort = 1;
-  double ready_at = 0;  ///< s, in virtual time: when it would have been there
+  double ready_at = 0;  ///< in virtual time: when it would have been ready, s
 };
 
-/// Layers that are planned and not yet taken.
+/// Layers that are planned but not yet taken.
 struct Waiting {
   std::size_t layers = 0;
   double seconds = 0;  ///< of printing
@@ -27,7 +27,7 @@ struct Waiting {
 
 /// What planning has cost so far.
 struct PlanningEffort {
-  double seconds = 0;      ///< during which at least one thread was slicing or planning
+  double seconds = 0;      ///< time during which at least one thread was slicing or planning
   double cpu_seconds = 0;  ///< of all threads together
 };
 

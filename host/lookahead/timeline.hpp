@@ -1,4 +1,5 @@
-// A planning thread's place on the printer's clock, which in virtual time is its own. s.
+// The time of a planning thread on the printer's clock. In virtual time each thread has a clock of its own.
+// s.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +16,17 @@ inline double thread_cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// For the thread that made it.
+/// To be used by the thread that created it.
 class Timeline {
  public:
   explicit Timeline(const std::optional<PlanningClock>& pace) : pace_(pace) {}
 
-  /// A step begins, which could not before `earliest`.
+  /// Begins a step that could not begin before `earliest`.
   void begin(double earliest) {
     virtual_ = std::max(virtual_, earliest);
     cpu_ = thread_cpu_seconds();
   }
-  /// And ends. Returns what it has taken of the processor.
+  /// Ends the step. Returns the processor time that it took, s.
   double end() {
     const double spent = thread_cpu_seconds() - cpu_;
     if (is_virtual()) virtual_ += pace_->charge * spent;
@@ -36,7 +37,7 @@ class Timeline {
     if (!pace_) return 0;
     return is_virtual() ? virtual_ + pace_->charge * (thread_cpu_seconds() - cpu_) : pace_->now();
   }
-  /// When the last step ended, in virtual time; 0 in any other.
+  /// When the last step ended, in virtual time; 0 otherwise.
   double ended() const { return is_virtual() ? virtual_ : 0; }
 
  private:

@@ -6,7 +6,7 @@
 namespace unicursal::host {
 namespace {
 
-/// A corner of the segments: column 0 to 1, row 0 (foot), 1 or 2. The 1 stands in the middle.
+/// An end of a segment: column 0 to 1, row 0 (bottom), 1 or 2. The digit 1 is in the middle column.
 struct Corner {
   double column, row;
 };

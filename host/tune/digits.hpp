@@ -1,4 +1,4 @@
-// Numbers as strokes of a nozzle, in the seven segments of a pocket calculator. mm.
+// Numbers as strokes of the nozzle, in seven-segment digits. mm.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace unicursal::host {
 
-/// How wide the number is.
+/// The width of the number.
 double number_width(std::size_t number, const StripSizes& sizes);
 
-/// Its strokes, open lines; `corner` is the lower left one.
+/// The strokes of the number as open lines; `corner` is its lower left corner.
 std::vector<std::vector<core::Vec2>> number_strokes(std::size_t number, const core::Vec2& corner,
                                                     const StripSizes& sizes);
 

@@ -8,8 +8,8 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double step = 0.1;       ///< mm from sample to sample
-constexpr std::size_t around = 4;  ///< samples to either side that the eye takes together
+constexpr double step = 0.1;       ///< mm between samples
+constexpr std::size_t around = 4;  ///< samples to either side that are averaged, as an eye does
 
 }  // namespace
 
@@ -67,7 +67,7 @@ double StripOnRaster::first_at_least(double change) const {
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (change_around(i) >= change) return static_cast<double>(i) * step;
   }
-  throw core::DataError("", "the strip", "still changes its colour at its end",
+  throw core::DataError("", "the strip", "still changes colour at its end",
                         "print again with a larger --range");
 }
 
@@ -75,7 +75,7 @@ StripReading StripOnRaster::read(const Strip& strip) {
   const auto seen = [](const Sample& sample) { return sample.seen; };
   if (!std::all_of(samples_.begin(), samples_.end(), seen) ||
       !std::all_of(references_.begin(), references_.end(), seen)) {
-    throw core::DataError("", "the strip", "was not laid from end to end", "print it again");
+    throw core::DataError("", "the strip", "was not printed from end to end", "print it again");
   }
   const auto tick_like = [&](std::size_t reference) {
     return nearest_tick(strip, first_at_least(references_[reference].change));

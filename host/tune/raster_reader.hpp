@@ -1,5 +1,5 @@
-// Reads the strip off the simulator's raster as a person would off the bed: compares the bead with the lines
-// of 5, 50 and 95 %, and tells the nearest printed tick.
+// Reads the strip from the simulator's raster as a person would from the bed: compares the bead with the
+// reference lines of 5, 50 and 95 % and takes the nearest printed tick.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ class StripOnRaster final : public StripReader {
  public:
   StripOnRaster(const Strip& strip, const std::array<gcode::Mixture, shade_count>& mixtures);
 
-  /// Takes a layer from the stream.
+  /// Reads a layer from the stream of rasters.
   void take(const sim::RasterFrame& frame, sim::RasterReader& rasters);
 
   StripReading read(const Strip& strip) override;
@@ -23,8 +23,8 @@ class StripOnRaster final : public StripReader {
  private:
   struct Sample {
     core::Vec2 place{0, 0};
-    double change = 0;  ///< share of the change that came here
-    bool seen = false;  ///< something lies here
+    double change = 0;  ///< share of the change at this place
+    bool seen = false;  ///< plastic lies here
   };
 
   double change_in(const sim::RasterPixel& pixel) const;

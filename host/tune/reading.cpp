@@ -23,12 +23,12 @@ void check(const Strip& strip, const StripReading& reading) {
   if (reading.began < half && half < reading.stopped) return;
   throw core::DataError(
       "", "tick",
-      fmt::format("{:g} to {:g}{} is no order in which a colour can change", ticks(reading.began),
+      fmt::format("{:g} to {:g}{} is not an order in which a colour can change", ticks(reading.began),
                   ticks(reading.stopped), reading.half ? fmt::format(" with half at {:g}", ticks(half)) : ""),
       "the colour begins to change first, is half changed later and stops last");
 }
 
-/// The way to the next printed tick: half of it is rounding, half the eye.
+/// The distance to the next printed tick: half of it for rounding, half for the eye.
 double doubt_at(const Strip& strip, double along) {
   constexpr double same = 1e-6;  // ticks
   const double ticks = along / strip.tick;

@@ -1,5 +1,5 @@
-// Readings of a strip, wherever they come from: a person at the terminal, the command line, the simulator's
-// raster, and one day a photo.
+// Readings of a strip, from any source: a person at the terminal, the command line, or the simulator's
+// raster.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace unicursal::host {
 
-/// mm along the bead from the switch; ticks × Strip::tick.
+/// Places in mm along the bead from the switch: ticks × Strip::tick.
 struct StripReading {
   double began = 0, stopped = 0;
-  std::optional<double> half;  ///< where half of the change has come, if that could be told
+  std::optional<double> half;  ///< where half of the change has come; absent if that could not be read
 };
 
-/// The person does not want to go on.
+/// The user does not want to continue.
 class TuningCancelled : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,15 +25,15 @@ class TuningCancelled : public std::runtime_error {
 class StripReader {
  public:
   virtual ~StripReader() = default;
-  /// Throws core::DataError when nothing can be read, TuningCancelled.
+  /// Throws core::DataError if the strip cannot be read, or TuningCancelled.
   virtual StripReading read(const Strip& strip) = 0;
 };
 
-/// What has passed at those places, give or take the way to the next printed tick. Throws core::DataError for
-/// a reading that is not on the strip or not in order.
+/// The volumes that have passed at these places, as ranges: each place is known up to the next printed tick.
+/// Throws core::DataError for places that are not on the strip or not in order.
 ReadVolumes volumes_of(const Strip& strip, const StripReading& reading);
 
-/// The printed tick that is nearest to a place, in mm along the bead.
+/// The nearest printed tick, in mm along the bead like `along`.
 double nearest_tick(const Strip& strip, double along);
 
 }  // namespace unicursal::host

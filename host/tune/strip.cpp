@@ -15,13 +15,14 @@ namespace unicursal::host {
 namespace {
 
 constexpr double usual_range = 60;    ///< mm³; the largest hot ends take 40
-constexpr double least_range = 10;    ///< mm³; less is of no use
-constexpr double range_step = 5;      ///< mm³ by which a small bed's strip is made smaller
-constexpr double finest_part = 0.02;  ///< of what has passed, that a tick is worth
+constexpr double least_range = 10;    ///< mm³; less is useless
+constexpr double range_step = 5;      ///< mm³ by which the range is reduced until the strip fits
+constexpr double finest_part = 0.02;  ///< share of the passed volume that a tick is worth at most
 constexpr double lead = 10;           ///< mm of the first mixture before the switch
-constexpr double pure_length = 40;    ///< mm at the end of a line to compare with that are to be pure
+constexpr double pure_length = 40;    ///< mm at the end of a reference line that must be pure
 constexpr std::size_t number_step = 10, fifth_step = 5;
-/// Ticks of lanes and turns, modulo 10, such that every number stands 7 ticks or more off the turns.
+/// Ticks at the ends of lanes and turns, modulo 10, so that every number is at least 7 ticks away from the
+/// turns.
 constexpr std::size_t first_lane_end = 7, lane_end = 4, turn_end = 6;
 
 std::size_t rounded_down(double ticks, std::size_t end) {
@@ -40,7 +41,7 @@ class Layout {
  public:
   Layout(const StripSizes& sizes, double range) : s_(sizes), range_(range), here_(s_.left, s_.front) {}
 
-  /// Nothing if it does not fit.
+  /// Returns nullopt if the strip does not fit.
   std::optional<Strip> operator()() {
     if (s_.right - s_.left < 2 * pure_length) return std::nullopt;
     strip_.layer_height = s_.layer_height;
@@ -68,7 +69,7 @@ class Layout {
   }
   void rise(double way, Shade shade) { go(here_ + core::Vec2(0, way), s_.fat, shade); }
 
-  /// An even number of lanes, no longer than is needed, beginning and ending at the left.
+  /// Lays an even number of lanes, no longer than necessary, beginning and ending at the left.
   void fill(Shade shade) {
     const double length = range_ / s_.fat + pure_length, room = s_.right - s_.left;
     const double pairs = std::ceil(length / (2 * room));
@@ -81,7 +82,7 @@ class Layout {
     }
   }
 
-  /// The lane that ends here is to compare with: marks it and goes on to where the next begins.
+  /// Marks the lane that ends here as a reference line, and goes to where the next lanes begin.
   void reference(std::size_t which, std::size_t percent) {
     strip_.references[which] = here_ + core::Vec2(s_.gap, 0);
     write_number(percent, here_ + core::Vec2(s_.gap, s_.gap));
@@ -135,8 +136,8 @@ class Layout {
     }
   }
 
-  /// Those behind the bead one way, those in front of it on the way back. Beside a turn there is no room on
-  /// its inner side, which is behind a lane's end and in front of a lane's beginning.
+  /// Marks the ticks behind the bead on the way out, those in front of it on the way back. There is no room
+  /// on the inner side of a turn, which is behind the end of a lane and in front of its beginning.
   void mark_lane(std::size_t first) {
     const std::size_t last = strip_.points.size() - 1;
     const bool turned = first > 0;
@@ -159,7 +160,7 @@ class Layout {
   void mark(std::size_t tick, const core::Vec2& away) {
     const core::Vec2 inner = strip_.points[tick].place + away * s_.gap;
     const core::Vec2 outer = inner + away * length_of(tick);
-    // To and fro, so that the nozzle has the shortest way to the next.
+    // Alternating directions, so that the nozzle has the shortest way to the next tick.
     const bool outwards = strip_.marked.size() % 2 == 0;
     strip_.marks.push_back(outwards ? std::vector{inner, outer} : std::vector{outer, inner});
     strip_.marked.push_back(tick);
@@ -202,7 +203,7 @@ Strip make_strip(const gcode::Printer& printer, const std::optional<double>& ran
   if (range) {
     if (auto strip = strip_of(printer, *range)) return std::move(*strip);
     throw core::DataError("", "--range", fmt::format("a strip for {:g} mm³ does not fit on this bed", *range),
-                          "leave the option out to get as much as fits");
+                          "omit the option to get as much as fits");
   }
   for (double smaller = usual_range; smaller >= least_range; smaller -= range_step) {
     if (auto strip = strip_of(printer, smaller)) return std::move(*strip);

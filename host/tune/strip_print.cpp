@@ -20,8 +20,8 @@ namespace {
 using gcode::Chunk;
 using gcode::Mixture;
 
-constexpr double usual_flow = 2;  ///< mm³/s; fine beads of it still stick
-constexpr double short_hop = 15;  ///< mm; shorter ways need no retraction
+constexpr double usual_flow = 2;  ///< mm³/s; fine beads still stick at this flow
+constexpr double short_hop = 15;  ///< mm; shorter travels need no retraction
 constexpr double park_lift = 10;  ///< mm above the strip
 constexpr std::size_t equal_tool = shade_count;
 
@@ -80,7 +80,7 @@ class StripWriter {
     return chunk;
   }
 
-  /// What a strip has in common with a part, for the user's own lines.
+  /// The settings that the placeholders in the user's own G-code refer to.
   gcode::PrintSettings settings() const {
     gcode::PrintSettings settings;
     settings.layer_count = 1;
@@ -107,7 +107,7 @@ class StripWriter {
     return chunk;
   }
 
-  /// The print may have been cut anywhere, so that nothing is taken for granted.
+  /// The print may have been cut off anywhere, so the lines set every state that they need.
   Chunk finish() {
     Chunk chunk;
     writer_.forget();

@@ -1,5 +1,5 @@
-// The strip as lines for a printer: first ticks and numbers, in the first mixture, then the bead in one go,
-// at a constant flow.
+// The G-code of the strip: first the ticks and numbers, in the first mixture, then the whole bead without a
+// break, at a constant flow.
 #pragma once
 
 #include <array>
@@ -11,17 +11,18 @@
 
 namespace unicursal::host {
 
-/// Counted from 0.
+/// The feeders of the first and the second mixture, counted from 0.
 struct StripFeeders {
   std::size_t from = 0, to = 1;
 };
 
-/// What the firmware will really mix, by Shade. Between the first and the last the shares go in a straight
-/// line, so that the mixtures to compare with are those that come out on the way.
+/// The mixtures as the firmware will mix them, indexed by Shade. Those between the first and the last lie on
+/// a straight line between the two, so the reference lines have mixtures that really come out during the
+/// change.
 std::array<gcode::Mixture, shade_count> strip_mixtures(const gcode::Printer& printer,
                                                        const StripFeeders& feeders);
 
-/// Throws core::DataError for a printer that makes no sense.
+/// Throws core::DataError if the printer's profile is invalid.
 FinishedPrint strip_print(const Strip& strip, const gcode::Printer& printer, const StripFeeders& feeders);
 
 }  // namespace unicursal::host

@@ -6,11 +6,12 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double margin = 10;            ///< mm to the bed's edge: room for clips, and for the turns' ticks
-constexpr double height_part = 1.0 / 3;  ///< of the nozzle's opening: sticks, and squeezes fine beads out
-constexpr double finest = 0.5;           ///< nozzle openings; thinner beads tear off
-constexpr double fattest = 2;            ///< nozzle openings; fatter beads are no longer even
-constexpr double lines_per_tick = 0.6;   ///< mm of opening that 1 mm from tick to tick has room for
+constexpr double margin = 10;  ///< mm to the edge of the bed: room for clips and for the ticks of turns
+/// Of the nozzle's opening: sticks to the bed and spreads fine beads.
+constexpr double height_part = 1.0 / 3;
+constexpr double finest = 0.5;          ///< nozzle openings; thinner beads tear off
+constexpr double fattest = 2;           ///< nozzle openings; fatter beads are no longer even
+constexpr double lines_per_tick = 0.6;  ///< greatest opening for ticks at a distance of 1 mm, mm
 
 }  // namespace
 

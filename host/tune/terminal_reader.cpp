@@ -10,7 +10,7 @@
 namespace unicursal::host {
 namespace {
 
-constexpr std::size_t longest_answer = 40;  ///< characters; more is no number
+constexpr std::size_t longest_answer = 40;  ///< characters; a longer answer is not a number
 
 std::string trimmed(const std::string& text) {
   const char* const blanks = " \t\r\n";
@@ -19,7 +19,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// A decimal comma is as good as a point.
+/// Accepts a decimal comma as well as a point.
 std::optional<double> number_in(std::string text) {
   if (text.size() > longest_answer) return std::nullopt;
   if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
@@ -44,30 +44,32 @@ std::string line_of(std::istream& in, std::ostream& out, const std::string& ques
 std::optional<double> TerminalReader::ask(const Strip& strip, const std::string& question, bool needed) {
   for (;;) {
     const std::string answer = line_of(in_, out_, question + " ");
-    if (answer == "q" || answer == "Q") throw TuningCancelled("as you wished");
+    if (answer == "q" || answer == "Q") throw TuningCancelled("as requested");
     if (answer.empty() && !needed) return std::nullopt;
     const std::optional<double> tick = number_in(answer);
     if (tick && *tick >= 0 && *tick * strip.tick <= strip.length()) return *tick * strip.tick;
-    out_ << fmt::format("  Please write a tick from 0 to {}, such as 12 or 12.5{}; q ends.\n",
-                        strip.points.size() - 1, needed ? "" : ", or nothing");
+    out_ << fmt::format("  Please enter a tick from 0 to {}, such as 12 or 12.5{}; q quits.\n",
+                        strip.points.size() - 1, needed ? "" : ", or just press Enter");
   }
 }
 
 StripReading TerminalReader::ask_all(const Strip& strip) {
   StripReading reading;
-  reading.began = *ask(strip, "At which tick does the colour begin to change: look like the line 5?", true);
-  reading.half = ask(strip, "At which tick does it look like the line 50? (Enter if you cannot tell)", false);
-  reading.stopped =
-      *ask(strip, "At which tick has it all but stopped to change: looks like the line 95?", true);
+  reading.began =
+      *ask(strip, "At which tick does the colour begin to change, so that it looks like line 5?", true);
+  reading.half =
+      ask(strip, "At which tick is it half changed, like line 50? (press Enter if you cannot say)", false);
+  reading.stopped = *ask(strip, "At which tick has it nearly stopped changing, like line 95?", true);
   return reading;
 }
 
 StripReading TerminalReader::read(const Strip& strip) {
-  out_
-      << "At tick 0 the nozzle was told to change its mixture. Every tenth tick has a number; even ticks\n"
-         "stand behind the bead, odd ones in front of it. The lines below the numbers 5, 50 and 95 show how\n"
-         "the bead looks when so many percent of the change have come; look at them near the numbers. Where\n"
-         "several ticks look the same, take the middle one. q ends.\n";
+  out_ << "The mixture was changed at tick 0. Every tenth tick has a number; even ticks are behind the bead, "
+          "odd\n"
+          "ones in front of it. The lines below the numbers 5, 50 and 95 show how the bead looks after that\n"
+          "percentage of the change; compare near the numbers. If several ticks look the same, take the "
+          "middle\n"
+          "one. q quits.\n";
   for (;;) {
     const StripReading reading = ask_all(strip);
     try {

@@ -1,4 +1,4 @@
-// Asks a person at a terminal what the strip shows.
+// Asks a person at the terminal what the strip shows.
 #pragma once
 
 #include <iosfwd>
@@ -13,7 +13,7 @@ class TerminalReader final : public StripReader {
   /// Both must outlive the reader.
   TerminalReader(std::istream& in, std::ostream& out) : in_(in), out_(out) {}
 
-  /// Asks until the answers fit the strip. `q` and the end of the input cancel.
+  /// Asks until the answers fit the strip. `q` and the end of the input throw TuningCancelled.
   StripReading read(const Strip& strip) override;
 
  private:
@@ -24,7 +24,7 @@ class TerminalReader final : public StripReader {
   std::ostream& out_;
 };
 
-/// Asks whether to go on; anything but yes is no.
+/// Asks a yes-or-no question; any answer but yes counts as no.
 bool confirmed(std::istream& in, std::ostream& out, const std::string& question);
 
 }  // namespace unicursal::host

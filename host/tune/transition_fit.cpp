@@ -1,7 +1,7 @@
 #include "host/tune/transition_fit.hpp"
 
 #include <algorithm>
-#include <array>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,21 +11,12 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double mixing_end = 0.95;  ///< of the change: where the profile's mixing volume ends
+constexpr double mixing_end = 0.95;  ///< share of the change at which the profile's mixing volume ends
 constexpr double least_tanks = 1, most_tanks = 6;
 constexpr double tank_step = 0.1;
-constexpr double most_widening = 5;  ///< ticks; readings that are worse are of another strip
+constexpr double most_widening = 5;  ///< ticks; worse readings cannot be of this strip
 constexpr double widening_step = 1.25;
 constexpr double slack = 1e-9;  ///< mm³, of rounding
-
-/// The share that has come through `tanks` tanks: the lower incomplete gamma function, as a series.
-double gamma_response(double tanks, double x) {
-  if (x <= 0) return 0;
-  double term = std::exp(tanks * std::log(x) - x - std::lgamma(tanks + 1));
-  double sum = term;
-  for (double n = tanks + 1; term > 1e-16 * sum; ++n) sum += term *= x / n;
-  return sum;
-}
 
 /// dead + share·mixing lies within the range.
 struct Band {
@@ -61,7 +52,7 @@ bool agrees(const std::vector<Band>& bands, double dead, double mixing) {
   });
 }
 
-/// The volumes that agree form a convex polygon: its corners, where two borders cross, span it.
+/// The volumes that agree form a convex polygon, whose corners are crossings of two borders.
 void add_corners(const std::vector<Band>& bands, Feasible& feasible) {
   std::vector<Line> lines = {{1, 0, 0}, {0, 1, 0}};
   for (const Band& band : bands) {
@@ -104,12 +95,7 @@ Feasible feasible_with(const ReadVolumes& read, double times) {
 }  // namespace
 
 double gamma_quantile(double tanks, double p) {
-  double low = 0, high = 20 * tanks;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = (low + high) / 2;
-    (gamma_response(tanks, middle) < p ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  return boost::math::gamma_p_inv(tanks, p);
 }
 
 Transition fit_transition(const ReadVolumes& read) {
@@ -119,7 +105,7 @@ Transition fit_transition(const ReadVolumes& read) {
     return {feasible.dead.middle(), feasible.mixing.middle(), times};
   }
   throw core::DataError("", "the readings", "fit no mixing nozzle",
-                        "look again: half changed lies between a fifth and two fifths of the way from where "
+                        "read again: half changed lies between a fifth and two fifths of the way from where "
                         "the colour begins to change to where it stops");
 }
 

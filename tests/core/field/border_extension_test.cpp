@@ -14,7 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Unsigned difference of the directions that two doubled vectors stand for, 0…π/2.
+/// Unsigned difference of the directions of two doubled vectors, 0…π/2.
 double difference(const Vec2& a, const Vec2& b) {
   return std::abs(std::atan2(cross(a, b), a.dot(b))) / 2;
 }
@@ -32,7 +32,7 @@ void each_inside(const Grid& grid, const Polygon& polygon, const std::vector<Vec
 
 }  // namespace
 
-TEST_CASE("inside a disc directions run around its centre") {
+TEST_CASE("in a disc, directions run around the centre") {
   const Vec2 center(3.17, -1.43);
   const Polygon disc{circle(center, 12, 200), {}};
   const Grid grid = grid_around(bounds(disc), 0.25);
@@ -43,7 +43,7 @@ TEST_CASE("inside a disc directions run around its centre") {
   });
 }
 
-TEST_CASE("inside a ring directions run around its hole") {
+TEST_CASE("in a ring, directions run around the hole") {
   Polygon annulus{circle({0, 0}, 10, 160), {circle({0, 0}, 3, 60, false)}};
   const Grid grid = grid_around(bounds(annulus), 0.2);
   each_inside(grid, annulus, extended_tangents(grid, {annulus}), [&](const Vec2& p, const Vec2& v) {
@@ -51,7 +51,7 @@ TEST_CASE("inside a ring directions run around its hole") {
   });
 }
 
-TEST_CASE("along a slanted strip all directions are the strip's, away from its ends") {
+TEST_CASE("in a slanted strip, directions follow the strip, except at its ends") {
   const double angle = 0.6;
   const Vec2 along(std::cos(angle), std::sin(angle)), across = perpendicular(along);
   const Polygon strip{{Vec2(0, 0), 40 * along, 40 * along + 3 * across, 3 * across}, {}};
@@ -62,17 +62,17 @@ TEST_CASE("along a slanted strip all directions are the strip's, away from its e
   });
 }
 
-TEST_CASE("in a square every point follows the nearest side") {
+TEST_CASE("in a square, every point follows the nearest side") {
   const Polygon square = rectangle(10, 10);
   const Grid grid = grid_around(bounds(square), 0.2);
   each_inside(grid, square, extended_tangents(grid, {square}), [&](const Vec2& p, const Vec2& v) {
     const double across = std::abs(p.x() - 5), up = std::abs(p.y() - 5);
-    if (std::abs(across - up) < 0.5) return;  // the diagonals, where two sides are as near
+    if (std::abs(across - up) < 0.5) return;  // the diagonals, where two sides are equally near
     REQUIRE(difference(v, doubled(across > up ? std::numbers::pi / 2 : 0.0)) < 1e-6);
   });
 }
 
-TEST_CASE("a border of teeth finer than the grid counts by its general run") {
+TEST_CASE("a border with teeth finer than the grid counts by its general direction") {
   Polygon comb;
   for (int k = 0; k <= 400; ++k) comb.outer.push_back({k * 0.05, k % 2 == 0 ? 0.0 : 0.02});
   comb.outer.push_back({20, 5});
@@ -86,7 +86,7 @@ TEST_CASE("a border of teeth finer than the grid counts by its general run") {
 
 namespace {
 
-/// The header's problem written down anew and solved by plain relaxation.
+/// The problem of the header, written independently and solved by plain relaxation.
 struct PlainRelaxation {
   const Grid& grid;
   const Polygon& polygon;
@@ -147,7 +147,7 @@ struct PlainRelaxation {
 
 }  // namespace
 
-TEST_CASE("multigrid finds what plain relaxation finds") {
+TEST_CASE("multigrid agrees with plain relaxation") {
   Ring ellipse;
   for (const Vec2& p : circle({0, 0}, 1, 150)) ellipse.push_back({9 * p.x(), 5 * p.y()});
   const Polygon polygon{ellipse, {circle({3, 1}, 1.5, 40, false)}};
@@ -160,7 +160,7 @@ TEST_CASE("multigrid finds what plain relaxation finds") {
   }
 }
 
-TEST_CASE("the distance to marked squares is that of brute force") {
+TEST_CASE("the distance to marked squares agrees with brute force") {
   Random random(51);
   Grid grid;
   grid.columns = 23;

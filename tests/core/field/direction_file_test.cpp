@@ -19,7 +19,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A file that goes away with its scope.
+/// A file that is removed at the end of its scope.
 class TextFile {
  public:
   explicit TextFile(const std::string& text) {
@@ -79,7 +79,7 @@ TEST_CASE("the third of four columns is z") {
   CHECK(direction(samples[0].v) == Approx(45 * degree));
 }
 
-TEST_CASE("what is no list of directions is refused with the line and what to do") {
+TEST_CASE("a file that is not a list of directions is refused with the line and a remedy") {
   const auto [text, line, part] = GENERATE(table<std::string, std::string, std::string>({
       {"x,y,angle\n1,2,3\n1,2,nan\n", "line 3", "nan"},
       {"1,2,inf\n", "line 1", "inf"},
@@ -113,7 +113,7 @@ TEST_CASE("what is no list of directions is refused with the line and what to do
   CHECK_THROWS_AS(read_directions(fs::temp_directory_path() / "unicursal-no-such.csv"), FileError);
 }
 
-TEST_CASE("bytes at random are read or refused, never more") {
+TEST_CASE("random bytes are either read or refused") {
   Random random(41);
   const std::string letters = "0123456789.,-+eE\n\r #xyn\t\xEF";
   for (int k = 0; k < 3000; ++k) {
@@ -126,7 +126,7 @@ TEST_CASE("bytes at random are read or refused, never more") {
   }
 }
 
-TEST_CASE("a raster of directions comes back in the field") {
+TEST_CASE("a raster of directions is reproduced by the field") {
   // Turns by 180° over the plate, so that angles wrap around.
   const auto angle = [](double x, double y) { return 9 * x + 4 * y; };
   const TextFile file(raster(20, 10, 0.5, angle));
@@ -140,7 +140,7 @@ TEST_CASE("a raster of directions comes back in the field") {
   }
 }
 
-TEST_CASE("the spacing of samples is told from where they are, not from their box") {
+TEST_CASE("the spacing of samples depends on where they are, not on their box") {
   CHECK(ScatteredDirections(read(raster(20, 10, 0.5, [](double, double) { return 1.0; }))).spacing() ==
         Approx(0.5).epsilon(0.2));
   // Two patches far apart.
@@ -153,7 +153,7 @@ TEST_CASE("the spacing of samples is told from where they are, not from their bo
   CHECK(ScatteredDirections(read(text)).spacing() == Approx(0.25).epsilon(0.5));
 }
 
-TEST_CASE("farther than two spacings from every sample nothing is asked") {
+TEST_CASE("no direction is asked for farther than two spacings from every sample") {
   const TextFile file(raster(5, 10, 0.5, [](double, double) { return 20.0; }));
   const DirectionField field = field_of(rectangle(20, 10), file.path());
   CHECK(direction(field.at({4.6, 5})) == Approx(20 * degree));
@@ -171,7 +171,7 @@ TEST_CASE("a single sample, samples in one place and samples on a line do no har
   CHECK(field.at({4.5, 4.5}).norm() == 0);
 }
 
-TEST_CASE("samples that contradict each other ask for nothing") {
+TEST_CASE("samples that contradict each other ask for no direction") {
   const TextFile file("1,1,0\n1,1,90\n");
   CHECK(field_of(rectangle(2, 2), file.path()).at({1, 1}).norm() < 1e-6);
 }
@@ -192,11 +192,11 @@ TEST_CASE("samples in space count near the height of the cut") {
     CHECK(direction(field.at({3, 3})) == Approx(10 * z * degree).margin(2 * degree));
   }
   CHECK(field_of(rectangle(6, 6), file.path(), 15).empty());
-  const TextFile flat("1,1,7,25\n1.5,1,7,25\n");  // one z: holds at every height
+  const TextFile flat("1,1,7,25\n1.5,1,7,25\n");  // one z: applies at every height
   CHECK(direction(field_of(rectangle(2, 2), flat.path(), 3).at({1, 1})) == Approx(25 * degree));
 }
 
-TEST_CASE("a hundred thousand samples in one spot and a few far away are no trap") {
+TEST_CASE("a hundred thousand samples in one spot and a few far away are read in time") {
   std::string text;
   Random random(43);
   for (int k = 0; k < 100'000; ++k) {

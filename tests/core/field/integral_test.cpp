@@ -10,7 +10,7 @@ using namespace unicursal::core::test;
 
 namespace {
 
-/// Random vectors in every square, so that no mistake in indexing goes unseen.
+/// Random vectors in every square, so that mistakes in indexing show.
 DirectionField random_field(Random& random, const Box& box, double pitch) {
   const Grid grid = grid_around(box, pitch);
   std::vector<Vec2> values(grid.size());
@@ -23,7 +23,8 @@ DirectionField uniform_field(const Box& box, double pitch, double angle) {
   return {grid, std::vector<Vec2>(grid.size(), doubled(angle)), std::vector<double>(grid.size(), 1)};
 }
 
-/// Independent of edges: every square's vector times what Clipper says it shares with the polygon.
+/// Independent of edges: the sum over squares of the vector times the area shared with the polygon, by
+/// Clipper.
 Vec2 by_clipping(const DirectionField& field, const Polygon& polygon) {
   const Grid& grid = field.grid();
   Vec2 sum(0, 0);
@@ -53,7 +54,7 @@ TEST_CASE("the integral over random polygons with holes is the sum over their pi
   }
 }
 
-TEST_CASE("the integral over a random triangle is that of a million samples") {
+TEST_CASE("the integral over a random triangle agrees with a million samples") {
   Random random(22);
   const DirectionField field = random_field(random, {{0, 0}, {8, 8}}, 0.9);
   const Ring triangle{{0.3, 1.1}, {7.6, 2.3}, {3.1, 7.7}};
@@ -86,7 +87,7 @@ TEST_CASE("edges along grid lines: one square's integral is its vector times its
   }
 }
 
-TEST_CASE("upright edges have nothing under them, edges back and forth cancel") {
+TEST_CASE("vertical edges have no area under them, edges back and forth cancel") {
   Random random(24);
   const DirectionField field = random_field(random, {{0, 0}, {4, 3}}, 0.37);
   CHECK(field.integral_under({1.3, 0.2}, {1.3, 2.9}).norm() == 0);
@@ -95,7 +96,7 @@ TEST_CASE("upright edges have nothing under them, edges back and forth cancel") 
   CHECK(field.integral_under(a, b).norm() > 0.01);
 }
 
-TEST_CASE("beyond the grid the field is zero") {
+TEST_CASE("outside the grid the field is zero") {
   Random random(25);
   const DirectionField field = random_field(random, {{0, 0}, {4, 3}}, 0.5);
   const Grid& grid = field.grid();
@@ -122,7 +123,7 @@ TEST_CASE("a uniform field integrates to the area times its vector") {
   check_equal(field.quick_integral_around(a, b, 0.7), expected * doubled(angle), 1e-9);
 }
 
-TEST_CASE("the integral around an edge is that of the rectangle, and the quick one is near") {
+TEST_CASE("the integral around an edge is that of its rectangle, and the quick one is close to it") {
   // A field that turns once in 12 mm, as around a small hole.
   const Grid grid = grid_around({{0, 0}, {12, 12}}, 0.25);
   std::vector<Vec2> values(grid.size());
@@ -145,7 +146,7 @@ TEST_CASE("the integral around an edge is that of the rectangle, and the quick o
   }
 }
 
-TEST_CASE("a direction and its opposite are one, a right angle is the negative") {
+TEST_CASE("opposite directions have the same doubled vector, a right angle negates it") {
   for (const double angle : {-1.2, 0.0, 0.3, 1.5}) {
     check_equal(doubled(angle), doubled(angle + std::numbers::pi), 1e-12);
     check_equal(doubled(angle), -doubled(angle + std::numbers::pi / 2), 1e-12);
@@ -155,7 +156,7 @@ TEST_CASE("a direction and its opposite are one, a right angle is the negative")
   CHECK(doubled(Vec2(0, 0)).norm() == 0);
 }
 
-TEST_CASE("the covered shares of squares are those of clipping and add up to the area") {
+TEST_CASE("the covered shares of squares agree with clipping and add up to the area") {
   Random random(27);
   for (int k = 0; k < 10; ++k) {
     const Polygon island = random_island(random, 5, 3);
@@ -175,7 +176,7 @@ TEST_CASE("the covered shares of squares are those of clipping and add up to the
   }
 }
 
-TEST_CASE("huge boxes and thin ones get no more squares than memory has room for") {
+TEST_CASE("huge boxes and thin ones get a bounded number of squares") {
   CHECK(grid_around({{0, 0}, {1e5, 1e5}}, 0.01).size() < 5'000'000);
   CHECK(grid_around({{0, 0}, {1e5, 1e-9}}, 0.001).size() < 5'000'000);
   const Grid grid = grid_around({{-1, 2}, {3, 3}}, 0.25);

@@ -49,7 +49,7 @@ TEST_CASE("patterns that ask for no direction give an empty field") {
   }
 }
 
-TEST_CASE("an angle fills its zone exactly, up to the islands' border") {
+TEST_CASE("an angle fills its zone exactly, up to the border of the island") {
   const double angle = 0.7, pitch = GENERATE(0.25, 0.83);
   const Polygon polygon = square_with_hole();
   const DirectionField field = field_of(whole(polygon), {zone(PatternKind::angle, angle)}, pitch);
@@ -84,7 +84,7 @@ TEST_CASE("parallel is tangential in a disc, orthogonal radial") {
   CHECK(parallel.aligned_area() == Approx(area(disc)).epsilon(0.01));
 }
 
-TEST_CASE("the border between two zones counts only when the zone asks for it") {
+TEST_CASE("the border between two zones counts only if the zone asks for it") {
   const Island island = halves();
   const DirectionField without =
       field_of(island, {zone(PatternKind::parallel), zone(PatternKind::isotropic)});
@@ -113,7 +113,7 @@ TEST_CASE("equal arguments give equal bits") {
   }
 }
 
-TEST_CASE("islands smaller than a square, and needles, have a field too") {
+TEST_CASE("islands smaller than a square, and thin ones, have a field too") {
   const DirectionField speck = field_of(whole(rectangle(0.01, 0.01)), {zone(PatternKind::angle, 0.2)}, 1);
   CHECK(speck.aligned_area() == Approx(1e-4));
   const DirectionField needle = field_of(whole(rectangle(30, 0.02)), {zone(PatternKind::parallel)}, 0.5);

@@ -7,7 +7,7 @@
 using namespace unicursal::core;
 using namespace unicursal::core::test;
 
-TEST_CASE("inside by the grid is inside by the even-odd rule") {
+TEST_CASE("contains() agrees with the even-odd rule") {
   Random random(7);
   const Polygon polygon = GENERATE(rectangle(10, 10), square_with_hole());
   // Pitches that put grid lines through vertices of the shapes, too.
@@ -19,7 +19,7 @@ TEST_CASE("inside by the grid is inside by the even-odd rule") {
   }
 }
 
-TEST_CASE("winding numbers count overlaps, and overlaps the wrong way round as well") {
+TEST_CASE("winding numbers count overlaps, also of rings with the wrong orientation") {
   // Two squares that overlap, a hole in the first, and a tail whose sides have changed places.
   const Polygon odd{{{0, 0}, {6, 0}, {6, 2.6}, {9, 2.4}, {9, 2.6}, {6, 2.4}, {6, 6}, {0, 6}},
                     {{{4, 4}, {8, 4}, {8, 5.5}, {4, 5.5}}, {{1, 1}, {1, 2}, {2, 2}, {2, 1}}}};
@@ -48,7 +48,7 @@ TEST_CASE("points far away are outside") {
   CHECK_FALSE(border.contains({1, 1e9}));
 }
 
-TEST_CASE("distance to the border is that of brute force up to the limit") {
+TEST_CASE("the distance to the border agrees with brute force, up to the limit") {
   Random random(3);
   const Polygon polygon = square_with_hole();
   const BorderIndex border(polygon, 0.7);

@@ -29,7 +29,7 @@ TEST_CASE("random islands: weights add up") {
   }
 }
 
-TEST_CASE("the nearest segment of every sample is that of brute force") {
+TEST_CASE("the nearest segment of every sample agrees with brute force") {
   Random random(5);
   const Lattice lattice = sample(rectangle(6, 5), 0.17);
   std::vector<Segment> segments;
@@ -38,7 +38,7 @@ TEST_CASE("the nearest segment of every sample is that of brute force") {
     const Vec2 b = k % 5 == 0 ? a : Vec2(a + Vec2(random.uniform(-1, 1), random.uniform(-1, 1)));
     segments.push_back({a, b});
   }
-  segments.push_back({{1, 2}, {4, 2}});  // level and upright ones
+  segments.push_back({{1, 2}, {4, 2}});  // horizontal and vertical ones
   segments.push_back({{3, 1}, {3, 4}});
   LatticeOwners owners(lattice);
   owners.assign(segments);
@@ -54,7 +54,7 @@ TEST_CASE("the nearest segment of every sample is that of brute force") {
   }
 }
 
-TEST_CASE("owners are right while segments move, whether lists are made anew or kept") {
+TEST_CASE("owners are right while segments move, with rebuilt lists and with kept ones") {
   Random random(9);
   const Polygon island = square_with_hole();
   const Lattice lattice = sample(island, 0.1);

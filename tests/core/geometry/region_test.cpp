@@ -16,7 +16,7 @@ TEST_CASE("areas of union, intersection and difference obey inclusion and exclus
   }
 }
 
-TEST_CASE("uniting many at once is uniting one after another") {
+TEST_CASE("uniting many regions at once equals uniting one after another") {
   Random random(6);
   std::vector<Region> regions;
   std::vector<const Region*> pointers;
@@ -56,7 +56,7 @@ TEST_CASE("an offset grows a square by its perimeter and a rounded corner") {
   CHECK(offset({rectangle(3, 10)}, -2, 0.001).empty());
 }
 
-TEST_CASE("opening removes what a disc cannot reach and nothing else") {
+TEST_CASE("opening removes exactly what a disc cannot reach") {
   // A square with a fin 0.2 mm thick.
   const Region fin = unite({rectangle(10, 10)}, {{{{10, 5}, {15, 5}, {15, 5.2}, {10, 5.2}}, {}}});
   const Region open = opened(fin, 0.5, 0.001);

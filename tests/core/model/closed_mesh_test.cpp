@@ -62,7 +62,7 @@ void turn_all_over(Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("a sound mesh is taken as it is") {
+TEST_CASE("a sound mesh is not changed") {
   const Repaired cube = repaired(cube_at(0));
   CHECK(cube.mesh.vertices.size() == 8);
   CHECK(cube.warnings.empty());
@@ -70,7 +70,7 @@ TEST_CASE("a sound mesh is taken as it is") {
   check_twins(cube.mesh);
 }
 
-TEST_CASE("facets that look the wrong way are turned and counted") {
+TEST_CASE("facets that face the wrong way are turned and counted") {
   Mesh torus = torus_mesh(10, 3, 24, 12);
   const double sound = volume(repaired(torus).mesh);
   for (const std::size_t i : {0u, 5u, 6u, 100u}) turn_over(torus[i]);
@@ -78,10 +78,10 @@ TEST_CASE("facets that look the wrong way are turned and counted") {
   check_twins(mesh.mesh);
   CHECK(volume(mesh.mesh) == Approx(sound));
   REQUIRE(mesh.warnings.size() == 1);
-  CHECK_THAT(mesh.warnings[0], Contains("4 facets looked the wrong way"));
+  CHECK_THAT(mesh.warnings[0], Contains("4 facets faced the wrong way"));
 }
 
-TEST_CASE("facets in random order with random sense still bound the volume") {
+TEST_CASE("facets in random order and orientation still bound the volume") {
   std::mt19937 random(3);
   Mesh mesh = joined(cube_at(0), torus_mesh(30, 3, 16, 8));
   const double sound = volume(repaired(mesh).mesh);
@@ -139,7 +139,7 @@ TEST_CASE("facets without area are dropped and counted") {
   CHECK_THAT(result.warnings.at(0), Contains("1 facets without area"));
 }
 
-TEST_CASE("a facet of no area that holds the mesh together is kept") {
+TEST_CASE("a facet without area that holds the mesh together is kept") {
   // One side of the cube's top is split at its middle on one face only; a flat facet fills the slit.
   Mesh mesh = cube_at(0);
   const Vec3 a(0, 0, 10), b(10, 0, 10), m(5, 0, 10);
@@ -171,7 +171,7 @@ TEST_CASE("edges with three facets are refused") {
   CHECK_FALSE(refusal(mesh).empty());
 }
 
-TEST_CASE("a surface with one side is refused") {
+TEST_CASE("a surface with only one side is refused") {
   // A Klein bottle: a tube whose end is joined to its start the other way round.
   constexpr int around = 12, along = 12;
   const auto vertex = [](int i, int j) {
@@ -189,7 +189,7 @@ TEST_CASE("a surface with one side is refused") {
   for (int i = 0; i < along; ++i) {
     for (int j = 0; j < around; ++j) add_quad(mesh, p(i, j), p(i + 1, j), p(i + 1, j + 1), p(i, j + 1));
   }
-  CHECK_THAT(refusal(mesh), Contains("one side") || Contains("do not bound a solid"));
+  CHECK_THAT(refusal(mesh), Contains("one side") || Contains("without bounding a solid"));
 }
 
 TEST_CASE("solids in contact along a face or an edge are both kept") {
@@ -203,7 +203,7 @@ TEST_CASE("solids in contact along a face or an edge are both kept") {
   CHECK(volume(corner.mesh) == Approx(2000));
 }
 
-TEST_CASE("a contact face cut along the other diagonal is no obstacle") {
+TEST_CASE("a contact face may be cut along either diagonal") {
   // Mirrored in y the second cube's facets use the other diagonals.
   Mesh mirrored = cube_at(10, -10);
   for (Triangle& triangle : mirrored) {
@@ -215,6 +215,6 @@ TEST_CASE("a contact face cut along the other diagonal is no obstacle") {
   CHECK(volume(result.mesh) == Approx(2000));
 }
 
-TEST_CASE("a body that is there twice counts once") {
+TEST_CASE("a body that is present twice counts once") {
   CHECK(volume(repaired(joined(cube_at(0), cube_at(0))).mesh) == Approx(1000));
 }

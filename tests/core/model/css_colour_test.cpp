@@ -4,7 +4,7 @@
 
 using unicursal::core::css_colour;
 
-TEST_CASE("colours in all their spellings are one") {
+TEST_CASE("all spellings of a colour give the same result") {
   const auto text = GENERATE("#ff8000", "#FF8000", "#ff8000ff", "rgb(255,128,0)", "RGB( 100% , 50.2% , 0% )",
                              "rgba(255, 128, 0, 0.5)", "rgb(255 128 0 / 50%)", "  #Ff8000\n");
   CAPTURE(text);
@@ -25,12 +25,12 @@ TEST_CASE("colour names, the last of the list included") {
   CHECK(css_colour("yellowgreen") == "#9acd32");
 }
 
-TEST_CASE("what lets everything through is no fill") {
+TEST_CASE("a fully transparent colour is not a fill") {
   const auto text = GENERATE("transparent", "#12345600", "rgba(1,2,3,0)");
   CHECK(css_colour(text) == "none");
 }
 
-TEST_CASE("what is no colour is none of ours") {
+TEST_CASE("text that is not a colour gives nullopt") {
   const auto text = GENERATE("", "#", "#12", "#12345", "#gggggg", "bleu", "rgb(1,2)", "rgb(1,2,3",
                              "rgb(1,2,3)x", "hsl(1,2,3)", "rgb(nan,2,3)", "rgb()");
   CAPTURE(text);

@@ -78,7 +78,7 @@ TEST_CASE("zones are found by colour in any spelling, by name, or by the file's 
   CHECK(outline_area(layer) == Approx(800));
 }
 
-TEST_CASE("a select that matches nothing is told what there is") {
+TEST_CASE("a select that matches nothing is refused with the choices") {
   CHECK_THAT(refusal(two_squares, {"#0000ff", "#ff0000", "green"}),
              Contains("green") && Contains("#0000ff") && Contains("#ff0000") && Contains("left"));
   CHECK_THAT(refusal(two_squares, {""}), Contains("matches nothing"));

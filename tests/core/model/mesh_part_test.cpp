@@ -149,7 +149,7 @@ TEST_CASE("zones and files must match one to one") {
              Contains("no zone selects this file") && Contains("other.stl"));
 }
 
-TEST_CASE("unprintable meshes are refused in words") {
+TEST_CASE("unprintable meshes are refused with a sentence") {
   CHECK_THAT(refusal({test_data("open.stl")}, {"open"}), Contains("open.stl") && Contains("close its holes"));
   CHECK_THAT(refusal({test_data("nan.stl")}, {"nan"}), Contains("triangle 3, vertex 1"));
   CHECK_THAT(refusal({test_data("cube20.stl")}, {"cube20"}, 0), Contains("layer_height"));

@@ -100,7 +100,7 @@ TEST_CASE("the sections of a solid add up to its volume") {
   CHECK(volume == Approx(2 * std::numbers::pi * std::numbers::pi * 10 * 9).epsilon(3e-3));
 }
 
-TEST_CASE("the height index finds what a search of everything finds") {
+TEST_CASE("the height index agrees with a search of all intervals") {
   std::mt19937 random(23);
   for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 64u, 500u}) {
     std::vector<HeightSpan> spans;

@@ -27,7 +27,7 @@ TEST_CASE("an inch is an inch in every unit") {
   CHECK(length(text, 192) == Approx(96));
 }
 
-TEST_CASE("what is no length is refused") {
+TEST_CASE("text that is not a length is refused") {
   const auto text = GENERATE("", "mm", "1 mm", "1em", "1mmm", "1%%", "1mm2");
   CAPTURE(text);
   CHECK_THROWS_AS(length(text, 1), Malformed);

@@ -91,7 +91,7 @@ TEST_CASE("malformed style entries are skipped with a warning, the others count"
   CHECK_THAT(reading.warnings[1], Contains("bleu"));
 }
 
-TEST_CASE("what is not filled or not shown is no shape") {
+TEST_CASE("elements that are not filled or not shown are not shapes") {
   const auto element = GENERATE(
       "<rect fill='none' width='9' height='9'/>", "<rect style='display:none' width='9' height='9'/>",
       "<g display='none'><g display='inline'><rect width='9' height='9'/></g></g>",
@@ -157,7 +157,7 @@ TEST_CASE("groups nested without end are refused, not followed") {
   CHECK_THAT(refusal(drawing(text)), Contains("nested"));
 }
 
-TEST_CASE("a drawing full of mistakes does not flood the user") {
+TEST_CASE("a drawing full of mistakes gives a bounded number of warnings") {
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "<text id='t" + std::to_string(i) + "'/>";
   CHECK(read(drawing(text)).warnings.size() <= 21);

@@ -106,7 +106,7 @@ TEST_CASE("slivers of a zone behind another join that other") {
   CHECK(area(zoning.islands[0].zones[0].polygons) == Approx(100.06));
 }
 
-TEST_CASE("what no zone claims is told with its name, place and size") {
+TEST_CASE("areas of no zone are reported with name, place and size") {
   const Zoning zoning = zoned({{box(0, 0, 20, 20), {}, "black"}, {box(0, 0, 10, 20), 0, ""}});
   REQUIRE(zoning.unclaimed.size() == 1);
   CHECK(zoning.unclaimed[0].label == "black");

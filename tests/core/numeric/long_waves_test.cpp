@@ -44,7 +44,7 @@ std::vector<Vec2> by_definition(const std::vector<Vec2>& points, const std::vect
   }
 }
 
-TEST_CASE("Long waves add what the grids' hats say") {
+TEST_CASE("long waves add the sums over the hat functions of all grids") {
   Random random(3);
   const std::vector<Vec2> points = random_points(40, 30, random);
   const std::vector<Vec2> field = random_points(40, 2, random);
@@ -57,7 +57,7 @@ TEST_CASE("Long waves add what the grids' hats say") {
   }
 }
 
-TEST_CASE("Long waves are symmetric, only ever lengthen, and do not depend on threads") {
+TEST_CASE("long waves are symmetric and positive, and do not depend on threads") {
   Random random(4);
   const std::vector<Vec2> points = random_points(9000, 100, random);
   const std::vector<Vec2> a = random_points(9000, 1, random), b = random_points(9000, 1, random);
@@ -114,7 +114,7 @@ int steps_to_settle(double strength) {
   return 1000;
 }
 
-TEST_CASE("Long waves let a long chain settle in a fraction of the steps") {
+TEST_CASE("long waves let a long chain settle in a fraction of the steps") {
   const int without = steps_to_settle(0), with = steps_to_settle(0.3);
   INFO(without << " steps without, " << with << " with");
   CHECK(3 * with < without);

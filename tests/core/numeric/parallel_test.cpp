@@ -8,7 +8,7 @@
 
 using namespace unicursal::core;
 
-TEST_CASE("every piece of a job is done once, over and over") {
+TEST_CASE("every piece of a job is done exactly once, in job after job") {
   Workers workers(GENERATE(1, 2, 5));
   for (std::size_t count = 0; count < 300; ++count) {
     std::vector<int> done(count, 0);
@@ -17,7 +17,7 @@ TEST_CASE("every piece of a job is done once, over and over") {
   }
 }
 
-TEST_CASE("ranges cover what they are asked to, the last one cut short") {
+TEST_CASE("ranges cover all numbers, and the last one may be shorter") {
   Workers workers(2);
   std::vector<int> done(1003, 0);
   workers.ranges(done.size(), 10, [&](std::size_t first, std::size_t last) {
@@ -26,7 +26,7 @@ TEST_CASE("ranges cover what they are asked to, the last one cut short") {
   CHECK(done == std::vector<int>(done.size(), 1));
 }
 
-TEST_CASE("a job's exception reaches the caller, and the workers go on") {
+TEST_CASE("a job's exception reaches the caller, and the workers remain usable") {
   Workers workers(GENERATE(1, 3));
   const auto fails = [](std::size_t k) {
     if (k == 17) throw std::runtime_error("seventeen");

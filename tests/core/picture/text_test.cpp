@@ -23,7 +23,7 @@ std::string dots(char character) {
 
 }  // namespace
 
-TEST_CASE("every character has a shape of its own, and a space behind it") {
+TEST_CASE("every character has its own shape, with a gap after it") {
   std::set<std::string> seen;
   const std::string all = "0123456789abcdefghijklmnpqrstuvwxyz./:-%+";
   for (const char character : all) {

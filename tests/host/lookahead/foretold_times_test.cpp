@@ -87,7 +87,7 @@ sea = [0.6, 0.0, 0.2]
 
 }  // namespace
 
-TEST_CASE("Layers are foretold to last as long as their volume at the flow") {
+TEST_CASE("The estimated time of a layer is its volume divided by the flow") {
   const Steps part;
   const ForetoldTimes times(part, 2, 5, 2.0);  // 3², 4², … 7² mm² of 0.5 mm at 2 mm³/s
   CHECK(*awaited(times, 0, 5) == Approx((9 + 16 + 25 + 36 + 49) * 0.5 / 2));
@@ -97,7 +97,7 @@ TEST_CASE("Layers are foretold to last as long as their volume at the flow") {
   CHECK(*awaited(times, 4, 2) == 0);
 }
 
-TEST_CASE("Where a layer cannot be sliced nothing is foretold, and nothing breaks") {
+TEST_CASE("If a layer cannot be sliced there is no estimate, and nothing breaks") {
   const Steps part(4);
   const ForetoldTimes times(part, 0, 10, 2.0);
   while (part.asked != 4) std::this_thread::yield();  // the last is sliced first

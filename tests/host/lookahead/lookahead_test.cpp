@@ -142,7 +142,7 @@ TEST_CASE("Cancelling wakes a thread that waits") {
   CHECK_FALSE(lookahead.wait());
 }
 
-TEST_CASE("Who does not want to block is told when there is something to take") {
+TEST_CASE("A listener is called when a layer is ready") {
   const Stack part(7);
   std::mutex mutex;
   std::condition_variable told;
@@ -161,7 +161,7 @@ TEST_CASE("Who does not want to block is told when there is something to take") 
   CHECK(order == std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6});
 }
 
-TEST_CASE("So many seconds of printing are planned ahead, and a layer for each thread and one more") {
+TEST_CASE("The horizon in seconds is planned ahead, and at least one layer more than there are threads") {
   const double seconds = 75 * 0.2 / 1.5;  // three squares of 25 mm², 0.2 mm high, at 1.5 mm³/s
   const auto open_at_once = [&](double horizon) {
     const Stack part(30);
@@ -178,11 +178,11 @@ TEST_CASE("So many seconds of printing are planned ahead, and a layer for each t
   CHECK(open_at_once(5 * seconds) <= 6);
 }
 
-TEST_CASE("Nobody hurries before the printer needs something, and without a pace never") {
+TEST_CASE("Islands have unlimited time until the printer reports, and always without a pace") {
   const Stack part(3);
   LookaheadOptions options = options_for(0, 3, 1);
   options.flow = 1.5;
-  SECTION("not told yet") {
+  SECTION("not reported yet") {
     options.pace = PlanningClock{{}, 1e6};
   }
   SECTION("no pace") {}
@@ -196,7 +196,7 @@ TEST_CASE("Nobody hurries before the printer needs something, and without a pace
   }
 }
 
-TEST_CASE("Once a layer is taken, the next has as long as that one prints") {
+TEST_CASE("Once a layer is taken, the next one has as long as the first one prints") {
   const Stack part(2);
   LookaheadOptions options = options_for(0, 2, 1);
   options.flow = 1e-3;  // mm³/s: hours for a layer
@@ -207,7 +207,7 @@ TEST_CASE("Once a layer is taken, the next has as long as that one prints") {
   CHECK(lookahead.wait()->effort == 1);
 }
 
-TEST_CASE("On a computer that is too slow layers take less effort, say so, and are still whole") {
+TEST_CASE("On a slow computer layers get less effort, report it, and are still complete") {
   const Stack part(12);
   LookaheadOptions options = options_for(0, 12, 1);
   options.flow = 1.5;
@@ -252,7 +252,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("What the effort of a hurried island was gives the same curve again") {
+TEST_CASE("The recorded effort of a hurried island gives the same curve again") {
   const Stack part(1);
   LookaheadOptions options = options_for(0, 1, 1);
   options.flow = 1.5;
@@ -269,7 +269,7 @@ TEST_CASE("What the effort of a hurried island was gives the same curve again") 
   }
 }
 
-TEST_CASE("A look-ahead that nobody listens to ends") {
+TEST_CASE("A look-ahead without a listener ends") {
   const Stack part(50);
   const Lookahead lookahead(part, options_for(0, 50, 2));
 }

@@ -4,7 +4,7 @@
 
 namespace unicursal::host {
 
-TEST_CASE("An island that nothing waits for may take all the time there is") {
+TEST_CASE("An island for which nothing waits has unlimited time") {
   CHECK(Pacer(2, 1).allowance(no_hurry, 60, 1) == no_hurry);
 }
 
@@ -36,7 +36,7 @@ TEST_CASE("Islands share a layer's time by area, and threads add to it") {
   CHECK(two.allowance(30, 10, 0.5) == Approx(one.allowance(30, 10, 1)));
 }
 
-TEST_CASE("The longest tail is what is reckoned with, on a slow computer more") {
+TEST_CASE("The longest tail counts, and on a slow computer it counts for more") {
   Pacer pacer(1, 1), slow(1, 8);
   CHECK(slow.tail(1000) == Approx(8 * pacer.tail(1000)));
   pacer.learn_tail(1000, 2);
@@ -48,7 +48,7 @@ TEST_CASE("The longest tail is what is reckoned with, on a slow computer more") 
   CHECK(pacer.tail(500) == before);
 }
 
-TEST_CASE("What an island takes in full is learnt from those that were not cut") {
+TEST_CASE("The full number of steps is learnt from islands that were not shortened") {
   Pacer pacer(1, 1);
   pacer.learn_full(400);
   CHECK(pacer.part_of_full(100) == Approx(0.25));

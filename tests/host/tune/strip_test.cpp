@@ -39,7 +39,7 @@ double distance_of_segments(const Vec2& a, const Vec2& b, const Vec2& c, const V
 
 }  // namespace
 
-TEST_CASE("Nothing on the strip touches what it must not, and all is on the bed") {
+TEST_CASE("Nothing on the strip overlaps, and all of it is on the bed") {
   for (const double nozzle : {0.4, 0.6, 0.8}) {
     for (const double bed : {150.0, 200.0, 300.0}) {
       CAPTURE(nozzle, bed);
@@ -89,21 +89,21 @@ TEST_CASE("A tick is worth no more than its share of what has passed, and the bo
   }
 }
 
-TEST_CASE("Before a line to compare with and before the strip, the nozzle is filled") {
+TEST_CASE("The nozzle is filled before each reference line and before the strip") {
   const Strip strip = make_strip(printer_with(0.6), {});
   std::array<double, shade_count> filled{};
   for (const StripMove& move : strip.bead) filled[static_cast<std::size_t>(move.shade)] += move.volume;
   for (std::size_t shade = 0; shade + 1 < shade_count; ++shade) CHECK(filled[shade] > strip.volume());
 }
 
-TEST_CASE("What does not fit on the bed is refused, a strip for less is made where none was asked for") {
+TEST_CASE("A range that does not fit is refused; without one, the strip is made as large as fits") {
   CHECK(make_strip(printer_with(0.6, 120, 110), {}).volume() < 60);
   CHECK_THROWS_AS(make_strip(printer_with(0.6, 120, 110), 100.0), core::DataError);
   CHECK_THROWS_AS(make_strip(printer_with(0.6, 80, 80), {}), core::DataError);
   CHECK(make_strip(printer_with(0.6, 300, 300), 120.0).volume() >= 120);
 }
 
-TEST_CASE("The G-code switches at tick 0, lays the bead in one go and feeds what the strip says") {
+TEST_CASE("The G-code switches at tick 0, lays the bead in one go and feeds the volumes of the strip") {
   const gcode::Printer printer = printer_with(0.6);
   const Strip strip = make_strip(printer, {});
   const FinishedPrint print = strip_print(strip, printer, {2, 0});
@@ -130,7 +130,7 @@ TEST_CASE("The G-code switches at tick 0, lays the bead in one go and feeds what
   CHECK(fed_after * area == Approx(strip.volume()).epsilon(1e-4));
 }
 
-TEST_CASE("The mixtures to compare with lie on the way from the first to the second") {
+TEST_CASE("The reference mixtures lie on the way from the first to the second") {
   const auto mixtures = strip_mixtures(printer_with(0.6), {0, 1});
   const double from = mixtures[0].share(1), way = mixtures[4].share(1) - from;
   CHECK(way > 0.9);

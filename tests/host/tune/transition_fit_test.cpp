@@ -87,7 +87,7 @@ TEST_CASE("Readings without rounding give the volumes back, whatever the number 
   }
 }
 
-TEST_CASE("Readings by ticks give every nozzle within a tenth, and the truth is within what is admitted") {
+TEST_CASE("Readings by ticks give every nozzle within a tenth, and the truth is within the uncertainty") {
   const Strip strip = make_strip(diamond(), {});
   std::vector<HiddenNozzle> nozzles = test::hidden_nozzles(300, 1);
   const std::vector<HiddenNozzle> extremes = test::extreme_nozzles();
@@ -113,7 +113,7 @@ TEST_CASE("An eye that compares to one in a hundred is good enough") {
   }
 }
 
-TEST_CASE("Without the place of the half, the doubt about the number of tanks is admitted") {
+TEST_CASE("Without the half reading, the uncertainty includes the number of tanks") {
   const Strip strip = make_strip(diamond(), {});
   for (const std::size_t tanks : {1, 6}) {
     const HiddenNozzle nozzle{5, 20, tanks};

@@ -62,7 +62,7 @@ void wait_until_said(const Child& child, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("A tuning on the simulated printer finds what is hidden in it", "[tuning]") {
+TEST_CASE("Tuning on the simulated printer finds its hidden volumes", "[tuning]") {
   const Workshop shop;
   std::vector<test::HiddenNozzle> nozzles = test::hidden_nozzles();
   nozzles.push_back({test::least_dead, test::least_mixing, 1});
@@ -157,7 +157,7 @@ TEST_CASE("Cancelled at any point, the profile is untouched", "[tuning]") {
   }
 }
 
-TEST_CASE("Errors leave the profile as it is, too", "[tuning]") {
+TEST_CASE("Errors also leave the profile unchanged", "[tuning]") {
   const Workshop shop;
   const std::vector<std::vector<std::string>> wrong = {
       {"--began", "50", "--stopped", "20", "--yes"},
@@ -186,7 +186,7 @@ TEST_CASE("Errors leave the profile as it is, too", "[tuning]") {
   CHECK(run({"tune", "transition", shop.path("none.toml")}).code == 2);
 }
 
-TEST_CASE("A profile that somebody edits meanwhile is not overwritten", "[tuning]") {
+TEST_CASE("A profile that was edited meanwhile is not overwritten", "[tuning]") {
   const Workshop shop;
   const std::string pipe = shop.path("typing");
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
