@@ -1,6 +1,6 @@
-// The vocabulary of replies: what a firmware says, line by line, as typed values.
-// Forms of Marlin 2.1 and Repetier 1.0.4 as observed (firmware-facts). Text from a printer is hostile input:
-// every byte sequence parses to something, nothing is trusted, numbers are bounded.
+// The vocabulary of replies: each line of a firmware as a typed value. The forms are those of Marlin 2.1 and
+// Repetier 1.0.4 as observed (sim/README.md, "Marlin 2.1" and "Repetier"). Text from a printer is hostile
+// input: every byte sequence parses to some value, nothing is trusted, and numbers are bounded.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace unicursal::gcode {
 
-/// °C; what a line did not say is absent.
+/// °C; absent if the line does not contain it.
 struct Temperatures {
   std::optional<double> nozzle, nozzle_target, bed, bed_target;
 
@@ -22,40 +22,40 @@ struct Temperatures {
 
 namespace reply {
 
-/// A command was taken: "ok", "ok N2 P14 B3" (Marlin), "ok 12" (Repetier), "ok T:25.00 /0.00 …" (M105).
+/// A command was accepted: "ok", "ok N2 P14 B3" (Marlin), "ok 12" (Repetier), "ok T:25.00 /0.00 …" (M105).
 struct Ok {
   std::optional<std::uint32_t> line;
   std::optional<std::uint32_t> planner_places, command_places;
   Temperatures temperatures;
 };
-/// "Resend: 4", "Resend:2", "rs 4": the next line that the firmware wants.
+/// "Resend: 4", "Resend:2", "rs 4": the next line that the firmware expects.
 struct Resend {
   std::uint32_t line = 0;
 };
-/// "Error:…", "fatal:…". `last_line` is what ", Last Line: 3" says; `halted` when only a reset helps.
+/// "Error:…", "fatal:…". `last_line` is the number in ", Last Line: 3"; `halted`: only a reset helps.
 struct Error {
   std::string text;
   std::optional<std::uint32_t> last_line;
   bool halted = false;
 };
-/// The board has started, that is, it has forgotten everything.
+/// The board has started and has lost its position, heat and mixtures.
 struct Start {};
-/// "echo:busy: processing", "busy:processing": alive, at work.
+/// "echo:busy: processing", "busy:processing": the firmware is alive and at work.
 struct Busy {
-  bool for_user = false;  ///< "paused for user": somebody has to come
+  bool for_user = false;  ///< "paused for user": the user must act
 };
-/// Repetier, every idle second.
+/// Sent by Repetier every idle second.
 struct Wait {};
 /// Repetier has dropped a repeated line.
 struct Skip {
   std::optional<std::uint32_t> line;
 };
-/// " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?" without an ok; `waiting` when a heating command says so by "W:".
+/// " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?" without an ok; `waiting`: a heating command waits ("W:").
 struct TemperatureReport {
   Temperatures temperatures;
   bool waiting = false;
 };
-/// "//action:pause" and the like.
+/// "//action:pause" and similar.
 struct Action {
   std::string text;
 };
@@ -63,12 +63,12 @@ struct Action {
 struct Firmware {
   std::string text;
 };
-/// "Cap:AUTOREPORT_TEMP:1", of the same answer.
+/// "Cap:AUTOREPORT_TEMP:1", part of the same answer.
 struct Capability {
   std::string name;
   bool on = false;
 };
-/// "echo:…"; `unknown_command` when the firmware did not understand a line (Repetier says so without
+/// "echo:…"; `unknown_command`: the firmware did not understand a line (Repetier reports that without
 /// "echo:").
 struct Echo {
   std::string text;
@@ -77,10 +77,10 @@ struct Echo {
 /// "X:0.00 Y:0.00 Z:0.00 E:0.00 Count X:0 …", the answer to M114 and to G28.
 struct Position {
   std::string text;
-  std::optional<std::array<double, 3>> mm;  ///< x y z, if all of them are told
+  std::optional<std::array<double, 3>> mm;  ///< x y z; absent unless all three are given
 };
 struct Blank {};
-/// Anything else, noise included.
+/// Any other text, including noise.
 struct Unknown {
   std::string text;
 };
@@ -91,11 +91,11 @@ using Reply = std::variant<reply::Ok, reply::Resend, reply::Error, reply::Start,
                            reply::Skip, reply::TemperatureReport, reply::Action, reply::Firmware,
                            reply::Capability, reply::Echo, reply::Position, reply::Blank, reply::Unknown>;
 
-/// One line without its newline; spaces and carriage returns around it do not matter. Never throws.
+/// Parses a line without its newline; ignores spaces and carriage returns around it. Never throws.
 Reply parse_reply(std::string_view line);
 
-/// Safe to show and to log: bytes that are no printable ASCII become \xNN, and the text ends after `limit`
-/// bytes of input with an ellipsis.
+/// Makes text safe to show and to log: bytes that are not printable ASCII become \xNN. Text longer than
+/// `limit` bytes is cut and ends with an ellipsis.
 std::string printable(std::string_view text, std::size_t limit = 200);
 
 }  // namespace unicursal::gcode
