@@ -1,5 +1,5 @@
-// What differs between firmwares: how a mixture becomes a virtual tool, how a tool is chosen, and limits.
-// Everything else the encoder writes (G0/G1, G28, M104 …) is common ground.
+// What differs between firmwares: how a mixture is stored in a virtual tool, how a tool is selected, and
+// limits. All other lines (G0/G1, G28, M104 …) are common to all dialects.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace unicursal::gcode {
 
-/// What a firmware can take, as data.
+/// The limits of a firmware.
 struct Limits {
-  std::size_t line_length = 95;    ///< characters kept of a line, its number and checksum included
+  std::size_t line_length = 95;    ///< characters of a line, including its number and checksum
   std::size_t virtual_tools = 16;  ///< T0 … T15
-  double extrusion = 200;          ///< mm of filament in one move; more is refused by the firmware
-  int mixture_decimals = 4;        ///< decimals of a share as it is kept
-  bool tool_change_stops = false;  ///< whether T waits until all motion has ended
-  /// Whether a share acts at once on moves that run, so that tools are defined while all stands still.
+  double extrusion = 200;          ///< mm of filament in one move; the firmware refuses more
+  int mixture_decimals = 4;        ///< decimals of a share that the firmware keeps
+  bool tool_change_stops = false;  ///< T waits until all motion has ended
+  /// A share affects running moves at once, so that tools must be defined at standstill.
   bool shares_act_at_once = false;
 };
 
@@ -26,12 +26,12 @@ class Dialect {
   virtual ~Dialect() = default;
 
   virtual const Limits& limits() const = 0;
-  /// What viewers of G-code files call the firmware.
+  /// The name by which viewers of G-code files know the firmware.
   virtual std::string flavour() const = 0;
-  /// The lines that make a virtual tool of a mixture; nothing of it survives a reset of the firmware.
+  /// The lines that store a mixture in a virtual tool. A reset of the firmware clears all tools.
   virtual std::vector<std::string> define_tool(std::size_t tool, const Mixture& mixture) const = 0;
   virtual std::string select_tool(std::size_t tool) const = 0;
-  /// The shares that the firmware keeps of a mixture once it has been written.
+  /// The mixture after rounding to the firmware's resolution.
   Mixture as_written(const Mixture& mixture) const { return mixture.quantised(limits().mixture_decimals); }
 };
 

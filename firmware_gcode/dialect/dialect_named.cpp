@@ -11,7 +11,7 @@ const Dialect& dialect_named(const std::string& firmware) {
   static const Repetier repetier;
   if (firmware == "marlin") return marlin;
   if (firmware == "repetier") return repetier;
-  throw core::DataError("", "firmware", "the dialect \"" + firmware + "\" is not spoken yet",
+  throw core::DataError("", "firmware", "the dialect \"" + firmware + "\" is not supported yet",
                         "use firmware = \"marlin\" or \"repetier\" in the printer's profile");
 }
 

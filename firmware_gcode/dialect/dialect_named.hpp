@@ -1,4 +1,4 @@
-// The dialects that are spoken, by the name that a printer's profile gives.
+// The supported dialects, by their names in a printer's profile.
 #pragma once
 
 #include <string>

@@ -1,7 +1,8 @@
-// Marlin 2.x with a mixing extruder: M163 fills a collector, feeder by feeder, and M164 stores it.
-// Firmware facts: the collector persists, so that all feeders are always written; P takes decimals and its
-// scale does not matter; factors become integers of the largest (0…32768, or 0…128 on 8-bit boards), which
-// is finer than the four decimals written here (coarser on 8-bit boards: up to 0.4 % of the largest share).
+// Marlin 2.x with a mixing extruder (sim/README.md, "Mixing in Marlin"). M163 sets one feeder's share in a
+// collector, and M164 stores the collector in a virtual tool. The collector keeps its shares, so that all
+// feeders are always written. P accepts decimals, and only the ratio of the shares counts. Marlin converts
+// them to integers relative to the largest one: 0…32768, which is finer than the four decimals written here,
+// or 0…128 on 8-bit boards, which is coarser (up to 0.4 % of the largest share).
 #pragma once
 
 #include "firmware_gcode/dialect/dialect.hpp"

@@ -1,8 +1,8 @@
-// Repetier 1.0 with a mixing extruder. Firmware facts: P is an integer, so shares are written in parts of a
-// hundred; M163 changes the weights of the extruder that is active, at once and for moves that run; M164,
-// which needs S, stores them as a virtual tool; T takes a tool's weights and waits for all motion to end. So
-// every tool is defined while the machine stands still, before the print, and T comes at a price: a stop.
-// One move may feed 160 mm; more is dropped without a word.
+// Repetier 1.0 with a mixing extruder (sim/README.md, "Repetier"). P is an integer, so that shares are
+// written in hundredths. M163 changes the weights of the active extruder at once, also for running moves.
+// M164 S stores them in a virtual tool. T loads a tool's weights after all motion has ended. Therefore all
+// tools are defined at standstill before the print, and each T costs a stop. A move may feed 160 mm; Repetier
+// drops longer ones silently.
 #pragma once
 
 #include "firmware_gcode/dialect/dialect.hpp"

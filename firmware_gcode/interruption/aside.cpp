@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 #include <string_view>
 
 #include "firmware_gcode/dialect/number.hpp"
@@ -12,31 +13,38 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double rise = 10;           ///< mm; more than any part curls up
-constexpr double part_clearance = 5;  ///< mm between the part and what is squeezed out beside it
+constexpr double rise = 10;           ///< mm; parts curl up less than this
+constexpr double part_clearance = 5;  ///< mm between the part and the squeezed-out plastic
 constexpr double edge_inset = 5;      ///< mm from the bed's edge
 
 std::string position(double value) {
   return short_number(value, 3);
 }
 
-constexpr double rounding = 0.015;  ///< between equal shares that add up to one in two decimals
+constexpr double rounding = 0.01;  ///< of equal shares that are written with two decimals
 
-/// Of M163 S0 P.3333; below 0 in any other line.
+/// The share in "M163 S0 P.3333"; 0 in any other line.
 double share_in(const std::string& line) {
   const auto at = line.find(" P");
   return line.starts_with("M163 ") && at != std::string::npos ? std::strtod(line.c_str() + at + 2, nullptr)
-                                                              : -1;
+                                                              : 0;
 }
 
-/// The virtual tool whose mixture is made of equal shares: it draws filament back from all inlets alike.
-std::optional<int> tool_of_equal_shares(const ModalState& state) {
-  for (const auto& [tool, lines] : state.tools) {
-    const double first = share_in(lines.front());
-    const bool equal = std::all_of(lines.begin(), lines.end() - 1, [&](const std::string& line) {
-      return std::abs(share_in(line) - first) < rounding;
-    });
-    if (lines.size() > 2 && first > 0 && equal) return tool;
+/// Returns whether the lines define a tool that feeds equal shares; dialects scale shares differently.
+bool feeds_equal_shares(const ModalState::Lines& definition, const Printer& printer) {
+  if (definition.size() != max_feeders + 1) return false;
+  std::array<double, max_feeders> fed{};
+  for (std::size_t f = 0; f < max_feeders; ++f) fed[f] = share_in(definition[f]) / printer.flow_factors[f];
+  const double sum = std::accumulate(fed.begin(), fed.end(), 0.0);
+  return sum > 0 && std::all_of(fed.begin(), fed.end(), [&](double share) {
+           return std::abs(share / sum - 1.0 / max_feeders) < rounding;
+         });
+}
+
+/// The virtual tool of equal shares, which draws filament back from all inlets alike.
+std::optional<int> tool_of_equal_shares(const ModalState& state, const Printer& printer) {
+  for (const auto& [tool, definition] : state.tools) {
+    if (feeds_equal_shares(definition, printer)) return tool;
   }
   return std::nullopt;
 }
@@ -61,7 +69,7 @@ double rise_aside(const Printer& printer, double height) {
 }
 
 AsideWriter::AsideWriter(const Printer& printer, const ModalState& state, double drawn)
-    : printer_(printer), state_(state), equal_(tool_of_equal_shares(state)), drawn_(drawn) {}
+    : printer_(printer), state_(state), equal_(tool_of_equal_shares(state, printer)), drawn_(drawn) {}
 
 void AsideWriter::lines(const std::vector<std::string>& more) {
   chunk_.lines.insert(chunk_.lines.end(), more.begin(), more.end());
@@ -106,7 +114,7 @@ void AsideWriter::approach() {
   height(*state_.position[2]);
   draw(drawn_ - state_.drawn_back);
   drawn_ = state_.drawn_back;
-  select(state_.tool);  // draw() may have changed it
+  select(state_.tool);  // draw() may have selected another one
   if (state_.fan > 0) line("M106 S{}", short_number(state_.fan, 0));
   if (state_.feed) line("G1 F{}", short_number(*state_.feed, 0));
 }
@@ -118,7 +126,7 @@ void AsideWriter::draw(double length) {
 }
 
 void AsideWriter::filament(double length, double speed) {
-  constexpr double longest = 50;  // mm at once; firmwares refuse too much
+  constexpr double longest = 50;  // mm in one move; firmwares refuse more
   const double pieces = std::max(1.0, std::ceil(std::abs(length) / longest));
   if (scaled(length / pieces, 5) == 0) return;
   for (double piece = 0; piece < pieces; ++piece) {

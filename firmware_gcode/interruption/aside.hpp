@@ -1,6 +1,6 @@
 // What every interruption of a print needs: a place beside the part, and lines that lead there and back,
-// squeeze out plastic and draw filament back. Unlike MoveWriter this takes the printer as it is found
-// (modal_state.hpp), between any two lines of a print. mm, mm/s, mm³, °C.
+// squeeze out plastic and draw filament back. Unlike MoveWriter it starts from any state between two lines of
+// a print (modal_state.hpp). mm, mm/s, mm³, °C.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,16 +17,17 @@
 
 namespace unicursal::gcode {
 
-/// The corner of the bed that is farthest from the part, if that is far enough to squeeze plastic out there.
+/// The corner of the bed that is farthest from the part; nullopt if it is too near to squeeze plastic out
+/// there.
 std::optional<core::Vec2> place_beside(const Printer& printer, const core::Box& extent);
 
-/// How far the nozzle rises before it goes aside: less where the bed's height ends.
+/// The rise of the nozzle before it moves aside; reduced near the top of the printer.
 double rise_aside(const Printer& printer, double height);
 
 class AsideWriter {
  public:
-  /// `state`: that the print's next line expects; both must outlive this object. `drawn`: mm of filament by
-  /// which it is drawn back now.
+  /// `state` is the state that the print's next line expects. Printer and state must outlive this object.
+  /// `drawn`: the present retraction of the filament, mm.
   AsideWriter(const Printer& printer, const ModalState& state, double drawn);
 
   template <class... Arguments>
@@ -36,16 +37,16 @@ class AsideWriter {
   void lines(const std::vector<std::string>& more);
 
   void select(std::optional<int> tool);
-  /// Heaters to what the print wants, and waits for them.
+  /// Sets the heaters to the print's targets and waits for them.
   void heat();
   void travel(const core::Vec2& to);
   void height(double z);
-  /// Draws back what is not drawn back yet, by the tool of equal shares.
+  /// Completes the retraction with the tool of equal shares.
   void draw_back();
-  /// Pushes everything forward and squeezes so much plastic out in the tool in use. Precondition: the nozzle
-  /// is where that may lie.
+  /// Undoes the retraction and squeezes `volume` of plastic out with the tool in use. Precondition: the
+  /// nozzle is at a place where the plastic may lie.
   void squeeze(double volume, double flow);
-  /// To where the print goes on, down, and the state that its next line expects.
+  /// Returns to the place in the print, lowers the nozzle, and restores the state that the next line expects.
   void approach();
 
   Chunk take() { return std::move(chunk_); }
@@ -59,7 +60,7 @@ class AsideWriter {
   const Printer& printer_;
   const ModalState& state_;
   std::optional<int> equal_;  ///< the tool of equal shares
-  double drawn_;              ///< mm of filament
+  double drawn_;              ///< present retraction, mm of filament
   Chunk chunk_;
 };
 

@@ -9,7 +9,8 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double transitions = 2;  ///< of plastic squeezed out: as the prime line at a print's beginning
+constexpr double transitions =
+    2;  ///< of plastic that is squeezed out, like the prime line at the start of a print
 
 void heat(AsideWriter& writer, const ModalState& state) {
   writer.lines({stay_watchful(), "M220 S" + short_number(state.speed_factor, 1),
@@ -36,8 +37,8 @@ void squeeze_out(AsideWriter& writer, const Printer& printer, const LeadIn& to) 
   const auto place = place_beside(printer, to.extent);
   if (!place) {
     writer.chunk().warnings.push_back(
-        "the part leaves no place on the bed beside it, so nothing is squeezed out before the print goes "
-        "on; the first beads may come out thin or in a former colour");
+        "the bed has no room beside the part, so that no plastic is squeezed out before the print continues; "
+        "the first beads may come out thin or in a former colour");
     return;
   }
   writer.travel(*place);

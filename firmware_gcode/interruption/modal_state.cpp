@@ -8,7 +8,7 @@
 namespace unicursal::gcode {
 namespace {
 
-/// "G1", "M104", "T2": a letter and a number, and what stands behind them.
+/// "G1", "M104", "T2": a letter and a number, and the words behind them.
 struct Command {
   char letter = 0;
   int code = -1;
@@ -36,7 +36,7 @@ Command command_in(std::string_view line) {
   return command;
 }
 
-/// Where the word begins with its letter; words are parted by spaces.
+/// Finds the word that begins with the letter; words are separated by spaces.
 std::optional<std::string_view> word(std::string_view words, char letter) {
   for (auto at = words.find(' '); at != std::string_view::npos; at = words.find(' ', at + 1)) {
     if (at + 1 < words.size() && words[at + 1] == letter) return words.substr(at + 2);
@@ -49,7 +49,7 @@ std::optional<double> value(const Command& command, char letter) {
   return text ? number_in(*text) : std::nullopt;
 }
 
-constexpr double most_tools = 255;  ///< of any firmware; greater numbers are none
+constexpr double most_tools = 255;  ///< of any firmware; greater numbers are ignored
 
 constexpr std::array<char, 3> axes{'X', 'Y', 'Z'};
 
@@ -71,7 +71,7 @@ void move(ModalState& state, const Command& command) {
   state.drawn_back = std::max(0.0, state.drawn_back - *filament);
 }
 
-/// Where the switches are is the machine's secret.
+/// Positions are unknown after homing, since the places of the end switches are.
 void home(ModalState& state, const Command& command) {
   const bool some =
       std::any_of(axes.begin(), axes.end(), [&](char axis) { return word(command.words, axis).has_value(); });
@@ -97,7 +97,7 @@ void run_g(ModalState& state, const Command& command) {
       return home(state, command);
     case 90:
     case 91:
-      // Marlin: both of them change the filament's mode as well.
+      // In Marlin, both also change the mode of the filament.
       state.relative = state.relative_filament = command.code == 91;
       return;
     case 92:

@@ -9,7 +9,8 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double cooler_by = 60;  ///< °C; plastic then neither drips nor chars, and is soft again in a minute
+constexpr double cooler_by =
+    60;  ///< °C; plastic then neither drips nor chars, and heats up again within a minute
 
 [[maybe_unused]] bool known(const ModalState& state) {
   return state.position[0] && state.position[1] && state.position[2] && !state.relative;

@@ -1,7 +1,8 @@
-// A print that is held between two of its lines: out of the way, and back to the very place. mm, mm³/s, °C.
+// A pause between two lines of a print: away from the part, and back to the same place. mm, mm³/s, °C.
 //
-// The chamber keeps what is in it, so that the colours go on where they were but for what is squeezed out to
-// make up for what has dripped. Precondition of both: the state's position is known (a print that has begun).
+// The chamber keeps its content, so that the colours continue where they were, except for the plastic that is
+// squeezed out to replace what has dripped. Precondition of both functions: the state's position is known
+// (the print has begun).
 #pragma once
 
 #include "core/geometry/polygon.hpp"
@@ -12,21 +13,21 @@
 namespace unicursal::gcode {
 
 struct Pause {
-  ModalState state;   ///< that the print's next line expects
+  ModalState state;   ///< state that the print's next line expects
   core::Box extent;   ///< of the part on the bed
-  double flow = 2;    ///< mm³/s, of what is squeezed out
-  bool cool = false;  ///< lower the nozzle's heat meanwhile; the bed stays warm, or the part would come off
+  double flow = 2;    ///< mm³/s while plastic is squeezed out
+  bool cool = false;  ///< lower the nozzle's temperature meanwhile; the bed stays warm to hold the part
 };
 
-/// Draws the filament back in equal shares, rises, and goes to a corner of the bed beside the part, or the
-/// one at the back left where the part leaves none; ends when the printer stands still there.
+/// Draws the filament back in equal shares, rises, and moves to a corner of the bed beside the part, or to
+/// the back left corner if the part covers all corners. Ends when the printer stands still.
 Chunk go_aside(const Printer& printer, const Pause& pause);
 
-/// For a pause that lasts: the nozzle's heat lowered while it stands aside.
+/// The line that lowers the nozzle's temperature during a long pause.
 std::string cool_aside(const ModalState& state);
 
-/// Reheats if need be, squeezes out a transition's volume beside the part if there is a place for it,
-/// returns, and leaves every state as the print's next line expects it.
+/// Heats again, squeezes out the volume of a transition beside the part if there is a place for it, returns,
+/// and restores the state that the print's next line expects.
 Chunk come_back(const Printer& printer, const Pause& pause);
 
 }  // namespace unicursal::gcode

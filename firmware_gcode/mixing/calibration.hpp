@@ -1,6 +1,6 @@
-// Feeders that slip: one that has to turn 3 % more than the others to feed the same has the factor 1.03. No
-// firmware keeps steps for each feeder of a mixing extruder, since E drives them all; so what each lacks is
-// made up for in its share, and what all lack in E.
+// Calibration of feeders that slip. A feeder that must turn 3 % more than the others to feed the same has the
+// factor 1.03. No firmware keeps steps per feeder of a mixing extruder, since E drives all feeders together.
+// So the difference between feeders is corrected in the shares, and the common part in E.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace unicursal::gcode {
 
-/// A mixture as it is written to the firmware, and what comes of it.
+/// A mixture as it is written to the firmware, and the mixture that results.
 struct CalibratedMixture {
   Mixture written;    ///< the shares in the firmware's lines
-  Mixture delivered;  ///< the shares that then leave the nozzle
-  double scale = 1;   ///< E ÷ the filament that is to be fed
+  Mixture delivered;  ///< the shares that leave the nozzle
+  double scale = 1;   ///< E ÷ mm of filament to be fed
 };
 
 /// Precondition: the factors are positive.

@@ -7,9 +7,9 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double arrived = 0.95;  ///< of a change, at the end of the mixing volume
+constexpr double arrived = 0.95;  ///< fraction of a change at the end of the mixing volume
 
-/// What has passed n tanks in a row when x tank volumes have.
+/// The step response of n tanks in series after x tank volumes.
 double passed(std::size_t tanks, double x) {
   double term = std::exp(-x), rest = 0;
   for (std::size_t k = 0; k < tanks; ++k) {
@@ -19,7 +19,7 @@ double passed(std::size_t tanks, double x) {
   return 1 - rest;
 }
 
-/// The number of tank volumes after which `share` has passed.
+/// The inverse: the number of tank volumes after which `share` has arrived.
 double tank_volumes_for(std::size_t tanks, double share) {
   double low = 0, high = 1;
   while (passed(tanks, high) < share) high *= 2;
@@ -59,7 +59,7 @@ Tanks::Tanks(const ChamberModel& model, const Shares& shares)
 }
 
 // With x = volume ÷ tank volume, the deviation of tank k from the inflow becomes e^−x·Σ_{j≤k} x^(k−j)/(k−j)!
-// times those of the tanks j before; what flows out is what the books are short of.
+// times the former deviation of tank j. The outflow follows from the balance of volumes.
 Tanks::Shares Tanks::pass(const Shares& inflow, double volume) {
   Shares out = inflow;
   if (count_ == 0) return out;

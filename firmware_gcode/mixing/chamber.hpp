@@ -1,8 +1,12 @@
-// How the chamber answers: what leaves the nozzle when the feeders' mixture changes. mm³.
-// Model: `dead_volume` passes unmixed, then equal stirred tanks in series, which `mixing_volume` takes from
-// the first trace of a step to 95 % of it. The answer to a step is the distribution function of a gamma law
-// whose shape is the number of tanks (residence times of tanks in series; a textbook result of reaction
+// The chamber's response: what leaves the nozzle when the feeders' mixture changes. mm³.
+//
+// Model: plug flow through `dead_volume`, then equal stirred tanks in series. `mixing_volume` passes from the
+// first trace of a step to 95 % of it. The step response is the distribution function of a gamma law whose
+// shape is the number of tanks (residence times of tanks in series, a textbook result of reaction
 // engineering).
+//
+// sim/nozzle/chamber.hpp has the same model on purpose: the simulator is independent, so that a mistake in
+// one of them cannot hide in the other.
 #pragma once
 
 #include <array>
@@ -16,32 +20,32 @@ inline constexpr std::size_t max_tanks = 8;
 
 struct ChamberModel {
   double dead_volume = 2.1;
-  double mixing_volume = 4.0;  ///< 0: a change is sharp
+  double mixing_volume = 4.0;  ///< 0: changes are sharp
   std::size_t tanks = 2;       ///< 1 … max_tanks
 
   /// The volume of one tank.
   double tank_volume() const;
-  /// What has arrived of a new mixture, 0…1, when `volume` has passed since it was switched to.
+  /// The fraction of a new mixture, 0…1, in the outflow when `volume` has passed since the switch.
   double step_response(double volume) const;
-  /// The inverse: the volume after which `share` (0…1, not 1) of the change has arrived; at least the dead
-  /// volume.
+  /// The inverse: the volume after which the fraction `share` of a change has arrived; at least the dead
+  /// volume. Precondition: 0 ≤ share < 1.
   double delay(double share) const;
-  /// By how much a slow, even change comes late.
+  /// The delay of a slow, linear change.
   double mean_delay() const;
 };
 
-/// The tanks behind the dead volume, at work.
+/// The state of the tanks behind the dead volume.
 class Tanks {
  public:
   using Shares = std::array<double, max_feeders>;
 
-  /// All full of `shares`.
+  /// All tanks are full of `shares`.
   Tanks(const ChamberModel& model, const Shares& shares);
 
-  /// Lets `volume` (above zero) of constant shares flow in; gives the mean shares of what flows out
-  /// meanwhile. Exact.
+  /// Lets `volume` (above zero) of constant shares flow in and returns the mean shares of the outflow
+  /// meanwhile. The solution is exact.
   Shares pass(const Shares& inflow, double volume);
-  /// The greatest difference of any share in any tank.
+  /// The greatest difference in any share of any tank.
   double difference(const Tanks& other) const;
   double difference(const Shares& shares) const;
 
@@ -51,7 +55,7 @@ class Tanks {
   std::array<Shares, max_tanks> tanks_{};
 };
 
-/// Half the sum of the differences of all shares: the part of the plastic that is in the wrong place.
+/// The fraction of plastic that is misplaced: half the sum of the absolute differences of all shares.
 inline double misplaced(const std::array<double, max_feeders>& a, const std::array<double, max_feeders>& b) {
   double sum = 0;
   for (std::size_t f = 0; f < max_feeders; ++f) sum += a[f] < b[f] ? b[f] - a[f] : a[f] - b[f];

@@ -7,10 +7,10 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double room = 3;  ///< transitions: what a change needs on either side to be alone
+constexpr double room = 3;  ///< transitions on either side of a change, so that no other change affects it
 
-/// Of a single change with its half-way point on the border, or hurried on. A gradient counts with its
-/// middle.
+/// The cost of a single change with its 50 % point on the border, or of a change with an overshoot. A
+/// gradient counts with its middle.
 double cost_of(const Palette& palette, const ChamberModel& chamber, std::size_t from, std::size_t to,
                const Overshoot* overshoot, const LayerMaterials& layer_materials) {
   const double volume = room * (chamber.dead_volume + chamber.mixing_volume) + 1;

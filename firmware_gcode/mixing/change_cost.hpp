@@ -1,4 +1,4 @@
-// What a change between two materials costs where it has room: plastic in the wrong mixture, mm³.
+// The cost of a change between two materials that has enough room: plastic in the wrong mixture, mm³.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ namespace unicursal::gcode {
 
 class ChangeCosts {
  public:
-  /// The palette and the overshoots must outlive this object. `matters`, by material: false for those that
-  /// are there to take up changes.
+  /// The palette and the overshoots must outlive this object. `matters`, by material: false for materials of
+  /// transition zones.
   ChangeCosts(const Palette& palette, const ChamberModel& chamber, const std::vector<bool>& matters,
               const Overshoots& overshoots);
 
-  /// Misplaced plastic, and once more what is nearer to a third material; 0 for the same material.
+  /// The misplaced volume plus the volume that is nearer to a third material; 0 for equal materials.
   double of(std::size_t from, std::size_t to) const;
 
  private:
@@ -28,7 +28,7 @@ class ChangeCosts {
   const Overshoots& overshoots_;
   std::vector<bool> matters_;
   mutable std::map<std::pair<std::size_t, std::size_t>, double>
-      known_;  ///< since jobs may have many materials
+      known_;  ///< computed on demand; jobs may have many materials
 };
 
 }  // namespace unicursal::gcode

@@ -9,7 +9,7 @@ namespace {
 constexpr double step = 1.0 / 40;  ///< of the mixing volume
 constexpr double finest = 0.05;    ///< mm³
 constexpr double same_place = 1e-9;
-constexpr double counts = 1;  ///< the least weight of what counts
+constexpr double counts = 1;  ///< least weight of plastic that counts
 
 }  // namespace
 

@@ -1,6 +1,5 @@
-// What a schedule will make of the zones, layer by layer: the switches played through the model of the
-// chamber. mm³. Volumes that nobody looks at (prime line) and zones that are there to take up changes do not
-// count.
+// Predicts the result of a schedule, layer by layer, by playing the switches through the model of the
+// chamber. mm³. The prime line, whose colour does not matter, and transition zones do not count.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +16,11 @@ class Forecast {
   Forecast(const Palette& palette, const ChamberModel& chamber);
 
   void add(const WantedBead& piece);
-  /// In order.
+  /// Switches must be added in order.
   void add(const Switch& next);
-  /// The layers that lie wholly before this volume; nothing is switched any more up to there.
+  /// The layers that lie completely before this volume. All switches up to there must have been added.
   std::vector<LayerMixing> up_to(double certain);
-  /// Those that are left, at the end.
+  /// The remaining layers, at the end of the print.
   std::vector<LayerMixing> rest();
 
  private:
@@ -35,9 +34,9 @@ class Forecast {
   std::deque<Switch> coming_;
   Tanks::Shares inflow_{1.0 / 3, 1.0 / 3, 1.0 / 3};
   Tanks tanks_;
-  double at_ = 0;         ///< played so far, at the nozzle
-  std::size_t here_ = 0;  ///< the run there
-  double run_wrong_ = 0;  ///< of it
+  double at_ = 0;         ///< volume at the nozzle up to which all is computed
+  std::size_t here_ = 0;  ///< index of the run there
+  double run_wrong_ = 0;  ///< wrong volume of that run
   LayerMixing layer_;
   std::vector<LayerMixing> finished_;
 };

@@ -11,26 +11,25 @@ namespace {
 
 using Shares = Tanks::Shares;
 
-constexpr double cell = 1.0 / 24;       ///< of the mixing volume: a step of what is reckoned
-constexpr double reckoned = 2.5;        ///< mixing volumes after which nothing of a change is left
-constexpr std::size_t most_pulses = 2;  ///< a third would hardly gain anything
-constexpr int longest = 24;             ///< cells of one pulse
-constexpr double pays = 0.95;           ///< of the cost without it: less gain is not worth a tool
+constexpr double cell = 1.0 / 24;       ///< of the mixing volume: step of the computation
+constexpr double reckoned = 2.5;        ///< mixing volumes after which a change is complete
+constexpr std::size_t most_pulses = 2;  ///< a third one gains hardly anything
+constexpr int longest = 24;             ///< cells in a pulse
+constexpr double pays = 0.95;           ///< of the cost without the pulse: a smaller gain is not worth a tool
 constexpr double first_stride = 0.16, last_stride = 0.02;  ///< of the shares, in the search
-constexpr std::size_t refined = 3;                         ///< of the coarse grid's best, each by itself
-constexpr double blur =
-    0.1;  ///< of a squared distance, in which "nearer" fades, so that the search has a slope
+constexpr std::size_t refined = 3;  ///< best points of the coarse grid that are refined
+constexpr double blur = 0.1;  ///< relative: "nearer" fades over this width, which gives the search a slope
 constexpr double least_gain = 1e-6;
 
 /// A nozzle that the printer may have instead of the one in its profile.
 struct NozzleVariant {
-  double volumes;  ///< factor
-  int tanks;       ///< more
+  double volumes;  ///< factor of the volumes
+  int tanks;       ///< additional tanks
   double weight;
 };
 constexpr std::array<NozzleVariant, 3> variants{{{1, 0, 2}, {0.85, -1, 1}, {1.15, 1, 1}}};
 
-/// What has arrived of a step in the middle of each cell, the dead volume of the profile left out.
+/// The step response in the middle of each cell, behind the dead volume of the profile.
 using Answer = std::vector<double>;
 
 Answer answer_of(const ChamberModel& profile, const NozzleVariant& variant, double step) {
@@ -47,7 +46,7 @@ Answer answer_of(const ChamberModel& profile, const NozzleVariant& variant, doub
 }
 
 struct Pulse {
-  std::array<double, 2> shares{};  ///< of feeders 1 and 2; the third has the rest
+  std::array<double, 2> shares{};  ///< of feeders 1 and 2; feeder 3 has the rest
   int cells = 0;
 };
 using Pulses = std::vector<Pulse>;
@@ -56,7 +55,7 @@ Shares full(const Pulse& pulse) {
   return {pulse.shares[0], pulse.shares[1], std::max(0.0, 1 - pulse.shares[0] - pulse.shares[1])};
 }
 
-/// A change from one mixture to another, and what ways of making it cost.
+/// A change from one mixture to another, and the cost of carrying it out with given pulses.
 class Change {
  public:
   Change(const std::vector<Shares>& materials, const std::vector<Answer>& answers, std::size_t from,
@@ -68,11 +67,11 @@ class Change {
     std::size_t lead = 0;                                   ///< cells
   };
 
-  /// With the border where it is best.
+  /// The cost with the border at its best place.
   Cost of(const Pulses& pulses) const {
-    // Every cell's cost as one before the border and as one behind it: the border is moved through them.
+    // A cell costs differently before and behind the border. Start with all cells behind it, then move it on.
     const std::size_t count = answers_.front().size();
-    std::vector<double> more(count, 0);  ///< by having the cell before the border instead of behind it
+    std::vector<double> more(count, 0);  ///< cost of the cell before the border minus its cost behind it
     double cost = 0;
     for (std::size_t n = 0; n < answers_.size(); ++n) {
       for (std::size_t i = 0; i < count; ++i) {
@@ -109,7 +108,7 @@ class Change {
 
   double loss(std::size_t wanted, const Shares& out) const {
     const double misplaced_share = misplaced(out, materials_[wanted]);
-    if (before_border_ != 0.5) return misplaced_share;  // as in the schedule
+    if (before_border_ != 0.5) return misplaced_share;  // like the schedule
     const double own = squared_distance(out, materials_[wanted]);
     double wrong = 0;
     for (std::size_t i = 0; i < materials_.size(); ++i) {
@@ -135,7 +134,7 @@ struct Found {
   bool operator<(const Found& other) const { return cost.cost < other.cost.cost; }
 };
 
-/// Of the ways to make a change, the cheapest.
+/// Finds the cheapest way to carry out a change.
 class Search {
  public:
   Search(const Change& change, double floor) : change_(change), floor_(floor) {}
@@ -151,7 +150,7 @@ class Search {
   }
 
  private:
-  /// As near as the floor allows.
+  /// The cost of the pulses, clamped to what the floor share allows.
   Found at(Pulses pulses) const {
     for (Pulse& pulse : pulses) {
       pulse.cells = std::clamp(pulse.cells, 1, longest);
@@ -163,7 +162,7 @@ class Search {
     return {std::move(pulses), cost};
   }
 
-  /// Before the others or behind them.
+  /// Adds a pulse before or behind the others.
   Found with_one_more(const Pulses& pulses) const {
     std::vector<Found> coarse;
     constexpr int grid = 3;
@@ -185,7 +184,8 @@ class Search {
     return *std::min_element(coarse.begin(), coarse.begin() + refined);
   }
 
-  /// Every number in turn a stride up and down; shorter strides when none is better.
+  /// Pattern search: moves every number in turn by a stride up and down; halves the stride if no move
+  /// improves.
   void refine(Found& best) const {
     int cells = 4;
     for (double stride = first_stride; stride >= last_stride; stride /= 2, cells = std::max(1, cells / 2)) {
@@ -208,7 +208,7 @@ class Search {
     for (const int sign : {-1, 1}) {
       result.push_back(pulses);
       result.back()[p].cells += sign * cells;
-      // From each feeder to each other one.
+      // Moves share from each feeder to each other one.
       for (const std::array<double, 2>& way : {std::array{1.0, 0.0}, {0.0, 1.0}, {1.0, -1.0}}) {
         result.push_back(pulses);
         for (std::size_t f = 0; f < 2; ++f) result.back()[p].shares[f] += sign * stride * way[f];

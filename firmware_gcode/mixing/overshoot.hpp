@@ -1,14 +1,15 @@
-// How a change of mixture is hurried on: before the new mixture is fed, one or two others are for a little
-// while, chosen so that what leaves the tanks comes to the new one sooner and by a better way. Where the
-// mixtures leave room, that is more of what is to come than is wanted in the end (and before it, of what
-// goes); between two that have a third half-way between them it is a way round that one. mm³.
+// Overshoots speed changes of mixture up: before the new mixture, the feeders deliver one or two other
+// mixtures (pulses) for a short volume. The pulses are chosen so that the outflow reaches the new mixture
+// sooner and by a better way. If the mixtures leave room, a pulse goes beyond the new mixture (and one before
+// it beyond the old mixture). If a third material lies half-way between the two, the pulses lead around it.
+// mm³.
 //
-// Method: the answer of tanks is linear, so that what comes out of a sequence of inflows is a sum of shifted
-// step responses. The pulses' mixtures and volumes are found by a pattern search from a coarse grid; the
-// measure is that of the schedule (misplaced plastic, and once more what is taken for another material). No
-// nozzle is quite what its profile says, so that the mean over nozzles like it is what counts: of 15 %
-// less and 15 % more volume, and of other numbers of tanks. Source: input shaping of linear systems
-// (control engineering); the paper has nothing of the kind.
+// Method: the tanks respond linearly, so that the outflow of a sequence of inflows is a sum of shifted step
+// responses. A pattern search from a coarse grid finds the pulses' mixtures and volumes. The cost is that of
+// the schedule: misplaced plastic plus plastic that is nearer to another material. No nozzle matches its
+// profile exactly, so that the mean cost over three nozzles counts: the profile's, one with 15 % less volume
+// and a tank less, one with 15 % more and a tank more. Source: input shaping of linear systems (control
+// engineering); the paper has no counterpart.
 #pragma once
 
 #include <cstddef>
@@ -21,22 +22,22 @@
 
 namespace unicursal::gcode {
 
-/// Fed one after the other, and then the new mixture.
+/// The pulses are fed one after the other; the new mixture follows.
 struct Overshoot {
   struct Pulse {
     Shade shade;
     double volume = 0;
   };
   std::vector<Pulse> pulses;
-  double lead = 0;  ///< what the tanks let through from the first pulse to the border that the change is for
+  double lead = 0;  ///< volume that leaves the tanks between the first pulse and the border of the change
 };
 
 struct OvershootOptions {
   ChamberModel chamber;
-  double before_border = 0.5;  ///< the share of every change that falls before its border
-  double floor_share = 0.02;   ///< the least of every feeder
-  /// Every pulse takes a virtual tool: there are none where more mixtures than this would come of it, nor
-  /// beside gradients, which take all tools.
+  double before_border = 0.5;  ///< fraction of each change that lies before its border
+  double floor_share = 0.02;   ///< least share of each feeder
+  /// Every pulse needs a virtual tool. There are no overshoots if they would need more mixtures than this, or
+  /// if there are gradients, which use all tools.
   std::size_t most_mixtures = 15;
 };
 
@@ -45,7 +46,7 @@ class Overshoots {
  public:
   void add(std::size_t from, std::size_t to, Overshoot overshoot);
 
-  /// Null where the change is best left alone.
+  /// Returns null if an overshoot does not improve the change.
   const Overshoot* between(std::size_t from, std::size_t to) const;
 
  private:

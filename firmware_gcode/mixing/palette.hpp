@@ -1,4 +1,4 @@
-// The mixtures of all materials of a print, as the printer will really mix them.
+// All mixtures of a print, as the printer will deliver them.
 #pragma once
 
 #include <cstddef>
@@ -14,31 +14,30 @@
 
 namespace unicursal::gcode {
 
-/// The mixtures of all materials as the printer will really mix them.
 class Palette {
  public:
-  static constexpr std::size_t steps = 64;  ///< of a gradient: finer than the eye tells apart
+  static constexpr std::size_t steps = 64;  ///< of a gradient: finer than the eye can distinguish
 
-  /// What the printer makes of a mixture: floor share, calibration of the feeders, rounding.
+  /// Applies the floor share, the calibration of the feeders, and rounding.
   using Calibrate = std::function<CalibratedMixture(const Mixture&)>;
 
   Palette(const std::vector<Material>& materials, const Calibrate& calibrate);
 
   std::size_t size() const { return shades_.size(); }
   bool is_gradient(std::size_t material) const { return steps_of(material) > 1; }
-  /// How many shades a material has; 1 unless it is a gradient.
+  /// The number of shades of a material; 1 unless it is a gradient.
   std::size_t steps_of(std::size_t material) const { return shades_[material].size(); }
   Shade shade(std::size_t material, double part) const;
   const CalibratedMixture& calibrated(const Shade& shade) const {
     return shade.material < size() ? shades_[shade.material][shade.step] : added_[shade.material - size()];
   }
-  /// As it leaves the nozzle.
+  /// The mixture that leaves the nozzle.
   const Mixture& mixture(const Shade& shade) const { return calibrated(shade).delivered; }
-  /// A mixture that no zone wants, but that is fed on the way from one to another.
+  /// Adds a mixture that no zone asks for, such as a pulse of an overshoot.
   Shade add(const Mixture& mixture);
-  /// How many have been added.
+  /// The number of mixtures that have been added.
   std::size_t added() const { return added_.size(); }
-  /// Between the steps, too: what is wanted, not what is sent.
+  /// The target at `part` of a gradient, not rounded to a step.
   Mixture mixture(std::size_t material, double part) const;
 
  private:

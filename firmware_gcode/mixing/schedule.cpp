@@ -9,30 +9,31 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double fine = 1.0 / 16;           ///< of the mixing volume: a step where switches are weighed
-constexpr double coarse = 1.0 / 4;          ///< elsewhere
+constexpr double fine = 1.0 / 16;           ///< of the mixing volume: step where survivors may switch
+constexpr double coarse = 1.0 / 4;          ///< step elsewhere
 constexpr double finest = 0.05;             ///< mm³, for chambers that hardly mix
-constexpr double gradient_step = 1.0 / 16;  ///< of the mixing volume: less between two shades does not show
-constexpr double early = 0.95;              ///< of a change done: no switch need be earlier before its border
-constexpr double late = 0.25;          ///< mixing volumes behind a border in which a switch may still come
-constexpr double horizon = 1.5;        ///< mixing volumes behind which a decision is taken for good
-constexpr double switch_cost = 0.002;  ///< mixing volumes: no switching to and fro for nothing
-constexpr double hopeless = 1.5;       ///< mixing volumes: dearer than the best by this cannot catch up
-constexpr double alike = 0.01;         ///< shares; survivors that differ less are one
+constexpr double gradient_step = 1.0 / 16;  ///< of the mixing volume: closer shades do not show
+constexpr double early = 0.95;              ///< fraction of a change: no switch is earlier before its border
+constexpr double late = 0.25;    ///< mixing volumes behind a border within which a switch may still come
+constexpr double horizon = 1.5;  ///< mixing volumes after which a decision is final
+constexpr double switch_cost = 0.002;  ///< mixing volumes: avoids useless switches
+constexpr double hopeless =
+    1.5;  ///< mixing volumes: survivors more expensive than the best by this are dropped
+constexpr double alike = 0.01;  ///< shares: survivors that differ less are merged
 constexpr std::size_t most_survivors = 400;
 constexpr int steps_to_settle = 4;
 constexpr double same_place = 1e-9;  ///< mm³
 
-/// One way of having switched so far.
+/// One sequence of switches so far (a survivor of Viterbi's algorithm).
 struct Survivor {
   double cost = 0;
   Tanks tanks;
-  std::size_t run_fed = 0;  ///< the run whose material is fed
+  std::size_t run_fed = 0;  ///< index of the run for which the feeders deliver
   Shade shade;
-  std::vector<Switch> switches;          ///< that are not certain yet
-  const Overshoot* overshoot = nullptr;  ///< a pulse is fed, the shade follows behind the last one
-  std::size_t pulse = 0;                 ///< that is fed
-  double pulse_end = 0;                  ///< at the tanks' entry
+  std::vector<Switch> switches;          ///< those that are not certain yet
+  const Overshoot* overshoot = nullptr;  ///< its pulses are being fed; the shade follows
+  std::size_t pulse = 0;                 ///< index of the pulse being fed
+  double pulse_end = 0;                  ///< volume at the inlet of the tanks
 
   const Shade& fed() const { return overshoot ? overshoot->pulses[pulse].shade : shade; }
 };
@@ -80,21 +81,21 @@ struct Schedule::State {
   const ScheduleOptions options;
   WantedRuns wanted;
   const double step, long_step;
-  const double lead;   ///< mm³ in the tanks between a switch and the share of it that is to reach the border
-  const double reach;  ///< how far before a run switching to it is weighed
+  const double lead;   ///< mm³ from a switch until the wanted fraction of it leaves the tanks
+  const double reach;  ///< how far before a run survivors may switch to it
   const double after;
   const double gradient_lead;
 
-  double
-      at;  ///< the place at the tanks' entry up to which all is weighed; the feeders are dead_volume behind
-  std::size_t here = 0;  ///< the run at `at`
+  double at;  ///< volume at the inlet of the tanks up to which all is computed; that plastic was fed
+              ///< dead_volume earlier
+  std::size_t here = 0;  ///< index of the run at `at`
   bool ended = false;
   std::vector<Survivor> survivors;
   double sure = 0;
   std::vector<Switch> made;
   std::optional<Shade> last_made;
   double next_gradient_step = 0;
-  int steps = 0;  ///< since survivors were last compared
+  int steps = 0;  ///< since the survivors were last compared
 };
 
 void Schedule::State::make_certain(const Switch& next) {
@@ -103,7 +104,7 @@ void Schedule::State::make_certain(const Switch& next) {
   made.push_back(next);
 }
 
-/// For comparison: as if the chamber answered at once.
+/// For comparison: as if the chamber responded at once.
 void Schedule::State::switch_at_borders() {
   for (; here < wanted.past(); ++here) {
     const WantedRun& run = wanted.run(here);
@@ -114,7 +115,7 @@ void Schedule::State::switch_at_borders() {
       make_certain({volume, palette.shade(run.material, part)});
       volume = end;
     }
-    if (here + 1 == wanted.past()) break;  // it may still grow
+    if (here + 1 == wanted.past()) break;  // the last run may still grow
   }
   sure = wanted.end();
   wanted.forget_before(here);
@@ -124,7 +125,7 @@ Shade Schedule::State::shade_for(const WantedRun& run) const {
   return palette.shade(run.material, run.part_at(at + gradient_lead));
 }
 
-/// Every survivor begins with another of the first materials.
+/// Creates a survivor for each of the first materials.
 void Schedule::State::begin() {
   here = 0;
   while (wanted.run(here).end <= at && here + 1 < wanted.past()) ++here;
@@ -135,7 +136,7 @@ void Schedule::State::begin() {
   }
 }
 
-/// The last run may still grow.
+/// The last run may still grow, so that its border is unknown.
 double Schedule::State::border_of(std::size_t run) const {
   const bool final = ended || run + 1 < wanted.past();
   return final ? wanted.run(run).end : std::numeric_limits<double>::infinity();
@@ -145,7 +146,7 @@ bool Schedule::State::near_border() const {
   return border_of(here) - at < reach + same_place || (here > 0 && at - wanted.run(here).begin < after);
 }
 
-/// Where to stop next: on the grid, on borders, and just where a single change is best switched.
+/// The next volume to stop at: a grid step, a border, or the best place of a single change.
 double Schedule::State::next_place() const {
   const bool in_gradient = palette.is_gradient(wanted.run(here).material);
   double place = at + (near_border() || in_gradient ? step : long_step);
@@ -159,7 +160,7 @@ double Schedule::State::next_place() const {
   return std::min(place, border_of(here));
 }
 
-/// How far before its border the change into a run is best begun when it is hurried on.
+/// The lead of a change into a run that is made with an overshoot.
 double Schedule::State::lead_into(std::size_t run) const {
   if (run >= wanted.past()) return lead;
   const Overshoot* by = overshoot_between({wanted.run(run - 1).material, 0}, {wanted.run(run).material, 0});
@@ -170,7 +171,7 @@ const Overshoot* Schedule::State::overshoot_between(const Shade& from, const Sha
   return options.overshoots ? options.overshoots->between(from.material, to.material) : nullptr;
 }
 
-/// One more survivor, that makes the change.
+/// Adds a copy of a survivor that switches here.
 void Schedule::State::change(std::size_t survivor, std::size_t run, const Shade& shade,
                              const Overshoot* overshoot) {
   Survivor changed = survivors[survivor];
@@ -185,7 +186,7 @@ void Schedule::State::change(std::size_t survivor, std::size_t run, const Shade&
   survivors.push_back(std::move(changed));
 }
 
-/// Runs are served in their order, each once: what was left or passed over does not come back, so that
+/// Survivors deliver for the runs in their order, each once, and never go back to an earlier run. So
 /// survivors differ in where they have switched and not in how often.
 void Schedule::State::branch() {
   const std::size_t count = survivors.size();
@@ -216,13 +217,14 @@ void Schedule::State::follow_gradients() {
   }
 }
 
-/// Misplaced plastic, and once more what a person (and the report) takes for another material. The second
-/// term would draw every change to its half-way point, so that it keeps out where another share is asked for.
+/// The misplaced fraction, plus 1 if a person (and the report) takes the plastic for another material. The
+/// second term would pull every change to its 50 % point, so that it is left out if another fraction is asked
+/// for.
 double Schedule::State::loss(const Mismatch& bad) const {
   return bad.misplaced + (bad.wrong && options.before_border == 0.5 ? 1 : 0);
 }
 
-/// Feeds the survivor as far as `to`; gives the mean of what comes out.
+/// Feeds the survivor up to `to` and returns the mean outflow.
 Tanks::Shares Schedule::State::pass(Survivor& survivor, double to) const {
   Tanks::Shares mean{};
   for (double from = at; from < to;) {
@@ -246,7 +248,7 @@ void Schedule::State::advance(double to) {
   const double volume = to - at, middle = (at + to) / 2;
   const WantedRun& run = wanted.run(here);
   const Tanks::Shares want = wanted.shares(run, middle);
-  // The tail of the change before lies in the first half of a run, the head of the next in the second.
+  // The first half of a run holds the tail of the change before it, the second half the head of the next.
   const double left = border_of(here) - middle;
   const bool head = left < reach && left < middle - run.begin;
   const double weight = 2 * run.weight * volume * (head ? 1 - options.before_border : options.before_border);
@@ -272,7 +274,7 @@ void Schedule::State::prune() {
   survivors = std::move(kept);
 }
 
-/// Hands over what all survivors have in common; after the horizon the best one's word is law.
+/// Hands over the switches that all survivors share; beyond the horizon, the best survivor decides.
 void Schedule::State::settle() {
   steps = 0;
   prune();
@@ -313,7 +315,7 @@ void Schedule::State::decide() {
     if (limit <= at && !ended) return;
     begin();
   }
-  // What is decided must not depend on when it is asked for: only at the end is a step cut short.
+  // The result must not depend on when take() is called, so that a step is cut short only at the end.
   while (at < limit - same_place) {
     const double to = next_place();
     if (to > limit) break;

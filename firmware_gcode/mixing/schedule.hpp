@@ -1,17 +1,15 @@
-// When to switch: from what is wanted along the path to the mixtures that the feeders are told, by volume
-// ahead. The chamber answers late and slowly (response.hpp), so that every switch comes before the border
-// that it is for.
+// The schedule of the switches: turns the materials wanted along the path into the mixtures that the feeders
+// deliver. The chamber responds late and gradually (chamber.hpp), so that every switch precedes its border.
 //
-// Method: the switches are the hidden sequence behind what comes out, so that they are found as a receiver
-// finds the bits behind a smeared signal (Viterbi's algorithm with as many survivors as matter): volume goes
-// on in small steps; at each step near a border every survivor may change to a material that is wanted soon;
-// what then leaves the tanks is held against what is wanted there, and the dearest survivors are dropped.
-// Thus the half-way point of a single change comes to lie on its border, for a short visit the switches move
-// apart until it shows, and one that is too short to show is passed over, whichever misplaces least. A change
-// that may be hurried on (overshoot.hpp) is weighed both ways, with its pulses and without. Switches
-// are certain once all survivors agree on them, at the latest when `horizon` has passed. The paper (§4.1)
-// leaves its 6.1 mm³ to the zones; this takes care of them where there is no zone for them. All volumes in
-// mm³, fed since the beginning of the print.
+// Method: the switches are the hidden inputs of a channel with memory, and are found like the bits of a
+// distorted signal: by Viterbi's algorithm with a bounded number of survivors. The volume advances in small
+// steps. At each step near a border, every survivor may switch to a material that is wanted soon, with an
+// overshoot (overshoot.hpp) or without. The outflow of each survivor is compared with what is wanted there,
+// and the most expensive survivors are dropped. As a result, the 50 % point of a single change lies on its
+// border; around a short visit the switches move apart until the material shows; a visit that is too short to
+// show is omitted if that misplaces less. A switch is certain when all survivors agree on it, at the latest
+// after the `horizon`. The paper (§4.1) leaves its 6.1 mm³ to the zones; this schedule also works without
+// zones for them. All volumes in mm³, fed since the beginning of the print.
 #pragma once
 
 #include <cstddef>
@@ -27,13 +25,13 @@ namespace unicursal::gcode {
 
 struct ScheduleOptions {
   ChamberModel chamber;
-  double before_border = 0.5;  ///< the share of a change that falls before the border, 0.05…0.95
-  bool look_ahead = true;      ///< false, for comparison: switch where the border is
-  /// How changes may be hurried on; null: not at all. Must outlive the schedule.
+  double before_border = 0.5;  ///< fraction of a change that lies before the border, 0.05…0.95
+  bool look_ahead = true;      ///< false, for comparison: switch at the border
+  /// Null: changes have no overshoots. Must outlive the schedule.
   const Overshoots* overshoots = nullptr;
 };
 
-/// From `at` on the feeders mix `shade`.
+/// From the volume `at` on, the feeders deliver `shade`.
 struct Switch {
   double at = 0;
   Shade shade;
@@ -47,11 +45,11 @@ class Schedule {
   Schedule(Schedule&&) noexcept;
 
   void add(const WantedBead& piece);
-  /// Nothing more will come: all becomes certain.
+  /// No bead will follow: all switches become certain.
   void end();
-  /// The switches that have become certain since the last call, in order; the first of all is at 0.
+  /// The switches that have become certain since the last call, in order; the first one of the print is at 0.
   std::vector<Switch> take();
-  /// Up to where nothing will change any more.
+  /// The volume up to which all switches are certain.
   double certain() const;
 
  private:

@@ -1,4 +1,5 @@
-// What is wanted along the path, by volume: the schedule's input, kept as far as it is still needed. mm³.
+// The materials that are wanted along the path, by volume: the input of schedule and forecast, kept as long
+// as they need it. mm³.
 #pragma once
 
 #include <cstddef>
@@ -11,49 +12,50 @@
 
 namespace unicursal::gcode {
 
-/// The materials of a layer: what a place can be mistaken for.
+/// The indices of all materials of a layer: those for which a place of the layer can be mistaken.
 using LayerMaterials = std::shared_ptr<const std::vector<std::size_t>>;
 
-/// A bead, as far as mixing is concerned.
+/// A bead as the mixing schedule sees it.
 struct WantedBead {
   double volume = 0;
   std::size_t material = 0;
-  double part = 0;             ///< of a gradient: how far along, 0…1
-  double weight = 1;           ///< how much a wrong mixture matters here; little where nobody looks
-  bool takes_changes = false;  ///< lies in a zone that is there for it
+  double part = 0;             ///< position along a gradient, 0…1
+  double weight = 1;           ///< how much a wrong mixture matters; small for the prime line
+  bool takes_changes = false;  ///< lies in a transition zone
   std::size_t layer = 0;
   LayerMaterials layer_materials;
 };
 
-/// Consecutive pieces of one material, weight and layer.
+/// Consecutive beads of one material, weight and layer.
 struct WantedRun {
-  double begin = 0, end = 0;  ///< volumes from the beginning of the print
+  double begin = 0, end = 0;  ///< mm³ since the beginning of the print
   std::size_t material = 0;
   double weight = 1;
   bool takes_changes = false;
   std::size_t layer = 0;
   LayerMaterials layer_materials;
-  std::vector<std::pair<double, double>> parts;  ///< of a gradient: up to which volume, how far along
+  std::vector<std::pair<double, double>> parts;  ///< of a gradient: end volume and position along it
 
   double volume() const { return end - begin; }
-  /// Clamped to the run.
+  /// The position along the gradient; clamped to the run.
   double part_at(double volume) const;
 };
 
+/// The runs of a print in their order; old ones are forgotten.
 class WantedRuns {
  public:
   explicit WantedRuns(const Palette& palette) : palette_(palette) {}
 
   void add(const WantedBead& piece);
-  /// Up to where it is known.
+  /// The volume up to which the runs are known.
   double end() const { return end_; }
   std::size_t first() const { return first_; }
   std::size_t past() const { return first_ + runs_.size(); }
-  /// Precondition: first() <= index < past(). Runs are counted from the beginning of the print.
+  /// Runs are counted from the beginning of the print. Precondition: first() <= index < past().
   const WantedRun& run(std::size_t index) const { return runs_[index - first_]; }
   void forget_before(std::size_t index);
 
-  /// What is wanted there. Precondition: within the run.
+  /// The wanted shares. Precondition: the volume lies within the run.
   Tanks::Shares shares(const WantedRun& run, double volume) const;
 
  private:
@@ -63,10 +65,10 @@ class WantedRuns {
   double end_ = 0;
 };
 
-/// How what has arrived fits what is wanted.
+/// How far the outflow differs from the wanted mixture.
 struct Mismatch {
-  double misplaced = 0;  ///< 0…1
-  bool wrong = false;    ///< nearer to another material of the layer
+  double misplaced = 0;  ///< fraction, 0…1
+  bool wrong = false;    ///< it is nearer to another material of the layer
 };
 
 Mismatch mismatch(const Palette& palette, const WantedRun& run, const Tanks::Shares& wanted,

@@ -10,18 +10,19 @@
 namespace unicursal::gcode {
 namespace {
 
-/// That are looked at, of every path its part; more would tell the same.
+/// Beads that are timed, an equal fraction of every path; more give the same result.
 constexpr std::size_t most_beads = 20000;
-constexpr int halvings = 12;          ///< of the range of flows, which leaves steps of 0.2 %
-constexpr double least_part = 0.005;  ///< of max_flow: less is not tried
-constexpr double flow_steps = 100;    ///< of which 1 mm³/s is told
-/// Part of the flow that is kept of the tolerance for what is not reckoned: moves of a few tenths of a mm end
-/// on whole motor steps. Without it 89 % of the seconds held where 95 % should have (folds 0.45 mm apart).
+constexpr int halvings = 12;          ///< of the range of flows; leaves steps of 0.2 %
+constexpr double least_part = 0.005;  ///< of max_flow: lower flows are not tried
+constexpr double flow_steps = 100;    ///< per mm³/s, to which the result is rounded
+/// Fraction of the flow by which the tolerance is tightened for an effect that is not modelled: moves of a
+/// few tenths of a mm end on whole motor steps. Without it, 89 % of the seconds were within the tolerance
+/// instead of 95 % (folds 0.45 mm apart).
 constexpr double reserve = 0.005;
 constexpr double least_hold = 1 - flow_tolerance + reserve;
-constexpr std::size_t regular_layer = 1;  ///< any but the first, which may be slower
+constexpr std::size_t regular_layer = 1;  ///< any except the first, which may be slower
 
-/// What the melt feels: the mean over each second.
+/// The mean flow over each second, since the melt does not follow shorter changes.
 class Seconds {
  public:
   void add(double taken, double asked) {

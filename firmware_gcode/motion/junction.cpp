@@ -7,9 +7,9 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double standing = 0.05;        ///< mm/s that the firmware calls a stand-still
-constexpr double no_corner = 0.999999;   ///< cosine of a turn from which on there is none
-constexpr double nearly_as_fast = 0.99;  ///< of the corner's speed; a start from rest then takes its place
+constexpr double standing = 0.05;        ///< mm/s that the firmware treats as standstill
+constexpr double no_corner = 0.999999;   ///< cosine of a turn above which there is no corner
+constexpr double nearly_as_fast = 0.99;  ///< of the corner's speed; a start from rest then replaces it
 constexpr double short_move = 1;         ///< mm; shorter ones may be chords of an arc
 constexpr double arc_turn = 0.70711;     ///< cosine of the greatest turn between the chords of an arc
 
@@ -20,7 +20,7 @@ PerAxis normalised(PerAxis v) {
   return v;
 }
 
-/// What an axis jumps by, for 1 mm/s along both moves. Turning round, it stops in between.
+/// The jump of an axis per mm/s along both moves. An axis that reverses stops in between.
 double jump(double before, double after) {
   if (before * after < 0) return std::max(std::abs(before), std::abs(after));
   return std::abs(before - after);
@@ -44,7 +44,7 @@ double by_jerk(const Course& before, const Course& after, const Printer& printer
   return rest_is_faster ? std::min(rest, both) : corner;
 }
 
-/// The greatest acceleration along `direction` that no axis forbids.
+/// The greatest acceleration along `direction` within the limits of all axes.
 double axis_limited(const PerAxis& direction, double acceleration, const Printer& printer) {
   const auto& most = printer.max_acceleration;
   const PerAxis limits = {most[0], most[1], most[2], printer.motion.extruder_acceleration};

@@ -1,7 +1,10 @@
-// How fast a firmware passes from one move to the next. Two rules, as in Marlin 2.1 (firmware facts, motion
-// defaults; both are read in its source): classic jerk, by which every axis may jump by so much in speed, and
-// junction deviation, by which a corner is taken like an arc that strays from it by so much.
+// The speed at which a firmware passes from one move to the next. There are two rules, as in Marlin 2.1
+// (sim/README.md, "Marlin 2.1"): classic jerk, by which the speed of each axis may jump by a fixed amount,
+// and junction deviation, by which a corner is taken like an arc that deviates from it by a fixed distance.
 // mm, mm/s, mm/s².
+//
+// sim/motion/junction.hpp has the same rules on purpose: the simulator is independent, so that a mistake in
+// one of them cannot hide in the other.
 #pragma once
 
 #include <array>
@@ -10,24 +13,24 @@
 
 namespace unicursal::gcode {
 
-/// x y z and e, which is filament of all feeders together.
+/// x y z and e; e is the filament of all feeders together.
 using PerAxis = std::array<double, 4>;
 
-/// What the rules know of a move.
+/// A move as the rules see it.
 struct Course {
-  PerAxis direction{};  ///< mm of each axis for 1 mm along the move
+  PerAxis direction{};  ///< mm of each axis per mm along the move
   double length = 0;
-  double speed = 0;         ///< along it, within what the axes can do
-  double acceleration = 0;  ///< along it
+  double speed = 0;         ///< along the move, within the limits of the axes
+  double acceleration = 0;  ///< along the move
 };
 
-/// Greatest speed at the start of a move when the machine stands before it.
+/// The greatest speed at the start of a move that begins at standstill.
 double speed_from_rest(const Course& move, const Printer& printer);
 
-/// Greatest speed at which one move may pass into the other.
+/// The greatest speed at the corner between two moves.
 double junction_speed(const Course& before, const Course& after, const Printer& printer);
 
-/// The speed that is reached over `length` from `speed`, or from which one brakes to it.
+/// The speed that is reached over `length` from `speed`; also the speed from which it brakes to `speed`.
 double speed_after(double speed, double acceleration, double length);
 
 }  // namespace unicursal::gcode

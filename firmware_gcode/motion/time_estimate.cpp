@@ -7,15 +7,14 @@
 namespace unicursal::gcode {
 namespace {
 
-/// Moves that Marlin knows of when one starts: 15 usable places in its queue, one of which has just been
-/// freed.
+/// Moves that Marlin knows when one starts: its queue has 15 usable places, one of which has just been freed.
 constexpr std::size_t planned_moves = 14;
 constexpr double standing = 0.05;  ///< mm/s at which the last of the planned moves ends
 
 }  // namespace
 
 double TimeEstimate::Block::seconds() const {
-  // Where the ramp up from the entry meets the ramp down to the exit; the nominal speed cuts it off.
+  // The speed where the ramp up from the entry meets the ramp down to the exit, limited by the nominal speed.
   const double meeting = std::sqrt((entry * entry + exit * exit) / 2 + acceleration * length);
   const double top = std::max({std::min(speed, meeting), entry, exit});
   const double ramps = (2 * top * top - entry * entry - exit * exit) / (2 * acceleration);
@@ -55,7 +54,7 @@ void TimeEstimate::move(const PerAxis& displacement, double speed, double load) 
       blocks_.empty() ? speed_from_rest(block, printer_) : junction_speed(blocks_.back(), block, printer_);
   blocks_.push_back(block);
   if (blocks_.size() <= planned_moves) return;
-  // The move that has just come is not known yet when the first one starts.
+  // The latest move is not known yet when the first one starts.
   const Block last = blocks_.back();
   blocks_.pop_back();
   look_ahead();
@@ -63,7 +62,7 @@ void TimeEstimate::move(const PerAxis& displacement, double speed, double load) 
   blocks_.push_back(last);
 }
 
-/// Backwards, every move may begin only as fast as it can still brake; forwards, only as fast as it can get.
+/// The backward pass limits every entry speed by the braking distance, the forward pass by the acceleration.
 void TimeEstimate::look_ahead() {
   double exit = std::min(standing, blocks_.back().speed);
   for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block) {

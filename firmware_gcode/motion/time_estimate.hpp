@@ -1,11 +1,11 @@
-// How long moves take: the firmware's own look-ahead planner, reckoned ahead. Speeds run as trapezoids; a
-// move ends as fast as the next one may begin, and as the moves that the firmware knows of by then let it
-// brake. A move is fixed when it starts; at that moment `planned_moves` of them are known, itself included.
-// mm, mm/s, mm/s², s.
+// Estimates how long moves take by repeating the firmware's own look-ahead planner. Speeds are trapezoids.
+// The final speed of a move is limited by the start of the next one and by the braking distance over the
+// moves that the firmware knows by then. A move is final when it starts; the firmware then knows
+// `planned_moves` moves, including itself. mm, mm/s, mm/s², s.
 //
-// Taken for granted: the printer's queue is always full. So what a firmware does when it runs low (short
-// moves are stretched) is left out, and so are whole motor steps. The seconds of heating and homing are not
-// here; nor are those of commands in between, but that some end all motion: stop().
+// Assumption: the printer's queue is always full. So the estimate omits that a firmware stretches short moves
+// when its queue runs low. It also omits whole motor steps, heating, homing, and the time of other commands,
+// except that some commands end all motion: stop().
 #pragma once
 
 #include <cstddef>
@@ -19,24 +19,25 @@ namespace unicursal::gcode {
 
 class TimeEstimate {
  public:
-  /// Told of every move when it is fixed, in order: its seconds, and the volume or whatever else it carries.
+  /// Called for every move when it is final, in order: its seconds, and the load that was passed with it.
   using Watch = std::function<void(double seconds, double load)>;
 
   /// Precondition: a checked printer (checks.hpp).
   explicit TimeEstimate(const Printer& printer, Watch watch = nullptr);
 
-  /// The machine goes by so much, at `speed` if it can. A displacement of zero is no move.
-  /// `speed` is along x, y and z, or of the filament if nothing else moves. Precondition: it is positive.
+  /// Adds a move at `speed`, or slower if its length or the limits do not allow that. A displacement of zero
+  /// is ignored. `speed` is along x, y and z, or that of the filament if only filament moves. Precondition:
+  /// it is positive.
   void move(const PerAxis& displacement, double speed, double load = 0);
-  /// All motion ends before what follows.
+  /// All motion ends before the next move.
   void stop();
 
-  /// Of all moves so far; as long as more may follow, the last ones are taken to end at a stand-still.
+  /// The time of all moves so far, assuming that the last one ends at standstill.
   double seconds() const;
 
  private:
   struct Block : Course {
-    double most_entry = 0;  ///< what the junction allows
+    double most_entry = 0;  ///< greatest speed at the junction
     double entry = 0, exit = 0;
     double load = 0;
 
@@ -49,10 +50,10 @@ class TimeEstimate {
 
   Printer printer_;
   Watch watch_;
-  std::deque<Block> blocks_;  ///< planned and not yet fixed
-  double entry_ = 0;          ///< of the first of them, if something runs before it
-  bool runs_ = false;         ///< something does
-  double fixed_ = 0;          ///< s
+  std::deque<Block> blocks_;  ///< planned and not yet final
+  double entry_ = 0;          ///< speed at the start of the first one, if a move runs before it
+  bool runs_ = false;         ///< a move runs before the first one
+  double fixed_ = 0;          ///< s of the final moves
 };
 
 }  // namespace unicursal::gcode

@@ -1,4 +1,4 @@
-// The encoder's product: a stretch of finished firmware text with what it means.
+// The encoder's output: a stretch of finished G-code with what a host has to know about it.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,23 @@
 
 namespace unicursal::gcode {
 
-/// Lines carry no number, no checksum and no newline; comment lines (starting with ';') belong in files
-/// only and must not be sent over the wire.
 struct MixtureVolume {
   Mixture mixture;
   double volume = 0;  ///< mm³
 };
 
+/// Adds the volume to that of an equal mixture if there is one.
 void add(std::vector<MixtureVolume>& volumes, const Mixture& mixture, double volume);
 
-/// A layer's share of a chunk.
+/// The part of a chunk that belongs to one layer.
 struct LayerShare {
   std::size_t layer = 0;
-  double volume = 0;   ///< mm³ along beads
-  double seconds = 0;  ///< estimated
-  bool last = false;   ///< nothing of the layer is left for later chunks
+  double volume = 0;   ///< mm³ laid along beads
+  double seconds = 0;  ///< s, estimated
+  bool last = false;   ///< later chunks contain no part of this layer
 };
 
-/// From a line on, the feeders turn for another mixture.
+/// The feeders change to another mixture at a line of the chunk.
 struct MixtureStart {
   std::size_t line = 0;  ///< index of the line that selects the mixture
   std::string name;      ///< of the job's material; else the shares, such as "0.02 : 0.74 : 0.24"
@@ -35,26 +34,28 @@ struct MixtureStart {
   friend bool operator==(const MixtureStart&, const MixtureStart&) = default;
 };
 
+/// Lines have no number, no checksum and no newline. Comment lines (starting with ';') belong in files only;
+/// they must not be sent to a printer.
 struct Chunk {
   std::vector<std::string> lines;
   /// By line, rising; before the first one, the mixture of the chunk before stays in use.
   std::vector<MixtureStart> mixtures;
-  double seconds = 0;  ///< estimated printing time
-  double volume = 0;   ///< mm³ extruded along beads, prime line included, retractions not
-  /// The same by mixture that the feeders are told, each once.
+  double seconds = 0;  ///< s, estimated
+  double volume = 0;   ///< mm³ extruded along beads and the prime line; excludes retractions
+  /// The same volume, by mixture; each mixture once.
   std::vector<MixtureVolume> mixture_volumes;
-  double prime_volume = 0;            ///< mm³ of `volume` that went into the prime line and the skirt
-  std::size_t prime_material = 0;     ///< index as in PrintSettings::materials, of the prime volume
-  std::vector<LayerShare> layers;     ///< that the lines belong to, in order; none for the start and the end
-  std::vector<LayerMixing> mixing;    ///< what the schedule will make of layers that have become certain
-  std::vector<std::string> warnings;  ///< what a person should know before printing, one sentence each
+  double prime_volume = 0;            ///< mm³ of `volume` in the prime line and the skirt
+  std::size_t prime_material = 0;     ///< of the prime volume: index into PrintSettings::materials
+  std::vector<LayerShare> layers;     ///< of the lines, in order; empty for the start and the end of a print
+  std::vector<LayerMixing> mixing;    ///< forecast for the layers that have become certain
+  std::vector<std::string> warnings;  ///< for the user, one sentence each
 };
 
-/// Whether the firmware gets this line; comments and blank lines belong in files.
+/// Returns whether the line is sent to the firmware; comments and blank lines are not.
 bool is_command(const std::string& line);
-/// Removes the lines that belong in files only.
+/// Removes comments and blank lines.
 void keep_commands(std::vector<std::string>& lines);
-/// The same for a whole chunk: the lines that its mixtures start at are counted again.
+/// Removes them from a chunk and renumbers its mixtures.
 void keep_commands(Chunk& chunk);
 
 }  // namespace unicursal::gcode

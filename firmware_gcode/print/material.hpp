@@ -1,4 +1,4 @@
-// What the zones of a part are made of: single mixtures and gradients between two.
+// The materials of a part's zones: single mixtures, and gradients between two mixtures.
 #pragma once
 
 #include <array>
@@ -11,27 +11,27 @@
 
 namespace unicursal::gcode {
 
-/// The way from one mixture to another across a zone: from it up to `begin`, to the other from `end` on,
-/// evenly between. Places are measured along `along`, on the bed, mm.
+/// A linear gradient across a zone, from the material's mixture to another. Positions are measured on the bed
+/// along the direction `along`, mm. The first mixture lies before `begin`, the other behind `end`.
 struct Gradient {
   Mixture to;
-  std::array<double, 3> along{1, 0, 0};  ///< of length 1
+  std::array<double, 3> along{1, 0, 0};  ///< unit vector
   double begin = 0, end = 1;             ///< begin < end
 
-  /// 0…1
+  /// The fraction of the way from the first mixture to the other, 0…1.
   double part_at(const core::Vec2& place, double z) const;
 };
 
 /// A mixture with the name that the job gives it.
 struct Material {
   std::string name;
-  Mixture mixture;                        ///< as asked by the job; of a gradient, where it begins
-  std::optional<Gradient> gradient = {};  ///< absent: of one mixture
-  bool transition = false;                ///< its zones are there to take up the changes between others
+  Mixture mixture;                        ///< as the job gives it; for a gradient, the first one
+  std::optional<Gradient> gradient = {};  ///< absent for a single mixture
+  bool transition = false;                ///< its zones take up the changes between other materials
 };
 
-/// One of the mixtures of a material: of a gradient, that many steps along. Behind the last material come the
-/// mixtures that no zone wants.
+/// Identifies one mixture of a print: a material, and the step along its gradient (0 for a single mixture).
+/// Indices behind the last material identify the mixtures that a palette has added for overshoots.
 struct Shade {
   std::size_t material = 0;
   std::size_t step = 0;

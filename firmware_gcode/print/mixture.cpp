@@ -20,7 +20,7 @@ double sum(const std::array<double, max_feeders>& shares) {
 Mixture::Mixture(const std::array<double, max_feeders>& shares) : shares_(shares) {
   for (double share : shares) {
     if (!(share >= 0) || !std::isfinite(share)) {
-      throw core::DataError("", "mixture", "a share is negative or no number", "give shares of 0 or more");
+      throw core::DataError("", "mixture", "a share is negative or not a number", "give shares of 0 or more");
     }
   }
   const double total = sum(shares);

@@ -1,4 +1,4 @@
-// Shares of the feeders in what leaves the nozzle.
+// The shares of the feeders in the plastic that leaves the nozzle.
 #pragma once
 
 #include <array>
@@ -9,20 +9,20 @@ namespace unicursal::gcode {
 
 inline constexpr std::size_t max_feeders = 3;
 
-/// Shares of feeders 1…3; non-negative, at least one positive, sum 1. An all-zero mixture hangs Marlin
-/// (firmware-facts), so one cannot be made.
+/// Shares of feeders 1…3; non-negative, sum 1. An all-zero mixture cannot be constructed, since it hangs
+/// Marlin (sim/README.md, "Mixing in Marlin").
 class Mixture {
  public:
-  /// Normalises. Throws core::DataError when a share is negative, infinite or NaN, or when all are zero.
+  /// Normalises the shares. Throws core::DataError if one is negative, infinite or NaN, or if all are zero.
   explicit Mixture(const std::array<double, max_feeders>& shares);
 
   double share(std::size_t feeder) const { return shares_[feeder]; }
   const std::array<double, max_feeders>& shares() const { return shares_; }
-  /// Every share at least `floor`, the rest scaled down in proportion: no feeder ever stands still for long,
-  /// since plastic creeps back up an idle inlet. Precondition: 0 ≤ floor ≤ 1/3.
+  /// Raises every share to at least `floor` and scales the others down in proportion. No feeder then stands
+  /// still for long; plastic creeps back up an idle inlet. Precondition: 0 ≤ floor ≤ 1/3.
   Mixture with_floor(double floor) const;
-  /// In whole units of the last of `decimals` decimals, by largest remainders: the units add up to 1 exactly,
-  /// so that what is written is what is normalised, and doing it again changes nothing.
+  /// Rounds to `decimals` decimals by largest remainders: the rounded shares add up to exactly 1, and
+  /// rounding again has no effect.
   Mixture quantised(int decimals) const;
 
   friend bool operator==(const Mixture&, const Mixture&) = default;
@@ -39,7 +39,7 @@ inline double squared_distance(const std::array<double, max_feeders>& a,
   return sum;
 }
 
-/// For people: "0.02 : 0.74 : 0.24".
+/// The shares as text: "0.02 : 0.74 : 0.24".
 std::string shares_text(const Mixture& mixture);
 
 }  // namespace unicursal::gcode

@@ -1,4 +1,4 @@
-// What comes into firmware_gcode: a layer's bead paths on the bed. mm.
+// The input of firmware_gcode: the bead paths of a layer on the bed. mm.
 #pragma once
 
 #include <cstddef>
@@ -9,27 +9,27 @@
 
 namespace unicursal::gcode {
 
-/// One layer ready to print: bead paths in the bed's frame.
+/// Bead paths in the frame of the bed.
 struct PlacedLayer {
   std::size_t index = 0;
-  double top = 0;  ///< where the nozzle runs
+  double top = 0;  ///< height of the nozzle
   double height = 0;
   std::vector<core::BeadPath> paths;
-  std::vector<core::Polygon> outlines =
-      {};  ///< of the islands: for hidden seams and travels round them; may be absent
+  std::vector<core::Polygon> outlines = {};  ///< of the islands, for hidden seams and detours; may be absent
 };
 
-/// Where the cycle of a layer begins and ends, as far as that is free: none of these makes a travel.
+/// Where the closed curve of a layer begins and ends. A seam moves at most 1.5 bead widths per layer, so that
+/// none of these adds a travel.
 enum class Seam {
-  hidden,     ///< inside the part, else in a notch of its outline
-  scattered,  ///< another place in every layer
-  aligned,    ///< one above the other
-  nearest     ///< wherever it costs the least way
+  hidden,     ///< inside the part; if that is impossible, in a notch of the outline
+  scattered,  ///< at a different place in every layer
+  aligned,    ///< above each other
+  nearest     ///< at the shortest distance from the last end
 };
 
-inline constexpr double travel_widths = 1.5;  ///< bead widths; a longer move without extruding is a travel
+inline constexpr double travel_widths = 1.5;  ///< bead widths; a longer move without extrusion is a travel
 
-/// Layers that the route is chosen over together.
+/// The number of layers over which the route is optimised.
 inline constexpr std::size_t default_horizon = 4;
 
 }  // namespace unicursal::gcode

@@ -12,14 +12,14 @@ namespace unicursal::gcode {
 namespace {
 
 constexpr std::size_t longest_answer = 1000;  ///< characters; the longest known are half of that
-constexpr std::size_t shortest_key = 3;       ///< letters, so that times and drives are none
+constexpr std::size_t shortest_key = 3;       ///< letters; excludes times and drives
 
 bool is_key(std::string_view text) {
   const auto fits = [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; };
   return text.size() >= shortest_key && std::all_of(text.begin(), text.end(), fits);
 }
 
-/// "A:one two B:three" by key; values may hold spaces and colons.
+/// Splits "A:one two B:three" by key; values may contain spaces and colons.
 std::map<std::string, std::string> fields_of(std::string_view text) {
   std::map<std::string, std::string> fields;
   std::string* value = nullptr;
@@ -45,7 +45,7 @@ std::optional<std::uint32_t> count_in(std::string_view& text) {
   return value;
 }
 
-/// The first number that has a point in it.
+/// Finds the first number that contains a point.
 std::optional<Version> version_in(std::string_view text) {
   while (!text.empty()) {
     const auto digit = text.find_first_of("0123456789");
@@ -81,8 +81,8 @@ std::string_view name(Family family) {
 }
 
 bool Identity::can(const std::string& capability) const {
-  const auto told = capabilities.find(capability);
-  return told != capabilities.end() && told->second;
+  const auto known = capabilities.find(capability);
+  return known != capabilities.end() && known->second;
 }
 
 void Identity::learn(const std::string& capability, bool on) {

@@ -1,10 +1,10 @@
-// Who a firmware is: its answer to M115 as typed values.
+// The identity of a firmware: its answer to M115 as typed values.
 //
 //   FIRMWARE_NAME:Marlin 2.1.2 (Mar 1 2023 12:30:00) SOURCE_CODE_URL:… EXTRUDER_COUNT:1 UUID:…
 //   Cap:AUTOREPORT_TEMP:1
 //
-// Marlin, Repetier, RepRapFirmware, Smoothieware and Klipper all answer in this form; only newer ones add
-// FIRMWARE_VERSION or lines of Cap:. Hostile input as every reply: bounded, nothing trusted.
+// Marlin, Repetier, RepRapFirmware, Smoothieware and Klipper answer in this form; only newer ones add
+// FIRMWARE_VERSION or Cap: lines. The text is hostile input like every reply: it is bounded and not trusted.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace unicursal::gcode {
 
 enum class Family { unknown, marlin, repetier, reprapfirmware, klipper, smoothieware };
 
-/// "Marlin", …; "unknown" for those that are not known.
+/// "Marlin", …; "unknown" for any other.
 std::string_view name(Family family);
 
 struct Version {
@@ -27,21 +27,22 @@ struct Version {
 };
 
 struct Identity {
-  std::string firmware;  ///< "Marlin 2.1.2 (Mar 1 2023 12:30:00)"; empty when it has told nothing
+  std::string firmware;  ///< "Marlin 2.1.2 (Mar 1 2023 12:30:00)"; empty if unknown
   Family family = Family::unknown;
   std::optional<Version> version;
   std::string machine;                     ///< MACHINE_TYPE
-  std::optional<std::uint32_t> extruders;  ///< EXTRUDER_COUNT; 1 in a Marlin whose feeders mix
+  std::optional<std::uint32_t> extruders;  ///< EXTRUDER_COUNT; 1 for a Marlin with a mixing extruder
   std::map<std::string, bool> capabilities;
 
-  /// What a Cap: line has promised; firmwares that have no such lines promise nothing.
+  /// Returns whether a Cap: line has announced the capability; false for firmwares without such lines.
   bool can(const std::string& capability) const;
-  /// More than any firmware tells; the rest of a flood is dropped.
+  /// More than any firmware announces; further ones are dropped.
   static constexpr std::size_t most_capabilities = 100;
   void learn(const std::string& capability, bool on);
 };
 
-/// From the line that begins with FIRMWARE_NAME:, which becomes printable. Capabilities follow by learn().
+/// Parses the line that begins with FIRMWARE_NAME: and makes its text printable. Add capabilities with
+/// learn().
 Identity identify(std::string_view line);
 
 }  // namespace unicursal::gcode

@@ -25,7 +25,7 @@ bool take(std::string_view& text, std::string_view prefix) {
   return true;
 }
 
-/// A number at the front, spaces before it allowed; none when there is no number or it is too large.
+/// Reads a number at the front, after optional spaces; nullopt if there is none or if it is too large.
 std::optional<std::uint32_t> take_count(std::string_view& text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   std::uint32_t value = 0;
@@ -45,7 +45,7 @@ std::optional<double> take_decimal(std::string_view& text) {
   return value;
 }
 
-/// What stands behind `label`, where the label begins a word; empty when it does not occur.
+/// Returns the text behind `label` where the label begins a word; empty if it does not occur.
 std::string_view after_label(std::string_view text, std::string_view label) {
   for (auto at = text.find(label); at != std::string_view::npos; at = text.find(label, at + 1)) {
     if (at == 0 || is_space(text[at - 1])) return text.substr(at + label.size());
@@ -94,7 +94,7 @@ reply::Error error_with(std::string_view rest) {
   return error;
 }
 
-/// Of "X:1.00 Y:2.00 Z:3.00 E:0.00 Count X:80 …" what stands before the count of steps.
+/// The part of "X:1.00 Y:2.00 Z:3.00 E:0.00 Count X:80 …" before the step counts.
 reply::Position position_with(std::string_view text) {
   reply::Position position{std::string(text), std::nullopt};
   std::array<double, 3> mm{};

@@ -15,16 +15,16 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr std::size_t numbering = 15;         ///< characters that line number and checksum may take
-constexpr double place_tolerance = 5e-4;      ///< mm; what a position is rounded by
-constexpr double speed_tolerance = 0.02;      ///< relative; a feed rate stays in force up to 1 % beside it
+constexpr std::size_t numbering = 15;         ///< characters for line number and checksum
+constexpr double place_tolerance = 5e-4;      ///< mm; rounding of a position
+constexpr double speed_tolerance = 0.02;      ///< relative; a feed rate is kept if it is within 1 %
 constexpr double feed_rounding = 0.02;        ///< mm/s; feed rates are whole mm/min
-constexpr double flow_tolerance_here = 0.05;  ///< relative; feed, positions and E are all rounded
-constexpr double flow_span = 0.5;             ///< mm over which flow is looked at
-constexpr double rounding = 1e-3;             ///< mm of filament that rounding may carry over
+constexpr double flow_tolerance_here = 0.05;  ///< relative; feed rates, positions and E are rounded
+constexpr double flow_span = 0.5;             ///< mm over which the flow is averaged
+constexpr double rounding = 1e-3;  ///< mm of filament that rounding may carry over to the next bead
 constexpr const char* axes = "XYZ";
 
-/// What is wrong with a line; becomes a core::DataError where its place is known.
+/// The problem of a line; becomes a core::DataError when its place is known.
 struct Fault {
   std::string problem;
 };
@@ -73,7 +73,8 @@ class LineCheck::Words {
     double value = 0;
     const char* const end = word.data() + word.size();
     const auto result = std::from_chars(word.data() + 1, end, value);
-    require(result.ec == std::errc() && result.ptr == end && std::isfinite(value), "a number is none");
+    require(result.ec == std::errc() && result.ptr == end && std::isfinite(value),
+            "a word has no valid number");
     require(!find(word[0]), "a letter comes twice");
     letters_[count_] = word[0];
     numbers_[count_++] = value;
@@ -126,7 +127,7 @@ void LineCheck::forget() {
 void LineCheck::command(const std::string& line, const MoveListener& listener) {
   require(line.size() + numbering <= dialect_.limits().line_length, "it is too long");
   require(std::all_of(line.begin(), line.end(), [](char c) { return c >= ' ' && c <= '~' && c != '*'; }),
-          "it holds a character that does not belong there");
+          "it contains a character that is not allowed");
   const Words words(line);
   const std::string_view name = words.command;
   require(!name.empty(), "it begins with a space");
@@ -144,12 +145,12 @@ void LineCheck::command(const std::string& line, const MoveListener& listener) {
   if (name == "G28" || name == "M400") listener.stop();
   const bool known = name == "G28" || name == "G90" || name == "M83" ||
                      std::find(harmless.begin(), harmless.end(), name) != harmless.end();
-  require(known, "it is no command that this program writes");
+  require(known, "this program does not write such a command");
 }
 
 void LineCheck::heat(const Words& words, double greatest, double* target) {
   const double asked = words.at('S');
-  require(words.only("S") && asked >= 0 && asked <= greatest, "no such heater may get that hot");
+  require(words.only("S") && asked >= 0 && asked <= greatest, "it is hotter than this heater may get");
   if (target) *target = asked;
 }
 
@@ -170,7 +171,7 @@ void LineCheck::define(const Words& words) {
     require(share.has_value(), "a tool is stored before all feeders have their shares");
     sum += *share;
   }
-  require(sum > 0, "a mixture of nothing would hang the firmware");
+  require(sum > 0, "an all-zero mixture would hang the firmware");
   state_.shares = {};
   state_.defined.insert(static_cast<std::size_t>(tool));
 }
@@ -186,14 +187,14 @@ void LineCheck::set_tool(const Words& words, const MoveListener& listener) {
 }
 
 void LineCheck::move(const Words& words, const MoveListener& listener) {
-  require(words.only("XYZEF"), "a move has a letter that is none of a move's");
+  require(words.only("XYZEF"), "a move has a letter that moves do not have");
   PerAxis displacement{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto to = words.find(axes[axis]);
     if (!to) continue;
     require(*to >= -place_tolerance && *to <= printer_.bed[axis] + place_tolerance,
             "it leads out of the printer's bed");
-    // After homing the machine stands somewhere near its origin, which is good enough for a time.
+    // After homing, the position is near the origin, which is precise enough for a time estimate.
     displacement[axis] = *to - state_.at[axis].value_or(0);
     state_.at[axis] = *to;
   }
@@ -241,7 +242,7 @@ void LineCheck::feed_filament(double filament, double length) {
   if (state_.flow_way >= flow_span) check_flow();
 }
 
-/// Of what was laid since it was last looked at; shorter pieces say nothing.
+/// Checks the mean flow since the last check; shorter pieces are too imprecise.
 void LineCheck::check_flow() {
   const double volume = (state_.flow_filament / greatest_factor_ - rounding) * filament_area_;
   const double most = printer_.max_flow * (1 + flow_tolerance_here) * state_.flow_seconds;

@@ -1,12 +1,15 @@
-// The last look at finished lines before they are handed out: a small interpreter of the program's own G-code
-// that knows nothing of how the lines were made. What it refuses is a defect of the program, which a printer
-// is not to suffer from. mm, mm/s, mm³/s, °C.
+// The final check of finished lines before they are handed out: a small interpreter of the program's own
+// G-code that does not know how the lines were made. A line that it refuses is a defect of the program, from
+// which the printer must be protected. mm, mm/s, mm³/s, °C.
 //
-// It holds every line to: a command that this program writes, short enough and plain; every position on the
-// bed; no axis above its speed; no more flow than the extruder melts, over any half millimetre; no move that
-// feeds more than the firmware takes; filament drawn back no further than the profile says, and out again;
-// beads only from a known place, warm, with a tool that has been defined by all feeders, none of them all
-// zero; heaters within what they may. The user's own lines (job_frame.hpp) are passed over.
+// It requires of every line: a command that this program writes, short and plain; positions on the bed;
+// speeds within the limits of all axes; no more flow than the extruder melts, over any half millimetre; no
+// more filament in one move than the firmware accepts; retractions no longer than the profile's, and undone
+// before the next bead; beads that start from a known place, warm, with a defined tool whose shares are not
+// all zero; heater targets within their limits. It skips the user's own lines (dialect/common_lines.hpp).
+//
+// The simulator parses G-code on its own (sim/firmware, sim/line/line_check.hpp) on purpose: it is
+// independent, so that a mistake in one of them cannot hide in the other.
 #pragma once
 
 #include <array>
@@ -23,35 +26,36 @@
 
 namespace unicursal::gcode {
 
-/// What lines make the machine do.
+/// Receives the motion that lines cause.
 struct MoveListener {
   std::function<void(const PerAxis& displacement, double speed)> move;
-  std::function<void()> stop;  ///< all motion ends before what follows
+  std::function<void()> stop;  ///< all motion ends here
 };
 
 class LineCheck {
  public:
   LineCheck(const Printer& printer, const Dialect& dialect);
 
-  /// Reads the lines of the next chunk and tells what they do. `place` begins messages: "layer 3". Throws
-  /// core::DataError, and is then as it was before, though the listener has heard of the lines up to there.
+  /// Reads the lines of the next chunk and reports their motion. Messages begin with `place`, such as "layer
+  /// 3". Throws core::DataError and then keeps its state, although the listener has received the lines up to
+  /// there.
   void read(const Chunk& chunk, const std::string& place, const MoveListener& listener);
 
  private:
   class Words;
 
-  /// What a firmware remembers, as far as lines depend on it.
+  /// The state of a firmware, as far as lines depend on it.
   struct State {
-    std::array<std::optional<double>, 3> at;  ///< x y z, absent: unknown
+    std::array<std::optional<double>, 3> at;  ///< x y z; absent if unknown
     double feed = 0;                          ///< mm/s, 0: unknown
     bool relative_filament = false;
     std::optional<std::size_t> tool;
     std::set<std::size_t> defined;
-    std::array<std::optional<double>, 3> shares;               ///< collected
-    double nozzle = 0;                                         ///< °C asked for
-    double drawn = 0;                                          ///< mm that the filament is drawn back
-    double flow_way = 0, flow_seconds = 0, flow_filament = 0;  ///< since the flow was last looked at
-    bool user = false;                                         ///< between the user's comments
+    std::array<std::optional<double>, 3> shares;               ///< from M163, not stored yet
+    double nozzle = 0;                                         ///< target, °C
+    double drawn = 0;                                          ///< retraction of the filament, mm
+    double flow_way = 0, flow_seconds = 0, flow_filament = 0;  ///< since the flow was last checked
+    bool user = false;                                         ///< inside the user's own lines
   };
 
   void command(const std::string& line, const MoveListener& listener);
@@ -67,7 +71,7 @@ class LineCheck {
   Printer printer_;
   const Dialect& dialect_;
   double filament_area_;                   ///< mm²
-  double least_factor_, greatest_factor_;  ///< by which filament may be written longer than it is
+  double least_factor_, greatest_factor_;  ///< of the scale between written and real filament
   State state_;
 };
 

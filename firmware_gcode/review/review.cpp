@@ -25,7 +25,7 @@ void Review::operator()(Chunk& chunk, const std::string& place) {
   before_first_ = first;
   const double now = time_.seconds();
   last_bead_ = laid ? now : last;
-  chunk.seconds = now - std::exchange(told_, now);
+  chunk.seconds = now - std::exchange(assigned_, now);
 }
 
 double Review::laying_seconds() const {

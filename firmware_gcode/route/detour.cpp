@@ -6,15 +6,15 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double clearance = 1.0;          ///< mm between the nozzle's way and an outline
-constexpr double longest_factor = 1.5;     ///< of the straight way
-constexpr double longest_more = 10;        ///< mm
-constexpr std::size_t most_corners = 400;  ///< of all obstacles; with more the way is straight
+constexpr double clearance = 1.0;          ///< mm between the travel and an outline
+constexpr double longest_factor = 1.5;     ///< times the straight way
+constexpr double longest_more = 10;        ///< mm in addition
+constexpr std::size_t most_corners = 400;  ///< of all obstacles; with more, the travel is straight
 constexpr double touch = 1e-6;             ///< mm; grazing a hull does not cross it
 
 using Hull = core::Ring;
 
-/// Counter-clockwise (Andrew's monotone chain).
+/// Counter-clockwise, by Andrew's monotone chain.
 Hull convex_hull(core::Ring points) {
   std::sort(points.begin(), points.end(), [](const core::Vec2& a, const core::Vec2& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -34,7 +34,7 @@ Hull convex_hull(core::Ring points) {
   return hull;
 }
 
-/// Every point becomes a small octagon: a hull with clearance and few corners.
+/// The convex hull plus the clearance: every corner is replaced by a small octagon.
 Hull grown(const core::Ring& ring) {
   constexpr double side = 0.41421356237309503;  // tan of an eighth turn
   core::Ring points;
@@ -58,7 +58,7 @@ bool inside(const Hull& hull, const core::Vec2& p) {
   return true;
 }
 
-/// Whether a piece of the segment lies within: it is cut by the half-planes of all sides.
+/// Returns whether a part of the segment lies inside the hull; clips it by the half-planes of all sides.
 bool crosses(const Hull& hull, const core::Vec2& from, const core::Vec2& to) {
   double begin = 0, end = 1;
   for (std::size_t i = 0; i < hull.size() && begin < end; ++i) {
@@ -91,8 +91,8 @@ class Ways {
     return std::none_of(hulls_.begin(), hulls_.end(), [&](const Hull& hull) { return crosses(hull, a, b); });
   }
 
-  /// Dijkstra's algorithm from the first node to the second; the nodes in between, or none if it gets too
-  /// long.
+  /// Dijkstra's algorithm from the first node to the second. Returns the nodes in between; empty if the way
+  /// is too long.
   std::vector<core::Vec2> shortest(double longest) const {
     std::vector<double> way(nodes_.size(), std::numeric_limits<double>::infinity());
     std::vector<std::size_t> before(nodes_.size(), 0);

@@ -1,5 +1,5 @@
-// Travels that go round what is printed: over no other island and over no hole, where a short way does
-// without. Obstacles count as their convex hulls, a little larger. mm.
+// Travels that go around printed islands and holes if the way around is short. Obstacles count as their
+// convex hulls plus a clearance. mm.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,9 @@
 
 namespace unicursal::gcode {
 
-/// Places to go through on the way from one point to another; none if the straight way is free, or if going
-/// round is longer by half and 10 mm. An obstacle that either point lies in is none. `within`: the bed.
+/// Returns the via points of a travel between two points. Empty if the straight way is free, or if every way
+/// around is longer than 1.5 times the straight way plus 10 mm. Obstacles that contain either point are
+/// ignored. `within` is the bed.
 std::vector<core::Vec2> detour(const core::Vec2& from, const core::Vec2& to,
                                const std::vector<core::Polygon>& outlines, const core::Box& within);
 

@@ -8,15 +8,15 @@
 namespace unicursal::gcode {
 namespace {
 
-/// Vertices that stand for a path where nearness is looked for first; round the best pair all are tried.
+/// Vertices of a path in the first search for the nearest pair; near the best pair, all are tried.
 constexpr std::size_t samples = 160;
-constexpr std::size_t most_rounds = 30;  ///< of improvement; each shortens the tour
+constexpr std::size_t most_rounds = 30;  ///< of improvement; each round shortens the tour
 
 double mean_width(const core::BeadPath& path) {
   return path.total_area() / path.total_length();
 }
 
-/// Squared distance of the nearest vertices.
+/// The squared distance of the nearest vertices.
 double nearest_squared(const core::BeadPath& a, const core::BeadPath& b) {
   const std::size_t sa = std::max<std::size_t>(1, a.size() / samples),
                     sb = std::max<std::size_t>(1, b.size() / samples);
@@ -60,7 +60,7 @@ class Tour {
   std::vector<std::size_t> best() const {
     std::vector<std::size_t> best;
     double least = std::numeric_limits<double>::infinity();
-    // From every possible first one: there are few, and the nearest is not always where to begin.
+    // Try every path as the first one: there are few, and the nearest is not always the best beginning.
     for (std::size_t first = 0; first < count_; ++first) {
       std::vector<std::size_t> order = improved(nearest_neighbours(first));
       const double cost = length(order);
@@ -99,7 +99,7 @@ class Tour {
     return order;
   }
 
-  /// 2-opt: a stretch the other way round; and single paths put elsewhere.
+  /// 2-opt (reverses a stretch) and moves of single paths.
   std::vector<std::size_t> improved(std::vector<std::size_t> order) const {
     double cost = length(order);
     bool better = true;

@@ -1,5 +1,5 @@
-// In what order the paths of a layer come: an open tour from where the last layer ended, with as few travels
-// as may be and those short. Nearest neighbour, then 2-opt and single moves. mm.
+// The order of a layer's paths: an open tour from the end of the last layer with as few and as short travels
+// as possible. Nearest neighbour, then 2-opt and moves of single paths. mm.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace unicursal::gcode {
 
-/// What it costs to go from one path to another: the way between their nearest vertices, and `travel_cost`
-/// more if that is a travel.
+/// The cost of going from one path to another: the distance of their nearest vertices, plus `travel_cost` if
+/// that is a travel.
 double way_between(const core::BeadPath& from, const core::BeadPath& to);
 
-inline constexpr double travel_cost = 1000;  ///< mm of way that a travel more is worth avoiding by
+inline constexpr double travel_cost = 1000;  ///< mm of additional way that saving a travel is worth
 
-/// Indices into `paths`. `before`: the path that the last layer ended with, may be null; `after`: the next
-/// layer's paths, so that the last one here is one that they can go on from; may be empty.
+/// Returns indices into `paths`. `before`: the last path of the layer below, may be null. `after`: the paths
+/// of the next layer, near which the tour should end; may be empty.
 std::vector<std::size_t> island_order(const std::vector<const core::BeadPath*>& paths,
                                       const core::BeadPath* before,
                                       const std::vector<const core::BeadPath*>& after);

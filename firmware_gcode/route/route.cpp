@@ -16,20 +16,21 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// What weighs how much, in mm³ of plastic in the wrong mixture.
-constexpr double travel_weight = 1000;  ///< outweighs all else
-constexpr double way_weight = 0.002;    ///< for each mm
-constexpr double seam_weight = 0.3;     ///< of a seam as plain as can be
-constexpr double hidden_depth = 2.5;    ///< bead widths inside the outline, where a seam does not show at all
-constexpr double notch_discount = 0.5;  ///< of a seam on the outline, in its sharpest notches
-constexpr double aligned_reach = 5;  ///< mm from the place aimed at, where a seam counts as plain as can be
-constexpr double cell = 2;  ///< mm; one of so big a square stands for all in it, as the end of a travel
+// Weights, in mm³ of plastic in the wrong mixture.
+constexpr double travel_weight = 1000;  ///< outweighs everything else
+constexpr double way_weight = 0.002;    ///< per mm
+constexpr double seam_weight = 0.3;     ///< of a fully visible seam
+constexpr double hidden_depth = 2.5;    ///< bead widths inside the outline at which a seam is invisible
+constexpr double notch_discount = 0.5;  ///< of the weight of a seam in the sharpest notches of the outline
+constexpr double aligned_reach = 5;     ///< mm from the target at which a seam counts as fully visible
+constexpr double cell =
+    2;  ///< mm; side of a square; the best end of a square represents all others as the start of a travel
 
 double mean_width(const core::BeadPath& path) {
   return path.total_area() / path.total_length();
 }
 
-/// Where a cycle may begin: at vertex k/2, forwards or (odd k) backwards.
+/// State k of a path: it begins at vertex k/2, forwards or (odd k) backwards.
 struct Beginning {
   std::size_t vertex;
   bool reversed;
@@ -39,14 +40,14 @@ Beginning beginning(std::size_t k) {
   return {k / 2, k % 2 == 1};
 }
 
-/// One path of the chain, with the costs of the ways to begin it.
+/// One path of the chain with the costs of its states.
 struct Node {
-  std::size_t layer, path;  ///< in the window; in the layer
+  std::size_t layer, path;  ///< indices in the window and in the layer
   const core::BeadPath* beads;
   double width;
-  std::vector<double> own;        ///< cost of each state by itself
-  std::vector<double> least;      ///< of the best chain that ends in it
-  std::vector<std::size_t> from;  ///< the state before it, in that chain
+  std::vector<double> own;        ///< cost of each state alone
+  std::vector<double> least;      ///< cost of the best chain that ends in each state
+  std::vector<std::size_t> from;  ///< the previous state in that chain
 
   std::size_t before(std::size_t vertex) const { return (vertex + beads->size() - 1) % beads->size(); }
   std::size_t first_zone(std::size_t k) const {
@@ -66,10 +67,10 @@ std::uint64_t cell_of(const core::Vec2& p, double size) {
   return (static_cast<std::uint64_t>(x) << 32) ^ static_cast<std::uint32_t>(y);
 }
 
-/// The vertices of a path by squares, each square's in their order.
+/// A grid of squares over the vertices of a path; each square keeps the order of its vertices.
 class VertexGrid {
  public:
-  /// `reach`: how far neighbours are looked for, mm.
+  /// `reach`: radius of the search for neighbours, mm.
   VertexGrid(const core::BeadPath& path, double reach)
       : path_(path), reach_(reach), square_(reach), least_(path.start(0)) {
     core::Vec2 greatest = least_;
@@ -90,7 +91,7 @@ class VertexGrid {
     }
   }
 
-  /// Calls use(vertex) for those within the reach.
+  /// Calls use(vertex) for all vertices within the reach of `p`.
   template <typename Use>
   void for_each_near(const core::Vec2& p, Use&& use) const {
     const std::int64_t x = column(p.x(), least_.x()), y = column(p.y(), least_.y());
@@ -117,14 +118,14 @@ class VertexGrid {
 
   const core::BeadPath& path_;
   double reach_;
-  double square_;  ///< mm, no less than the reach
+  double square_;  ///< side of a square, mm; at least the reach
   core::Vec2 least_;
   std::int64_t columns_ = 0, rows_ = 0;
-  std::vector<std::uint32_t> begin_;  ///< of each square's vertices, and the end of the last one's
+  std::vector<std::uint32_t> begin_;  ///< of each square's vertices; the last entry is the end
   std::vector<std::uint32_t> vertices_;
 };
 
-/// 0 where a seam at the vertex would not show, 1 where it would show most.
+/// The visibility of a seam: 0 invisible, 1 most visible.
 class SeamLook {
  public:
   SeamLook(const PlacedLayer& layer, Seam seam, std::optional<core::Vec2> aim) : seam_(seam), aim_(aim) {
@@ -162,7 +163,7 @@ class SeamLook {
     }
   }
 
-  /// By its depth below the outline; on the outline, less where that turns inwards.
+  /// By the depth below the outline; lower on the outline where it turns inwards.
   double shown(const core::Vec2& p, double width) const {
     const double deep = hidden_depth * width;
     double depth = deep, notch = 0;
@@ -180,8 +181,8 @@ class SeamLook {
     return (1 - depth / deep) * (1 - notch_discount * notch);
   }
 
-  /// Of the turn at a corner: negative where the outline (counter-clockwise; holes clockwise) turns into the
-  /// part.
+  /// The sine of the turn at a corner: negative where the outline (counter-clockwise; holes clockwise) turns
+  /// into the part.
   static double sine(const Corner& c) {
     const core::Vec2 a = c.at - c.from, b = c.to - c.at;
     const double length = a.norm() * b.norm();
@@ -193,7 +194,7 @@ class SeamLook {
   std::unordered_map<std::uint64_t, std::vector<Corner>> corners_;
 };
 
-/// Another place in every layer, the same in every run: by the golden angle.
+/// A different place in every layer, the same in every run (golden angle).
 core::Vec2 scattered_aim(const PlacedLayer& layer, const core::BeadPath& path) {
   constexpr double golden = 0.6180339887498949;
   const double part = std::fmod(golden * static_cast<double>(layer.index + 1), 1.0);
@@ -218,7 +219,7 @@ bool is_printable(const core::BeadPath& path) {
 struct Route::State {
   explicit State(RouteOptions with) : options(std::move(with)) {}
 
-  /// A layer with the costs of its beginnings by path, as far as they have been needed.
+  /// A layer with the costs of its states by path, computed on demand.
   struct Waiting {
     PlacedLayer layer;
     std::vector<std::vector<double>> own;
@@ -236,13 +237,13 @@ struct Route::State {
   std::deque<Waiting> waiting;
   std::size_t decided = 0;  ///< layers
   bool ended = false;
-  std::optional<core::BeadPath> last_path;  ///< of what is decided
-  core::Vec2 here{0, 0};                    ///< where it ends
-  std::size_t here_zone = 0;                ///< in which zone
+  std::optional<core::BeadPath> last_path;  ///< of the final layers
+  core::Vec2 here{0, 0};                    ///< end of the last path
+  std::size_t here_zone = 0;                ///< zone of that end
   std::optional<core::Vec2> aim;            ///< of aligned seams
 };
 
-/// All paths of the waiting layers in their order.
+/// All paths of the waiting layers in printing order.
 std::vector<Node> Route::State::chain() {
   std::vector<Node> nodes;
   const auto printable = [&](std::size_t l) {
@@ -270,7 +271,7 @@ std::vector<Node> Route::State::chain() {
   return nodes;
 }
 
-/// The seam, and the change that a beginning on a border saves.
+/// The visibility of the seam, minus the change that a beginning on a border saves.
 const std::vector<double>& Route::State::own_costs(const Node& node) {
   std::vector<double>& own = waiting[node.layer].own[node.path];
   if (!own.empty()) return own;
@@ -297,7 +298,7 @@ double Route::State::step_cost(const Node& node, std::size_t k, const core::Vec2
          (zone == next ? 0 : options.change_cost(zone, next));
 }
 
-/// The first of the chain follows what is decided, or nothing: then all beginnings are equal.
+/// The costs of the first path of the chain. It follows the last final path, if there is one.
 void Route::State::begin(Node& node) const {
   node.least = node.own;
   node.from.assign(node.own.size(), 0);
@@ -305,8 +306,8 @@ void Route::State::begin(Node& node) const {
   for (std::size_t k = 0; k < node.own.size(); ++k) node.least[k] += step_cost(node, k, here, here_zone);
 }
 
-/// Every pair of neighbouring vertices is looked at in all layers of the horizon, for every layer anew: what
-/// is the same for both directions is reckoned once.
+/// Examines every pair of neighbouring vertices. This is repeated in all layers of the horizon for every
+/// layer, so that work common to both directions is done once.
 void Route::State::follow(Node& node, const Node& before) const {
   const std::size_t count = node.own.size();
   node.least.assign(count, infinite);
@@ -337,10 +338,10 @@ void Route::State::follow(Node& node, const Node& before) const {
     });
     if (alike) node.least[k + 1] = node.least[k], node.from[k + 1] = node.from[k];
   }
-  if (!reached) travel(node, before);  // a travel to where none is needed cannot pay
+  if (!reached) travel(node, before);  // a travel never pays if another state needs none
 }
 
-/// To every beginning from the best end of every square and zone.
+/// Travels to every state from the best end in every square and zone.
 void Route::State::travel(Node& node, const Node& before) const {
   std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> far;
   for (std::size_t k = 0; k < before.own.size(); ++k) {

@@ -1,13 +1,15 @@
-// Where every cycle begins, which way round it runs, and in what order the islands come: chosen over the next
-// layers together. mm, mm³.
+// Chooses where every closed curve begins, its direction, and the order of the islands, over the next layers
+// together. mm, mm³.
 //
-// A cycle ends where it began, so that all depends on that one place and the direction. They are found by
-// dynamic programming along the chain of all paths of the layers at hand: the states of a path are its
-// vertices, each in both directions; from one path to the next a state costs
-//   a travel, if the next does not begin within 1.5 bead widths, which outweighs everything else; and its
-//   length; a change of mixture between the end of the one and the beginning of the other; but a cycle that
-//   begins on a border between zones has one change less inside; what the seam would show.
-// Then the first layer is taken as decided and the next one joins.
+// A closed curve ends where it began, so that its start and direction decide everything. They are found by
+// dynamic programming along the chain of all paths of the layers at hand. The states of a path are its
+// vertices, each in both directions. The cost of a transition between states of two paths is the sum of
+//   - the length of the way, and a travel if it is longer than 1.5 bead widths (this outweighs everything
+//   else);
+//   - a change of mixture between the end of one path and the beginning of the next;
+//   - the visibility of the seam.
+// A curve that begins on a border between zones has one change less inside. After each optimisation the first
+// layer is final and the next layer joins.
 #pragma once
 
 #include <cstddef>
@@ -22,17 +24,16 @@ namespace unicursal::gcode {
 
 struct RouteOptions {
   std::size_t horizon = default_horizon;
-  /// The first layer is decided as soon as it comes, the two after it on sight of two, and so on up to the
-  /// horizon: a hot nozzle waits for one layer to be planned, not for four. A part that shrinks to a tower
-  /// after its very first layer may cost a travel by that.
+  /// The horizon grows with the print: the first layer is final as soon as it arrives, the next two as soon
+  /// as two are known, and so on. So a hot nozzle waits for the planning of one layer and not of four. This
+  /// may cost a travel if the part shrinks to a tower right after its first layer.
   bool growing = false;
   Seam seam = Seam::hidden;
-  /// What a change between the mixtures of two zones costs, mm³ of plastic in the wrong place; 0 for the
-  /// same.
+  /// The cost of a change between the mixtures of two zones, mm³ of misplaced plastic; 0 for equal mixtures.
   std::function<double(std::size_t from, std::size_t to)> change_cost;
 };
 
-/// One path of a layer, all the way round.
+/// One path of a layer with its start and direction.
 struct Traversal {
   std::size_t path = 0;
   std::size_t start = 0;  ///< vertex
@@ -44,10 +45,10 @@ struct RoutedLayer {
   std::vector<Traversal> traversals;
 };
 
-/// Bead k of a leg, 0 ≤ k < path.size(): its index and its end.
+/// Bead k of a traversal, 0 ≤ k < path.size(): its index, and its end point.
 std::size_t bead_of(const core::BeadPath& path, const Traversal& leg, std::size_t k);
 core::Vec2 bead_end(const core::BeadPath& path, const Traversal& leg, std::size_t k);
-/// Whether there is anything to print.
+/// Returns whether the path has a length to print.
 bool is_printable(const core::BeadPath& path);
 
 class Route {
@@ -59,9 +60,9 @@ class Route {
   void add(PlacedLayer layer);
   /// No layer will follow.
   void end();
-  /// What has been added and not yet taken; valid until the next call.
+  /// The layers that were added and not yet taken; valid until the next call.
   std::vector<const PlacedLayer*> waiting() const;
-  /// The next layer that is decided, if there is one.
+  /// The next layer whose route is final; nullopt if there is none yet.
   std::optional<RoutedLayer> take();
 
  private:

@@ -6,11 +6,11 @@
 namespace unicursal::gcode {
 namespace {
 
-/// The work for one straight piece grows with the square of its segments.
+/// Segments of a straight piece; the work grows with its square.
 constexpr std::size_t longest_run = 64;
 
-/// The segments from `first` to before `last` (at most the path's size) are one but for the vertices in
-/// between.
+/// Returns whether the vertices between the segments `first` and `last` − 1 lie on a straight line. `last` is
+/// at most the path's size.
 bool straight(const core::BeadPath& path, std::size_t first, std::size_t last) {
   const core::Vec2 from = path.start(first), to = path.end(last - 1);
   const core::Vec2 way = to - from;
@@ -27,7 +27,7 @@ bool straight(const core::BeadPath& path, std::size_t first, std::size_t last) {
   return true;
 }
 
-/// One past the last segment that can be joined to `first`.
+/// The index behind the last segment that can be joined to `first`.
 std::size_t end_of_run(const core::BeadPath& path, std::size_t first) {
   double least = path.width(first), greatest = least;
   std::size_t last = first + 1;

@@ -13,7 +13,7 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double outside_tolerance = 5e-4;   ///< mm; half of what a written position can tell
+constexpr double outside_tolerance = 5e-4;   ///< mm; half the resolution of a written position
 constexpr double floating_tolerance = 1e-6;  ///< mm; rounding of a sum of layer heights
 constexpr std::size_t longest_command = 80;  ///< characters; leaves room for line number and checksum
 
@@ -21,7 +21,7 @@ void require(bool good, const std::string& place, const std::string& problem, co
   if (!good) throw core::DataError("", place, problem, remedy);
 }
 
-/// False for NaN, too.
+/// Returns false for NaN.
 bool within(double value, double low, double high) {
   return value >= low && value <= high;
 }
@@ -44,7 +44,7 @@ void check_bead(const core::Bead& bead, const PlacedLayer& layer, const PrintSet
                 const Printer& printer) {
   const core::Vec2& p = bead.position;
   require(p.allFinite() && within(bead.area, 0, printer.bed[0] * printer.bed[1]), where(layer, p),
-          "a position is not finite or an area is not between nothing and the whole bed",
+          "a position is not finite, or an area is negative or larger than the bed",
           "this is a defect of the curve; please report it");
   require(within(p.x(), -outside_tolerance, printer.bed[0] + outside_tolerance) &&
               within(p.y(), -outside_tolerance, printer.bed[1] + outside_tolerance),
@@ -126,10 +126,10 @@ void check_settings(const PrintSettings& settings, const Printer& printer) {
           "is not between 0.05 and 0.95",
           "give the share of a change that may fall before its border, say 0.5");
   require_positive(settings.flow, "flow");
-  require(!settings.speed || bounds::speed.hold(*settings.speed), "speed", "is none that a printer can run",
-          "give it in mm/s, say 20");
+  require(!settings.speed || bounds::speed.hold(*settings.speed), "speed",
+          "is outside the speeds that a printer can run", "give it in mm/s, say 20");
   require(settings.first_layer_speed > 0 && settings.first_layer_speed <= 1, "first_layer_speed",
-          "is not above 0, up to 1", "give the part of the other layers' speed, say 0.5");
+          "is not between 0 and 1", "give a fraction of the other layers' speed, say 0.5");
   require(within(settings.fan.percent, 0, 100), "fan", "is not between 0 and 100 %", "correct it");
   for (const LayerTemperature& change : settings.temperatures) {
     if (change.nozzle) require_within(*change.nozzle, bounds::nozzle_temperature, "temperatures", "°C");
@@ -144,7 +144,7 @@ void check_settings(const PrintSettings& settings, const Printer& printer) {
 void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const Printer& printer) {
   const std::string place = fmt::format("layer {}", layer.index);
   require(layer.height > 0 && layer.height <= bounds::nozzle.greatest, place,
-          fmt::format("its height is not above 0, up to {:g} mm", bounds::nozzle.greatest),
+          fmt::format("its height is not between 0 and {:g} mm", bounds::nozzle.greatest),
           "give the layer height in millimetres");
   require(layer.top > 0 && layer.top <= printer.bed[2] + outside_tolerance, place,
           fmt::format("its top at {:g} mm is not within the printer's height of {:g} mm", layer.top,
@@ -174,7 +174,7 @@ std::vector<std::string> user_commands(const std::string& text, const std::strin
     require(printable(line), place, "a character is not plain ASCII", "write G-code with ASCII letters only");
     require(line.size() <= longest_command, place,
             fmt::format("the command is longer than {} characters", longest_command), "shorten it");
-    require(!breaks_numbering(line), place, "line numbers and checksums are the program's own business",
+    require(!breaks_numbering(line), place, "the program itself adds line numbers and checksums",
             "remove the N, the * or the M110");
     commands.push_back(line);
   }

@@ -1,5 +1,5 @@
-// Nothing leaves the host that the printer cannot do. Every function throws core::DataError, naming the
-// place and the remedy, and has no other effect.
+// Checks that the printer can carry out what it is asked. Every function throws core::DataError, which names
+// the place and the remedy, and has no other effect.
 #pragma once
 
 #include <string>
@@ -10,17 +10,18 @@
 
 namespace unicursal::gcode {
 
-/// Sizes, speeds, temperatures and feeders of the machine.
+/// Checks sizes, speeds, temperatures and feeders of the machine.
 void check_printer(const Printer& printer);
-/// Flow, materials and their zones.
+/// Checks flow, speeds, materials and zones.
 void check_settings(const PrintSettings& settings, const Printer& printer);
-/// Every position inside the bed, every number finite, every zone known.
+/// Checks that every position is inside the bed, every number finite, and every zone known.
 void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const Printer& printer);
-/// Of the first layer that prints anything: it lies on the bed.
+/// Checks that the first layer with beads lies on the bed.
 void check_on_bed(const PlacedLayer& layer);
 
-/// The commands in a piece of a user's own G-code: comments and blank lines dropped. Refuses what would
-/// break the numbering of lines (M110, N…, '*') and lines that a firmware would cut. `key` names the text.
+/// Returns the commands in a piece of the user's own G-code, without comments and blank lines. Refuses
+/// commands that break the numbering of lines (M110, N…, '*') and lines that a firmware would cut. `key`
+/// names the text.
 std::vector<std::string> user_commands(const std::string& text, const std::string& key);
 
 }  // namespace unicursal::gcode

@@ -34,12 +34,13 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double width_comment_step = 0.2;  ///< relative change of width that viewers are told about
-constexpr double park_lift = 10;            ///< mm above the last layer, where the bed's height allows
+constexpr double width_comment_step = 0.2;  ///< relative change of width that gets a new comment for viewers
+constexpr double park_lift = 10;            ///< mm above the last layer, if the printer's height allows
 
-constexpr double unseen = 0.02;         ///< weight of plastic whose mixture hardly matters
-constexpr double gradient_piece = 0.5;  ///< mm of path that counts as of one mixture
-constexpr double least_piece = 1e-3;    ///< mm³; a bead is not cut nearer to its end
+constexpr double unseen =
+    0.02;  ///< weight of plastic whose mixture hardly matters (prime line, transition zones)
+constexpr double gradient_piece = 0.5;  ///< mm of path that count as one mixture
+constexpr double least_piece = 1e-3;    ///< mm³; beads are not cut nearer to their ends
 
 using Lines = std::vector<std::string>;
 
@@ -47,7 +48,7 @@ void append(Lines& lines, Lines more) {
   lines.insert(lines.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-// What is to be written, in order.
+// The steps that are to be written, in order.
 struct BeginLayer {
   std::size_t index;
   double top, height;
@@ -78,7 +79,7 @@ core::Box grown(core::Box box, double by) {
   return box;
 }
 
-/// The leg as a path of its own: from its start, in its direction.
+/// The path from the start of its traversal, in the direction of the traversal.
 core::BeadPath turned(const core::BeadPath& path, const Traversal& leg) {
   core::BeadPath result;
   core::Vec2 from = path.start(leg.start);
@@ -112,7 +113,7 @@ Mixtures mixtures_of(const Printer& printer, const PrintSettings& settings, cons
   };
   PaletteWithOvershoots all{Palette(settings.materials, calibrate), {}};
   if (settings.look_ahead && printer.overshoot) {
-    const std::size_t most = dialect.limits().virtual_tools - 1;  // one tool is for drawing back
+    const std::size_t most = dialect.limits().virtual_tools - 1;  // one tool draws filament back
     all = with_overshoots(std::move(all.palette),
                           {chamber_of(printer), settings.change_before_border, printer.floor_share, most});
   }
@@ -120,7 +121,7 @@ Mixtures mixtures_of(const Printer& printer, const PrintSettings& settings, cons
   return {std::move(all.palette), std::move(all.overshoots), std::move(tools)};
 }
 
-/// By material: false for those that take up changes.
+/// By material: false for materials of transition zones.
 std::vector<bool> matters(const PrintSettings& settings) {
   std::vector<bool> result;
   for (const Material& material : settings.materials) result.push_back(!material.transition);
@@ -170,7 +171,7 @@ struct Encoder::State {
   void switch_mixture(Chunk& chunk);
   void draw_back(Chunk& chunk);
   void push_forward(Chunk& chunk);
-  void tell_width(Chunk& chunk, double width);
+  void write_width(Chunk& chunk, double width);
 
   const Printer printer;
   const PrintSettings settings;
@@ -185,23 +186,23 @@ struct Encoder::State {
   Route route;
   Schedule schedule;
   Forecast forecast;
-  std::deque<Step> steps;  ///< planned and not yet written
+  std::deque<Step> steps;  ///< planned, not written yet
   std::deque<Switch> switches;
   std::optional<Shade> shade;            ///< in use
   std::size_t shade_tool = 0;            ///< the virtual tool that holds it
-  std::optional<core::Vec2> planned_to;  ///< where the last path that is planned ends
-  double laid = 0;                       ///< mm³ along beads, written
+  std::optional<core::Vec2> planned_to;  ///< end of the last planned path
+  double laid = 0;                       ///< mm³ along beads that are written
   bool ended = false;
   std::size_t layer = 0;    ///< being written
-  bool layer_ends = false;  ///< what is being written is its end
+  bool layer_ends = false;  ///< its end is being written
   double layer_height = 0;
   std::size_t prime_material = 0;
   bool drawn_back = true;
-  bool begun = false;  ///< something has been printed or accepted for it
+  bool begun = false;  ///< a layer with beads has been accepted
   bool primed = false;
   bool warned_of_crossings = false;
   bool warned_of_flow = false;
-  double told_width = 0;  ///< mm, of the last ;WIDTH: comment
+  double written_width = 0;  ///< mm, of the last ;WIDTH: comment
 };
 
 Encoder::State::State(const Printer& of, const PrintSettings& with, const Dialect& speaks, Mixtures mixtures)
@@ -222,7 +223,7 @@ Encoder::State::State(const Printer& of, const PrintSettings& with, const Dialec
   for (std::size_t i = 0; i < tools.size(); ++i) define_tool(i);
 }
 
-/// Of a material, where a gradient begins included; else the shares.
+/// The name of the material, also for the beginning of a gradient; else the shares.
 std::string Encoder::State::name_of(const Mixture& delivered) const {
   for (std::size_t i = 0; i < settings.materials.size(); ++i) {
     if (palette.mixture(Shade{i, 0}) == delivered) return settings.materials[i].name;
@@ -275,8 +276,7 @@ void Encoder::State::plan(const RoutedLayer& routed) {
   steps.push_back(EndLayer{});
 }
 
-/// An automatic one is chosen when the first layer that prints comes, together with those that wait behind
-/// it.
+/// An automatic flow is chosen at the first layer with beads, from all layers that are known by then.
 double Encoder::State::flow_for(const RoutedLayer& routed) {
   if (!settings.automatic_flow || settings.speed || routed.traversals.empty()) return pace.flow();
   const PlacedLayer fill = simplified(routed.layer);
@@ -287,15 +287,16 @@ double Encoder::State::flow_for(const RoutedLayer& routed) {
   }
   const double flow = pace.flow_of(fill);
   if (flow < (1 - flow_tolerance) * pace.flow() && !std::exchange(warned_of_flow, true)) {
-    steps.push_back(Warning{fmt::format(
-        "layer {}: its hairpins let {:.2f} mm³/s stay constant and not {:.2f}; it is laid with that, as are "
-        "others that need it",
-        routed.layer.index, flow, pace.flow())});
+    steps.push_back(
+        Warning{fmt::format("layer {}: its hairpins sustain a flow of {:.2f} mm³/s and not {:.2f} mm³/s; it "
+                            "is printed at that flow, and "
+                            "later layers at what they sustain",
+                            routed.layer.index, flow, pace.flow())});
   }
   return flow;
 }
 
-/// What is primed with is what is needed next.
+/// Primes with the first material of the part.
 void Encoder::State::plan_prime(const RoutedLayer& routed) {
   const Traversal& first = routed.traversals.front();
   const core::BeadPath& path = routed.layer.paths[first.path];
@@ -361,8 +362,7 @@ void Encoder::State::plan_path(const PlacedLayer& of, const core::BeadPath& whol
   }
 }
 
-/// A step is written when the plastic of the next bead is certain: a travel waits with the bead that it is
-/// for.
+/// A step is written when the mixture of the next bead is certain; a travel waits for the bead behind it.
 bool Encoder::State::is_certain() const {
   if (ended || std::holds_alternative<EndLayer>(steps.front())) return true;
   for (const Step& step : steps) {
@@ -388,20 +388,20 @@ Chunk Encoder::State::write_certain() {
   return chunk;
 }
 
-/// Once: the report tells the rest.
+/// Warns once; the report lists all layers.
 void Encoder::State::warn_of_crossings(Chunk& chunk) {
   for (const LayerMixing& mixing : chunk.mixing) {
     if (mixing.short_crossings == 0 || std::exchange(warned_of_crossings, true)) continue;
     chunk.warnings.push_back(
-        fmt::format("layer {}: {} of {} crossings of transition zones hold less than the mixing volume of "
-                    "{:g} mm³, the shortest "
+        fmt::format("layer {}: {} of {} crossings of transition zones are shorter than the mixing volume of "
+                    "{:g} mm³, the shortest has "
                     "{:.2f} mm³; colours will change outside the zone there unless it is made wider",
                     mixing.layer, mixing.short_crossings, mixing.crossings, printer.mixing_volume,
                     mixing.shortest_crossing));
   }
 }
 
-/// Reads back, times and adds what has been written of one layer.
+/// Reviews the lines of one layer and adds them to the chunk.
 void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
   if (part.lines.empty() && !layer_ends) return;
   review(part, fmt::format("layer {}", layer));
@@ -452,7 +452,7 @@ void Encoder::State::push_forward(Chunk& chunk) {
 void Encoder::State::write(Chunk& chunk, const Approach& step) {
   const auto here = writer.position();
   if (!here || (step.to - *here).norm() > travel_widths * step.bead_width) draw_back(chunk);
-  // Rise first: at the old height the nozzle would plough through what it has just laid.
+  // Rise first: at the old height, the nozzle would plough through the layer.
   writer.rise(chunk, drawn_back ? std::min(step.z + printer.z_hop, printer.bed[2]) : step.z);
   for (const core::Vec2& place : step.via) writer.travel(chunk, place);
   writer.travel(chunk, step.to);
@@ -460,7 +460,8 @@ void Encoder::State::write(Chunk& chunk, const Approach& step) {
   push_forward(chunk);
 }
 
-/// Every switch that is due, of which the last one counts; and the tool, in case it has drawn filament back.
+/// Carries out the switches that are due (the last one counts), and selects the tool again after a
+/// retraction.
 void Encoder::State::switch_mixture(Chunk& chunk) {
   std::optional<Shade> next;
   while (!switches.empty() && switches.front().at <= laid + least_piece) {
@@ -476,13 +477,13 @@ void Encoder::State::switch_mixture(Chunk& chunk) {
   writer.select_tool(chunk, shade_tool);
 }
 
-/// Cut where a switch falls within.
+/// Cuts the bead where a switch falls inside it.
 void Encoder::State::write(Chunk& chunk, const Lay& bead) {
   const core::Vec2 way = bead.to - bead.from;
   const double width = way.norm() > 0 ? bead.volume / layer_height / way.norm() : 0;
   const double speed =
       way.norm() > 0 ? pace.speed(way, bead.volume, layer, layer_height) : printer.max_speed[0];
-  if (way.norm() > 0) tell_width(chunk, width);
+  if (way.norm() > 0) write_width(chunk, width);
   for (double done = 0;;) {
     switch_mixture(chunk);
     const double left = bead.volume - done;
@@ -498,9 +499,9 @@ void Encoder::State::write(Chunk& chunk, const Lay& bead) {
   }
 }
 
-void Encoder::State::tell_width(Chunk& chunk, double width) {
-  if (std::abs(width - told_width) <= width_comment_step * told_width) return;
-  told_width = width;
+void Encoder::State::write_width(Chunk& chunk, double width) {
+  if (std::abs(width - written_width) <= width_comment_step * written_width) return;
+  written_width = width;
   chunk.lines.push_back(";WIDTH:" + short_number(width, 3));
 }
 
@@ -570,7 +571,7 @@ Chunk Encoder::finish() {
   State& s = *state_;
   Chunk chunk;
   if (const auto height = s.writer.height()) {
-    // The print may have been cut anywhere in what has been encoded, so that nothing is taken for granted.
+    // The print may have stopped anywhere, so that no state is assumed.
     s.writer.forget();
     append(chunk.lines, modes());
     s.writer.select_tool(chunk, s.tools.retraction_tool().value_or(0));

@@ -14,7 +14,7 @@ std::string degrees(double temperature) {
   return short_number(temperature, 1);
 }
 
-constexpr double full_fan = 255;  ///< M106's greatest S
+constexpr double full_fan = 255;  ///< greatest S of M106
 
 std::string pace_words(const PrintSettings& settings) {
   if (settings.speed) return fmt::format("speed: {:g} mm/s", *settings.speed);
@@ -75,7 +75,7 @@ std::vector<std::string> layer_events(std::size_t layer, const PrintSettings& se
     lines.push_back("M106 S" + short_number(settings.fan.percent / 100 * full_fan, 0));
   }
   for (const LayerTemperature& change : settings.temperatures) {
-    if (change.layer != layer || layer == 0) continue;  // what the first layer needs is there when it begins
+    if (change.layer != layer || layer == 0) continue;  // the first layer begins at its temperatures
     if (change.nozzle) lines.push_back("M104 S" + degrees(*change.nozzle));
     if (change.bed) lines.push_back("M140 S" + degrees(*change.bed));
   }

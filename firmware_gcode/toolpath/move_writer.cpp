@@ -17,7 +17,7 @@ constexpr int position_decimals = 3;
 constexpr double position_unit = 1e-3;  ///< mm
 constexpr int extrusion_decimals = 5;
 constexpr double extrusion_unit = 1e-5;                  ///< mm of filament
-constexpr double feed_tolerance = 0.01;                  ///< relative; below what a bead's width shows
+constexpr double feed_tolerance = 0.01;                  ///< relative; too small to show in a bead's width
 constexpr double least_feed = 60 * bounds::speed.least;  ///< mm/min
 
 }  // namespace
@@ -100,7 +100,7 @@ void MoveWriter::travel(Chunk& chunk, const core::Vec2& to) {
 void MoveWriter::bead(Chunk& chunk, const core::Vec2& to, double volume, double speed) {
   assert(position_);
   const core::Vec2 from = *position();
-  const double longest = dialect_.limits().extrusion / 2;  // half: clear of the firmware's own rounding
+  const double longest = dialect_.limits().extrusion / 2;  // half, to stay clear of the firmware's rounding
   const double pieces = std::max(1.0, std::ceil((volume / filament_area_ * scale() + owed_) / longest));
   for (double piece = 1; piece <= pieces; ++piece) {
     const core::Vec2 end = piece < pieces ? core::Vec2(from + (to - from) * (piece / pieces)) : to;
@@ -114,7 +114,7 @@ void MoveWriter::straight_bead(Chunk& chunk, const core::Vec2& to, double volume
   owed_ += volume / filament_area_ * scale();
   std::string line = "G1";
   append_position(line, on_grid(to));
-  if (line.size() == 2) return;  // shorter than the grid: its filament goes to the next bead
+  if (line.size() == 2) return;  // shorter than the grid; the next bead gets its filament
   if (const std::int64_t e = scaled(owed_, extrusion_decimals); e != 0) {
     line += " E", append_scaled(line, e, extrusion_decimals);
     owed_ -= static_cast<double>(e) * extrusion_unit;

@@ -1,10 +1,9 @@
-// Writes moves as lines and remembers what a firmware remembers: position, feed rate, tool.
-// Lengths in mm, speeds in mm/s, volumes in mm³; E is mm of filament, all feeders together, relative (M83).
+// Writes moves as lines and tracks the state of the firmware: position, feed rate, tool. Lengths in mm,
+// speeds in mm/s, volumes in mm³; E is mm of filament, all feeders together, relative (M83).
 //
-// Resolution: positions are written in 0.001 mm, E in 0.00001 mm. What rounding takes from one bead's E is
-// added to the next, so that their sum is exact. A feed rate is written only when it differs by more than
-// 1 % from the one in force; it keeps to the axes' limits along the way that is written. Coordinates that do
-// not change are left out.
+// Resolution: positions are written in 0.001 mm, E in 0.00001 mm. The rounding error of a bead's E is added
+// to the next bead, so that the sum is exact. A feed rate is written only if it differs by more than 1 % from
+// the one in force; it respects the axes' limits along the written way. Unchanged coordinates are omitted.
 #pragma once
 
 #include <cstddef>
@@ -22,29 +21,29 @@ namespace unicursal::gcode {
 
 class MoveWriter {
  public:
-  /// Both must outlive the writer. Preconditions: a checked printer (checks.hpp).
+  /// Both must outlive the writer. Precondition: the printer is checked (checks.hpp).
   MoveWriter(const Printer& printer, const Dialect& dialect);
 
-  /// Where the nozzle is; none until the first travel.
+  /// The position of the nozzle; absent before the first travel.
   std::optional<core::Vec2> position() const;
-  /// Height of the nozzle; none until the first rise.
+  /// The height of the nozzle; absent before the first rise.
   std::optional<double> height() const;
 
-  /// From here on nothing is taken to be known: the next move states everything that it depends on. For a
-  /// printer that may have stopped anywhere in what has been written.
+  /// Forgets the state, so that the next move writes everything it depends on. Needed if the printer may have
+  /// stopped anywhere in the written lines.
   void forget();
 
-  /// What a tool holds from here on: `name` for people, and E ÷ the filament that is to be fed
+  /// Sets the content of a tool: the mixture's `name`, and E ÷ mm of filament to be fed
   /// (mixing/calibration.hpp).
   void define_tool(std::size_t tool, std::string name, double scale);
 
-  /// The chunk records the mixture that starts here.
+  /// Selects the tool and records the start of its mixture in the chunk.
   void select_tool(Chunk& chunk, std::size_t tool);
   void rise(Chunk& chunk, double z);
   void travel(Chunk& chunk, const core::Vec2& to);
-  /// Extrudes `volume` on the way. Precondition: a position is known.
+  /// Extrudes `volume` along the way. Precondition: the position is known.
   void bead(Chunk& chunk, const core::Vec2& to, double volume, double speed);
-  /// Moves filament alone, `length` mm forwards or (negative) back.
+  /// Moves only filament, `length` mm forwards or (if negative) back.
   void filament(Chunk& chunk, double length, double speed);
 
  private:
@@ -70,7 +69,7 @@ class MoveWriter {
   };
   std::vector<Tool> tools_;
   double feed_ = 0;  ///< mm/min in force, 0: unknown
-  double owed_ = 0;  ///< mm of filament that rounding has kept back
+  double owed_ = 0;  ///< mm of filament that rounding has withheld
 };
 
 }  // namespace unicursal::gcode

@@ -41,7 +41,7 @@ const std::map<std::string, Value>& values() {
   return all;
 }
 
-/// Calls `text(piece)` and `name(word)` for what stands outside and between braces. Comments are left alone.
+/// Calls `text(piece)` for text outside braces and `name(word)` for text between them. Comments are text.
 template <class Text, class Name>
 bool take_apart(std::string_view from, const Text& text, const Name& name) {
   while (!from.empty()) {
@@ -85,8 +85,8 @@ std::string with_values(const std::string& text, const std::string& key, const P
   const auto put = [&](std::string_view name) {
     const auto found = values().find(std::string(name));
     if (found == values().end()) {
-      throw core::DataError("", key, fmt::format("{{{}}} stands for nothing", name),
-                            fmt::format("there are {{{}}}", fmt::join(placeholder_names(), "}, {")));
+      throw core::DataError("", key, fmt::format("{{{}}} is not a known placeholder", name),
+                            fmt::format("use one of {{{}}}", fmt::join(placeholder_names(), "}, {")));
     }
     result += short_number(found->second(printer, settings), decimals);
   };

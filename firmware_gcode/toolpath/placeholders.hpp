@@ -1,4 +1,4 @@
-// Words in braces that stand for numbers of the job in the user's own lines: "M104 S{nozzle_temperature}".
+// Placeholders for numbers of the job in the user's own lines, such as "M104 S{nozzle_temperature}".
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace unicursal::gcode {
 
-/// All that there are, without braces.
+/// The names of all placeholders, without braces.
 std::vector<std::string> placeholder_names();
 
-/// Those that `text` holds, known or not, in order.
+/// The placeholders in `text`, known or not, in order.
 std::vector<std::string> placeholders_in(std::string_view text);
 
-/// The text with numbers in their place. `key` names the text in messages. Throws core::DataError for a name
-/// that is not known and for a brace without its partner.
+/// Replaces the placeholders by numbers. `key` names the text in messages. Throws core::DataError for an
+/// unknown name and for an unmatched brace.
 std::string with_values(const std::string& text, const std::string& key, const Printer& printer,
                         const PrintSettings& settings);
 

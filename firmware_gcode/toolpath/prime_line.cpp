@@ -6,10 +6,10 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double edge_inset = 5;      ///< mm between the bed's edge and the line's middle: clear of clips
-constexpr double part_clearance = 3;  ///< mm between the line's border and the part
+constexpr double edge_inset = 5;      ///< mm between the bed's edge and the line's middle; avoids clips
+constexpr double part_clearance = 3;  ///< mm between the line's edge and the part
 constexpr double least_width = 1.2;   ///< nozzle openings; thinner lines do not stick well
-constexpr double transitions = 2;     ///< one brings 95 % of the new mixture, two leave no doubt
+constexpr double transitions = 2;     ///< one brings 95 % of the new mixture, two are safe
 constexpr double shortest_line = 20;  ///< mm; a bed edge shorter than this is not worth a line
 
 struct Edge {

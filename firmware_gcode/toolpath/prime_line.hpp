@@ -14,9 +14,9 @@ struct PrimeLine {
   double volume = 0;                ///< mm³
 };
 
-/// Along the first of the edges front, left, back, right whose strip keeps clear of `extent`; none if no
-/// edge does. Holds twice the transition (dead + mixing volume) if the edge is long enough for the widest
-/// bead. `height` is the first layer's, mm.
+/// Returns a line along the first of the edges front, left, back, right that keeps clear of `extent`; nullopt
+/// if there is no such edge. The line holds twice the transition (dead + mixing volume) if the edge is long
+/// enough for the widest bead. `height` is that of the first layer, mm.
 std::optional<PrimeLine> prime_line(const Printer& printer, const core::Box& extent, double height);
 
 }  // namespace unicursal::gcode

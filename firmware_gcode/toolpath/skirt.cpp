@@ -8,13 +8,13 @@ namespace unicursal::gcode {
 namespace {
 
 constexpr double arc_step = std::numbers::pi / 12;  ///< greatest turn between chords of a rounded corner
-constexpr double edge_clearance = 1;                ///< mm from the outermost ring's border to the bed's edge
+constexpr double edge_clearance = 1;  ///< mm from the outer edge of the outermost ring to the bed's edge
 
 double cross(const core::Vec2& a, const core::Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Counter-clockwise, by Andrew's monotone chains.
+/// The convex hull, counter-clockwise, by Andrew's monotone chain.
 std::vector<core::Vec2> hull(std::vector<core::Vec2> points) {
   const auto before = [](const core::Vec2& a, const core::Vec2& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -36,7 +36,7 @@ std::vector<core::Vec2> hull(std::vector<core::Vec2> points) {
   return chain;
 }
 
-/// `hull` pushed outwards by `distance`, its corners rounded.
+/// The hull offset outwards by `distance`, with rounded corners.
 std::vector<core::Vec2> pushed_out(const std::vector<core::Vec2>& hull, double distance) {
   std::vector<core::Vec2> ring;
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -61,7 +61,7 @@ core::BeadPath bead_ring(const std::vector<core::Vec2>& ring, double width) {
   return path;
 }
 
-/// mm between the points' extent and the bed's nearest edge.
+/// The distance between the points and the nearest edge of the bed, mm.
 double room_round(const std::vector<core::Vec2>& points, const Printer& printer) {
   double room = std::min(printer.bed[0], printer.bed[1]);
   for (const core::Vec2& p : points) {

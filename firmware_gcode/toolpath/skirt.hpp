@@ -1,5 +1,5 @@
-// Rings round the first layer that make the melt run before the part begins. They follow the hull of all that
-// the layer holds, so they keep clear of it, and lie on the bed. mm.
+// Rings around the first layer that start the flow of the melt before the part begins. They follow the convex
+// hull of the layer, so that they keep clear of it, and lie on the bed. mm.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace unicursal::gcode {
 
-/// The rings, the outermost first; beads of zone 0, as wide as the layer's are on average. Where the bed has
-/// no room for the distance that is asked for they come nearer to the part, but no nearer than a bead width;
-/// none where even that does not fit, or if none is asked for.
+/// Returns the rings, the outermost first, with beads of zone 0 and the layer's mean width. If the bed has no
+/// room for the requested distance, the rings move nearer to the part, up to one bead width. Returns no rings
+/// if even that does not fit, or if none are requested.
 std::vector<core::BeadPath> skirt(const PlacedLayer& layer, const Skirt& asked, const Printer& printer);
 
-/// How far the rings can reach from the part's extent, for what has to keep clear of them. 0 without any.
+/// The greatest distance of a ring's outer edge from the part's extent; 0 without rings.
 double skirt_reach(const Skirt& asked, const Printer& printer);
 
 }  // namespace unicursal::gcode

@@ -133,12 +133,6 @@ Shares shares_of(const sim::RasterPixel& pixel) {
   return shares;
 }
 
-double squared_difference(const Shares& a, const Shares& b) {
-  double sum = 0;
-  for (std::size_t f = 0; f < a.size(); ++f) sum += (a[f] - b[f]) * (a[f] - b[f]);
-  return sum;
-}
-
 /// The materials of this layer alone: what another layer is made of is no zone that this place could belong
 /// to.
 std::vector<RegionLabel> materials_of(const TargetLayer& target) {
@@ -197,13 +191,14 @@ class Judge {
     const Shares own = material.at(grid_.middle(i), middle_);
     const double error = gcode::misplaced(arrived, own);
     f.mixture_error += error * place;
-    const double distance = squared_difference(arrived, own);
-    wrong_[i] = material.gradient ? error > amiss
-                                  : std::any_of(materials_.begin(), materials_.end(), [&](RegionLabel other) {
-                                      const IntendedMaterial& rival = intended_.at(other);
-                                      return !rival.gradient &&
-                                             squared_difference(arrived, rival.mixture.shares()) < distance;
-                                    });
+    const double distance = gcode::squared_distance(arrived, own);
+    wrong_[i] =
+        material.gradient
+            ? error > amiss
+            : std::any_of(materials_.begin(), materials_.end(), [&](RegionLabel other) {
+                const IntendedMaterial& rival = intended_.at(other);
+                return !rival.gradient && gcode::squared_distance(arrived, rival.mixture.shares()) < distance;
+              });
     if (wrong_[i]) f.wrong += place;
   }
 

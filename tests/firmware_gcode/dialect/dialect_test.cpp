@@ -10,7 +10,7 @@
 using namespace unicursal;
 using namespace unicursal::gcode;
 
-TEST_CASE("Repetier is told whole parts of a hundred, while nothing moves") {
+TEST_CASE("Repetier gets shares in whole hundredths, at standstill") {
   const Dialect& repetier = dialect_named("repetier");
   CHECK(repetier.define_tool(3, repetier.as_written(Mixture({0.5, 0.333, 0.167}))) ==
         std::vector<std::string>{"M400", "M163 S0 P50", "M163 S1 P33", "M163 S2 P17", "M164 S3"});
@@ -19,7 +19,7 @@ TEST_CASE("Repetier is told whole parts of a hundred, while nothing moves") {
   CHECK_THROWS_WITH(dialect_named("klipper"), Catch::Contains("klipper") && Catch::Contains("repetier"));
 }
 
-TEST_CASE("quantised shares add up, are off by less than a unit, and stay as they are when done again") {
+TEST_CASE("quantised shares add up, are off by less than a unit, and do not change when quantised again") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> shares(0, 1);
   for (int i = 0; i < 5000; ++i) {
@@ -39,7 +39,7 @@ TEST_CASE("quantised shares add up, are off by less than a unit, and stay as the
   }
 }
 
-TEST_CASE("what slipping feeders lack is made up for, feeder by feeder") {
+TEST_CASE("calibration corrects slipping feeders one by one") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> shares(0.05, 1), factors(0.8, 1.25);
   for (int i = 0; i < 500; ++i) {
@@ -61,7 +61,7 @@ TEST_CASE("what slipping feeders lack is made up for, feeder by feeder") {
   CHECK(plain.written == plain.delivered);
 }
 
-TEST_CASE("words in braces become numbers of the job") {
+TEST_CASE("placeholders become numbers of the job") {
   Printer printer;
   printer.nozzle_temperature = 207.5;
   PrintSettings settings;

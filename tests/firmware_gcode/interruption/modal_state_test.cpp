@@ -44,7 +44,7 @@ const std::vector<std::string> a_print{"M140 S60",
 
 }  // namespace
 
-TEST_CASE("the state after a print's lines is what the next line depends on") {
+TEST_CASE("the modal state after a print's lines is complete") {
   const ModalState state = after(a_print);
   CHECK(state.position[0] == 30);
   CHECK(state.position[1] == 21.5);
@@ -73,7 +73,7 @@ TEST_CASE("a retraction is known until it is undone") {
   CHECK(state.drawn_back == 0);
 }
 
-TEST_CASE("relative moves, new names for a place and homing") {
+TEST_CASE("relative moves, G92 and homing") {
   ModalState state = after(a_print);
   state.run("G91");
   state.run("G1 Z10 F600");
@@ -89,7 +89,7 @@ TEST_CASE("relative moves, new names for a place and homing") {
   CHECK_FALSE(state.position[2]);
 }
 
-TEST_CASE("lines that mean nothing to it change nothing and break nothing") {
+TEST_CASE("unknown lines do not change the modal state") {
   for (const char* line : {"", "G", "M", "T", "X1", "G1 X", "G1 Xabc", "M163", "M164 S", "G99999999999",
                            "M117 X3 S4", "G1  X 5", "\xff\xfe"}) {
     ModalState state = after(a_print);
@@ -100,7 +100,7 @@ TEST_CASE("lines that mean nothing to it change nothing and break nothing") {
   }
 }
 
-TEST_CASE("a lead-in ends in the state that it is to bring about, from nothing") {
+TEST_CASE("a lead-in ends in the wanted state, from any state") {
   Printer printer;
   for (const double drawn_back : {0.0, 4.0}) {
     ModalState wanted = after(a_print);
@@ -108,8 +108,8 @@ TEST_CASE("a lead-in ends in the state that it is to bring about, from nothing")
     const Chunk chunk = lead_in(printer, {wanted, 0.2, 2, core::Box{{90, 90}, {110, 110}}});
     CHECK(chunk.warnings.empty());
     ModalState state;
-    state.position[2] = 0.2;        // where the nozzle stands
-    state.drawn_back = drawn_back;  // and how the filament hangs
+    state.position[2] = 0.2;        // height of the nozzle
+    state.drawn_back = drawn_back;  // retraction of the filament
     for (const std::string& line : chunk.lines) state.run(line);
     CHECK(state.position == wanted.position);
     CHECK(state.feed == wanted.feed);
@@ -140,39 +140,51 @@ TEST_CASE("a lead-in moves only when hot, rises first, and never homes z") {
   CHECK(risen);
 }
 
-TEST_CASE("a lead-in into the middle of a mixture's definition tells the shares before it again") {
+TEST_CASE("a lead-in into the middle of a tool definition repeats the shares before it") {
   std::vector<std::string> lines = a_print;
   lines.insert(lines.end(), {"M163 S0 P.2", "M163 S1 P.3"});
   ModalState state;
   for (const std::string& line :
        lead_in(Printer{}, {after(lines), 0.2, 2, core::Box{{90, 90}, {110, 110}}}).lines)
     state.run(line);
-  state.run("M163 S2 P.5");  // with which the print goes on
+  state.run("M163 S2 P.5");  // the next line of the print
   state.run("M164 S0");
   CHECK(state.tools.at(0) == ModalState::Lines{"M163 S0 P.2", "M163 S1 P.3", "M163 S2 P.5", "M164 S0"});
 }
 
-TEST_CASE(
-    "a lead-in makes up for all that hangs back, and draws back in equal shares however they are rounded") {
-  std::vector<std::string> lines = a_print;
-  lines.insert(lines.end(), {"M163 S0 P.3334", "M163 S1 P.3333", "M163 S2 P.3333", "M164 S2"});
-  LeadIn to{after(lines), 0.2, 2, core::Box{{90, 90}, {110, 110}}};
-  to.state.tools.erase(1);
-  const auto pushed = [&](double drawn) {
-    to.drawn = drawn;
-    double sum = 0;
-    std::string tool;
-    for (const std::string& line : lead_in(Printer{}, to).lines) {
-      if (line.starts_with("T")) tool = line;
-      if (line.starts_with("G1 E")) sum += std::stod(line.substr(4));
-      if (line.starts_with("G1 E-")) CHECK(tool == "T2");
-    }
-    return sum;
+TEST_CASE("a lead-in undoes the whole retraction, and draws back in equal shares in every dialect") {
+  struct Equal {
+    std::vector<std::string> definition;
+    std::array<double, 3> flow_factors;
   };
-  CHECK(pushed(8) - pushed(0) == Approx(8));
+  const std::vector<Equal> dialects = {
+      {{"M163 S0 P.3334", "M163 S1 P.3333", "M163 S2 P.3333", "M164 S2"}, {1, 1, 1}},
+      {{"M163 S0 P34", "M163 S1 P33", "M163 S2 P33", "M164 S2"}, {1, 1, 1}},              // Repetier
+      {{"M163 S0 P.3279", "M163 S1 P.3442", "M163 S2 P.3279", "M164 S2"}, {1, 1.05, 1}},  // a slipping feeder
+  };
+  for (const Equal& equal : dialects) {
+    std::vector<std::string> lines = a_print;
+    lines.insert(lines.end(), equal.definition.begin(), equal.definition.end());
+    LeadIn to{after(lines), 0.2, 2, core::Box{{90, 90}, {110, 110}}};
+    to.state.tools.erase(1);
+    Printer printer;
+    printer.flow_factors = equal.flow_factors;
+    const auto pushed = [&](double drawn) {
+      to.drawn = drawn;
+      double sum = 0;
+      std::string tool;
+      for (const std::string& line : lead_in(printer, to).lines) {
+        if (line.starts_with("T")) tool = line;
+        if (line.starts_with("G1 E")) sum += std::stod(line.substr(4));
+        if (line.starts_with("G1 E-")) CHECK(tool == "T2");
+      }
+      return sum;
+    };
+    CHECK(pushed(8) - pushed(0) == Approx(8));
+  }
 }
 
-TEST_CASE("a lead-in keeps below the bed's ceiling, and tells when nothing can be squeezed out") {
+TEST_CASE("a lead-in keeps below the printer's height, and warns if nothing can be squeezed out") {
   Printer printer;
   CHECK(lead_in_rise(printer, 0.2) == 10);
   CHECK(lead_in_rise(printer, 195) == Approx(5));

@@ -50,7 +50,7 @@ std::vector<Switch> scheduled(const Palette& palette, const std::vector<WantedBe
   return schedule.take();
 }
 
-/// What the switches come to in a nozzle that need not be the profile's.
+/// The result of the switches in a nozzle that may differ from the profile.
 LayerMixing laid(const Palette& palette, const std::vector<WantedBead>& pieces,
                  const std::vector<Switch>& switches, const ChamberModel& nozzle) {
   Forecast forecast(palette, nozzle);
@@ -65,30 +65,30 @@ double loss(const LayerMixing& mixing) {
 
 }  // namespace
 
-TEST_CASE("a change past a third mixture goes round it") {
+TEST_CASE("a change past a third mixture goes around it") {
   const ChamberModel nozzle{2.1, 4.0, 2};
   const auto [palette, overshoots] = with_overshoots(palette_of(three), {nozzle, 0.5, floor_share, 15});
   REQUIRE(overshoots.between(0, 1));
   for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 0}}) {
     const auto pieces = pieces_of(palette, {{from, 20}, {to, 20}});
     const auto plain = laid(palette, pieces, scheduled(palette, pieces, nozzle, nullptr), nozzle);
-    const auto hurried = laid(palette, pieces, scheduled(palette, pieces, nozzle, &overshoots), nozzle);
-    CHECK(plain.wrong > 0.8);  // takes grey's colour for so many mm³
-    CHECK(hurried.wrong < 0.1);
-    CHECK(loss(hurried) < 0.5 * loss(plain));
+    const auto sped_up = laid(palette, pieces, scheduled(palette, pieces, nozzle, &overshoots), nozzle);
+    CHECK(plain.wrong > 0.8);  // mm³ that look like grey
+    CHECK(sped_up.wrong < 0.1);
+    CHECK(loss(sped_up) < 0.5 * loss(plain));
   }
 }
 
-TEST_CASE("where the mixtures leave room, a change is a third sharper") {
+TEST_CASE("an overshoot makes a change a third sharper if the mixtures leave room") {
   for (const ChamberModel& nozzle : {ChamberModel{2.1, 4.0, 2}, {0.5, 12, 3}}) {
     const auto [palette, overshoots] = with_overshoots(palette_of(tints), {nozzle, 0.5, floor_share, 15});
     const double room = 3 * (nozzle.dead_volume + nozzle.mixing_volume);
     const auto pieces = pieces_of(palette, {{0, room}, {1, room}, {0, room}});
     const auto plain = laid(palette, pieces, scheduled(palette, pieces, nozzle, nullptr), nozzle);
-    const auto hurried = laid(palette, pieces, scheduled(palette, pieces, nozzle, &overshoots), nozzle);
+    const auto sped_up = laid(palette, pieces, scheduled(palette, pieces, nozzle, &overshoots), nozzle);
     INFO(nozzle.mixing_volume << " mm³");
-    CHECK(hurried.misplaced < 0.7 * plain.misplaced);
-    CHECK(hurried.wrong < plain.wrong + 0.06 * nozzle.mixing_volume);
+    CHECK(sped_up.misplaced < 0.7 * plain.misplaced);
+    CHECK(sped_up.wrong < plain.wrong + 0.06 * nozzle.mixing_volume);
   }
 }
 
@@ -98,32 +98,32 @@ TEST_CASE("pure mixtures leave nothing to overshoot") {
   CHECK(palette.added() == 0);
 }
 
-TEST_CASE("a nozzle that answers otherwise than its profile loses hardly anything by it") {
+TEST_CASE("overshoots cost hardly anything on a nozzle that differs from its profile") {
   const ChamberModel profile{2.1, 4.0, 2};
   for (const auto& materials : {three, tints, {three[0], three[2]}}) {
     const auto [palette, overshoots] =
         with_overshoots(palette_of(materials), {profile, 0.5, floor_share, 15});
-    double plain_loss = 0, hurried_loss = 0;
+    double plain_loss = 0, sped_up_loss = 0;
     for (std::size_t to = 1; to < palette.size(); ++to) {
       const auto pieces = pieces_of(palette, {{0, 20}, {to, 20}, {0, 20}});
       const auto plain = scheduled(palette, pieces, profile, nullptr);
-      const auto hurried = scheduled(palette, pieces, profile, &overshoots);
+      const auto sped_up = scheduled(palette, pieces, profile, &overshoots);
       for (const std::size_t tanks : {1u, 2u, 3u, 6u}) {
         for (const double factor : {0.8, 1.0, 1.2}) {
           const ChamberModel nozzle{factor * 2.1, factor * 4.0, tanks};
           const double without = loss(laid(palette, pieces, plain, nozzle)),
-                       with = loss(laid(palette, pieces, hurried, nozzle));
+                       with = loss(laid(palette, pieces, sped_up, nozzle));
           INFO(tanks << " tanks, volumes by " << factor << ", to " << materials[to].name);
           CHECK(with < 1.1 * without + 0.25);
-          plain_loss += without, hurried_loss += with;
+          plain_loss += without, sped_up_loss += with;
         }
       }
     }
-    CHECK(hurried_loss < 0.97 * plain_loss);
+    CHECK(sped_up_loss < 0.97 * plain_loss);
   }
 }
 
-TEST_CASE("every pulse is a mixture that the printer may feed") {
+TEST_CASE("every pulse respects the floor share") {
   const auto [palette, overshoots] =
       with_overshoots(palette_of(three), {{2.1, 4.0, 3}, 0.5, floor_share, 15});
   CHECK(palette.added() > 0);
@@ -143,7 +143,7 @@ TEST_CASE("every pulse is a mixture that the printer may feed") {
   }
 }
 
-TEST_CASE("there are pulses as far as tools go, and none beside gradients or without mixing") {
+TEST_CASE("there are pulses as long as there are tools, and none beside gradients or without mixing") {
   const auto added = [](std::vector<Material> materials, const ChamberModel& nozzle, std::size_t most) {
     const auto [palette, overshoots] =
         with_overshoots(palette_of(materials), {nozzle, 0.5, floor_share, most});
@@ -162,7 +162,7 @@ TEST_CASE("there are pulses as far as tools go, and none beside gradients or wit
   CHECK(added(with_gradient, nozzle, 15) == 0);
 }
 
-TEST_CASE("what is decided with pulses does not depend on how the path comes in either") {
+TEST_CASE("a schedule with pulses does not depend on how the path arrives") {
   const ChamberModel nozzle{2.1, 4.0, 2};
   const auto [palette, overshoots] = with_overshoots(palette_of(three), {nozzle, 0.5, floor_share, 15});
   std::mt19937 random(17);

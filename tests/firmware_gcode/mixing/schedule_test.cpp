@@ -29,7 +29,7 @@ LayerMaterials all_of(const Palette& palette) {
   return std::make_shared<const std::vector<std::size_t>>(materials);
 }
 
-/// What is laid before the part, where nobody looks: the chamber is full of the first material by then, mm³.
+/// The primed volume, mm³; afterwards the chamber is full of the first material.
 constexpr double primed = 20;
 
 struct Visit {
@@ -76,7 +76,7 @@ double loss_of(const Palette& palette, const std::vector<WantedBead>& pieces,
 
 }  // namespace
 
-TEST_CASE("the response begins after the dead volume and has come to 95 % after the mixing volume") {
+TEST_CASE("the response begins after the dead volume and reaches 95 % after the mixing volume") {
   for (std::size_t tanks = 1; tanks <= 6; ++tanks) {
     const ChamberModel chamber{2.1, 4.0, tanks};
     CHECK(chamber.step_response(2.1) == Approx(0).margin(1e-12));
@@ -84,7 +84,7 @@ TEST_CASE("the response begins after the dead volume and has come to 95 % after 
     CHECK(chamber.step_response(chamber.delay(0.5)) == Approx(0.5));
     CHECK(chamber.delay(0) == Approx(2.1));
   }
-  const ChamberModel one{0, 3, 1};  // a single tank answers exponentially
+  const ChamberModel one{0, 3, 1};  // a single tank responds exponentially
   CHECK(one.step_response(1) == Approx(1 - std::pow(0.05, 1.0 / 3)));
   CHECK(one.mean_delay() == Approx(3 / std::log(20)));
   const ChamberModel sharp{1.5, 0, 2};
@@ -92,7 +92,7 @@ TEST_CASE("the response begins after the dead volume and has come to 95 % after 
   CHECK(sharp.step_response(1.6) == 1);
 }
 
-TEST_CASE("tanks at work answer as the closed form says, in whatever pieces") {
+TEST_CASE("tanks respond like the closed form, however the volume is divided") {
   const ChamberModel chamber{0, 4, 3};
   std::mt19937 random(5);
   std::uniform_real_distribution<double> volume(0.01, 1.2);
@@ -105,7 +105,7 @@ TEST_CASE("tanks at work answer as the closed form says, in whatever pieces") {
     CHECK(out[0] + out[1] == Approx(1));
     passed += piece;
     arrived += out[1] * piece;
-    // What has left until now is the integral of the response: by Simpson's rule.
+    // The volume that has left is the integral of the response, by Simpson's rule.
     double integral = 0;
     constexpr int parts = 400;
     for (int i = 0; i <= parts; ++i) {
@@ -116,11 +116,11 @@ TEST_CASE("tanks at work answer as the closed form says, in whatever pieces") {
   }
 }
 
-TEST_CASE("a single change has its half-way point on the border, or the share that was asked for") {
+TEST_CASE("a single change has its 50 % point on the border, or the requested fraction") {
   const Palette palette = palette_of(two);
   for (std::size_t tanks : {1u, 2u, 3u, 6u}) {
     for (double share : {0.5, 0.2, 0.8}) {
-      // Other shares than the half come out on the grid of steps.
+      // Fractions other than one half are rounded to the grid of steps.
       const double tolerance = share == 0.5 ? 1e-6 : 0.25;
       const ScheduleOptions options{{2.1, 4.0, tanks}, share, true};
       const auto switches = scheduled(palette, pieces_of({{0, 30}, {1, 30}, {0, 30}}, palette), options);
@@ -135,7 +135,7 @@ TEST_CASE("a single change has its half-way point on the border, or the share th
   }
 }
 
-TEST_CASE("a chamber that does not mix is only late") {
+TEST_CASE("a chamber that does not mix only delays") {
   const Palette palette = palette_of(two);
   const ScheduleOptions options{{3, 0, 2}, 0.5, true};
   const auto switches = scheduled(palette, pieces_of({{0, 10}, {1, 0.5}, {0, 10}}, palette), options);
@@ -144,7 +144,7 @@ TEST_CASE("a chamber that does not mix is only late") {
   CHECK(switches[2].at == Approx(primed + 7.5));
 }
 
-TEST_CASE("what is decided does not depend on how the path comes in") {
+TEST_CASE("a schedule does not depend on how the path arrives") {
   const Palette palette = palette_of(three);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> volume(0.3, 9);
@@ -157,7 +157,7 @@ TEST_CASE("what is decided does not depend on how the path comes in") {
   double certain = 0;
   const auto take = [&] {
     for (const Switch& s : schedule.take()) {
-      CHECK(s.at >= certain);  // nothing changes behind what was certain
+      CHECK(s.at >= certain);  // certain switches do not change
       bit_by_bit.push_back(s);
     }
     CHECK(schedule.certain() >= certain);
@@ -168,7 +168,8 @@ TEST_CASE("what is decided does not depend on how the path comes in") {
     schedule.add(pieces[i]);
     volume_in += pieces[i].volume;
     if (random() % 5 == 0) take();
-    if (i > 0) CHECK(volume_in - certain < 2.1 + 4 * 4.0 + pieces[0].volume);  // what is withheld is bounded
+    if (i > 0)
+      CHECK(volume_in - certain < 2.1 + 4 * 4.0 + pieces[0].volume);  // the withheld volume is bounded
   }
   schedule.end();
   take();
@@ -180,7 +181,7 @@ TEST_CASE("what is decided does not depend on how the path comes in") {
   CHECK(certain == Approx(volume_in));
 }
 
-TEST_CASE("a short visit gets its whole place, one that is too short none") {
+TEST_CASE("a short visit shows completely, one that is too short is omitted") {
   const Palette palette = palette_of(two);
   const ChamberModel chamber{2.1, 4.0, 3};
   const auto long_enough = pieces_of({{0, 30}, {1, 2.0}, {0, 30}}, palette);
@@ -194,7 +195,7 @@ TEST_CASE("a short visit gets its whole place, one that is too short none") {
   CHECK(scheduled(palette, too_short, {chamber, 0.5, true}).size() == 1);
 }
 
-TEST_CASE("no choice of switches on a grid misplaces less, short visits or long") {
+TEST_CASE("no choice of switches on a grid misplaces less, for short and long visits") {
   const ChamberModel chamber{1.0, 2.0, 2};
   std::mt19937 random(23);
   std::uniform_real_distribution<double> volume(0.2, 3.0);
@@ -209,7 +210,7 @@ TEST_CASE("no choice of switches on a grid misplaces less, short visits or long"
     const auto pieces = pieces_of(visits, palette);
     const double found = loss_of(palette, pieces, scheduled(palette, pieces, {chamber, 0.5, true}), chamber);
 
-    // Every way to switch at most three times, in steps of a tenth of the mixing volume round the borders.
+    // All sequences of up to three switches, in steps of a tenth of the mixing volume around the borders.
     double least = std::numeric_limits<double>::infinity();
 
     const double first = primed + 6 - 1.0 - 1.8,
@@ -237,7 +238,7 @@ TEST_CASE("no choice of switches on a grid misplaces less, short visits or long"
   }
 }
 
-TEST_CASE("a zone that takes up changes takes all of them if it can hold them") {
+TEST_CASE("a transition zone takes up all changes that fit") {
   const std::vector<Material> materials = {{"blue", Mixture({1, 0, 0}), {}, false},
                                            {"red", Mixture({0, 1, 0}), {}, false},
                                            {"white", Mixture({0, 0, 1}), {}, true}};
@@ -251,7 +252,7 @@ TEST_CASE("a zone that takes up changes takes all of them if it can hold them") 
     const auto mixing =
         forecast_of(palette, pieces, scheduled(palette, pieces, {chamber, 0.5, true}), chamber);
     INFO("a zone of " << width << " mm³");
-    CHECK(mixing.crossings == 1);  // the second visit comes back to where it went from
+    CHECK(mixing.crossings == 1);  // the second visit returns to its first material
     CHECK(mixing.short_crossings == (width < 4 ? 1 : 0));
     CHECK(mixing.shortest_crossing == Approx(width));
     CHECK(mixing.wrong == 0);
@@ -259,7 +260,7 @@ TEST_CASE("a zone that takes up changes takes all of them if it can hold them") 
   }
 }
 
-TEST_CASE("a gradient arrives where it is wanted, in steps that nobody sees") {
+TEST_CASE("a gradient arrives where it is wanted, in invisible steps") {
   std::vector<Material> materials = two;
   materials.push_back({"fade", Mixture({1, 0, 0}), Gradient{Mixture({0, 1, 0}), {1, 0, 0}, 0, 100}, false});
   const Palette palette = palette_of(materials);
@@ -283,7 +284,7 @@ TEST_CASE("a gradient arrives where it is wanted, in steps that nobody sees") {
   }
 }
 
-TEST_CASE("without look-ahead the switch is where the border is") {
+TEST_CASE("without look-ahead the switch is at the border") {
   const Palette palette = palette_of(two);
   const auto switches =
       scheduled(palette, pieces_of({{0, 10}, {1, 0.2}, {0, 5}}, palette), {{2.1, 4.0, 3}, 0.5, false});

@@ -46,7 +46,7 @@ PrintSettings one_colour() {
 
 }  // namespace
 
-TEST_CASE("the highest flow that is held: just held, and a little more is not") {
+TEST_CASE("the sustained flow is sustained, and a little more is not") {
   const Printer printer;
   for (const double length : {2.0, 5.0, 20.0}) {
     const std::vector<PlacedLayer> layers = {folds(length)};
@@ -59,19 +59,19 @@ TEST_CASE("the highest flow that is held: just held, and a little more is not") 
   }
 }
 
-TEST_CASE("more acceleration, longer lines and thicker layers bear more flow") {
+TEST_CASE("more acceleration, longer lines and thicker layers sustain more flow") {
   Printer printer;
   const double flow = held_flow({folds(3)}, one_colour(), printer);
   CHECK(held_flow({folds(9)}, one_colour(), printer) > flow);
   PrintSettings thick = one_colour();
-  thick.layer_height = 0.4;  // the speeds are what counts: twice the height, twice the flow
+  thick.layer_height = 0.4;  // equal speeds: twice the height, twice the flow
   CHECK(held_flow({folds(3)}, thick, printer) == Approx(2 * flow).margin(0.03));
   printer.max_acceleration = {4000, 4000, 100};
   printer.motion.acceleration = 4000;
   CHECK(held_flow({folds(3)}, one_colour(), printer) > 1.1 * flow);
 }
 
-TEST_CASE("the held flow is never above what the extruder melts, nor asked of nothing") {
+TEST_CASE("the sustained flow never exceeds what the extruder melts, and empty layers give that") {
   Printer printer;
   printer.max_flow = 0.7;
   CHECK(held_flow({folds(20)}, one_colour(), printer) == 0.7);
@@ -80,7 +80,7 @@ TEST_CASE("the held flow is never above what the extruder melts, nor asked of no
 
 namespace {
 
-/// mm³/s, the greatest that the lines of a layer of the part ask for.
+/// The greatest flow in the lines of a layer of the part, mm³/s.
 double flow_asked(const Chunk& chunk, std::size_t layer) {
   double x = 0, y = 0, speed = 0, greatest = 0;
   std::size_t at = 0;
@@ -99,7 +99,7 @@ double flow_asked(const Chunk& chunk, std::size_t layer) {
     }
     const double way = std::hypot(x - x0, y - y0);
     const bool long_enough = way > 0.1;                                 // E is rounded
-    const bool in_part = std::min(x0, x) > 48 && std::min(y0, y) > 48;  // the prime line is not
+    const bool in_part = std::min(x0, x) > 48 && std::min(y0, y) > 48;  // excludes the prime line
     if (at != layer + 1 || !long_enough || filament <= 0 || !in_part) continue;
     greatest = std::max(greatest, filament * std::numbers::pi / 4 * 1.75 * 1.75 / (way / speed));
   }
@@ -126,18 +126,18 @@ Chunk printed(const std::vector<double>& lengths, const PrintSettings& settings,
 
 }  // namespace
 
-TEST_CASE("an automatic flow is one that the layers hold, those that nobody knew of at the beginning, too") {
+TEST_CASE("all layers sustain an automatic flow, also those that were unknown at the beginning") {
   PrintSettings settings = one_colour();
   settings.automatic_flow = true;
   settings.extent = {{45, 45}, {95, 70}};
   const auto held = [&](double length) { return held_flow({simplified(folds(length))}, settings, {}); };
   REQUIRE(held(3) < 0.9 * held(20));
   double flow = 0;
-  // The second layer has short lines: it is in the window that the flow is chosen by.
+  // The second layer has short lines; it is in the window from which the flow is chosen.
   const Chunk early = printed({20, 3, 20, 20, 20, 20}, settings, flow);
   CHECK(flow == held(3));
   CHECK(early.warnings.empty());
-  // The seventh is not.
+  // The seventh layer is not in the window.
   const Chunk late = printed({20, 20, 20, 20, 20, 20, 3, 20}, settings, flow);
   CHECK(flow == held(20));
   CHECK(flow_asked(late, 5) == Approx(held(20)).epsilon(0.03));
@@ -147,7 +147,7 @@ TEST_CASE("an automatic flow is one that the layers hold, those that nobody knew
   CHECK(late.warnings.front().find("layer 6") != std::string::npos);
 }
 
-TEST_CASE("an automatic flow is chosen by the first layer that prints, and then kept") {
+TEST_CASE("an automatic flow is chosen at the first layer with beads, and then kept") {
   PrintSettings settings = one_colour();
   settings.automatic_flow = true;
   settings.horizon = 1;
@@ -165,7 +165,7 @@ TEST_CASE("an automatic flow is chosen by the first layer that prints, and then 
   CHECK(encoder.flow() == flow);
 }
 
-TEST_CASE("a constant speed keeps within what melts and slows down on the first layer") {
+TEST_CASE("a constant speed respects the melting limit and slows down on the first layer") {
   PrintSettings settings = one_colour();
   settings.speed = 20;
   settings.first_layer_speed = 0.5;

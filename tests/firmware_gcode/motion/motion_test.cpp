@@ -9,7 +9,7 @@ using namespace unicursal::gcode;
 
 namespace {
 
-/// Axes that can do anything, so that only the rule that is looked at counts.
+/// Axes without limits, so that only the tested rule counts.
 Printer free_printer() {
   Printer printer;
   printer.max_speed = {1000, 1000, 1000};
@@ -31,7 +31,7 @@ double seconds_of(const Printer& printer, const std::vector<PerAxis>& moves, dou
 
 }  // namespace
 
-TEST_CASE("one move: up from its jerk, along, and down to a stand-still") {
+TEST_CASE("one move: up from its jerk, along, and down to standstill") {
   // 10 mm/s at once, 1000 mm/s² up to 50, down to 0.05
   const double up = 40 / 1000.0, down = 49.95 / 1000;
   const double ramps = (50 * 50 - 10 * 10) / 2000.0 + (50 * 50 - 0.05 * 0.05) / 2000;
@@ -41,13 +41,13 @@ TEST_CASE("one move: up from its jerk, along, and down to a stand-still") {
   CHECK(seconds_of(free_printer(), {{1, 0, 0, 0}}, 50) == Approx((2 * top - 10 - 0.05) / 1000));
 }
 
-TEST_CASE("a straight line takes as long in pieces as in one") {
+TEST_CASE("a straight line takes as long in pieces as in one move") {
   const std::vector<PerAxis> pieces(400, PerAxis{0.2, 0.15, 0, 0.01});
   const Printer printer = free_printer();
   CHECK(seconds_of(printer, pieces, 40) == Approx(seconds_of(printer, {{80, 60, 0, 4}}, 40)).epsilon(1e-3));
 }
 
-TEST_CASE("pieces so short that the planned ones give no room to brake are run slower") {
+TEST_CASE("pieces too short for braking within the planned moves run slower") {
   // 14 pieces of 0.01 mm: 0.13 mm to brake in, from no more than √(2 · 1000 · 0.14)
   const std::vector<PerAxis> pieces(20000, PerAxis{0.01, 0, 0, 0});
   const double seconds = seconds_of(free_printer(), pieces, 100);
@@ -55,7 +55,7 @@ TEST_CASE("pieces so short that the planned ones give no room to brake are run s
   CHECK(seconds < 200 / std::sqrt(2 * 1000 * 0.12));
 }
 
-TEST_CASE("corners by jerk: no axis jumps by more than its own") {
+TEST_CASE("corners by jerk: no axis jumps by more than its jerk") {
   const Printer printer = free_printer();  // 10 mm/s in x and y
   CHECK(junction_speed(course(1, 0, 50), course(0, 1, 50), printer) == Approx(10));
   CHECK(junction_speed(course(1, 0, 50), course(-1, 0, 50), printer) == Approx(10));
@@ -66,7 +66,7 @@ TEST_CASE("corners by jerk: no axis jumps by more than its own") {
         Approx(20));
 }
 
-TEST_CASE("corners by deviation: an arc that strays so far from them") {
+TEST_CASE("corners by deviation: an arc that deviates by the given distance") {
   Printer printer = free_printer();
   printer.motion.junction_deviation = 0.02;
   // v² = a · r, and the arc's sagitta at the corner is r · (1 / cos(turn/2) - 1)
@@ -91,7 +91,7 @@ TEST_CASE("axes limit speed and acceleration, the extruder's too") {
   CHECK(seconds_of(printer, {{0, 0, 0, -10}}, 25) == Approx(5).epsilon(1e-2));
 }
 
-TEST_CASE("the watch hears of every move once, in order, and of all the seconds") {
+TEST_CASE("the watch receives every move once, in order, and all seconds") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> steps(-2, 2);
   double heard = 0, next = 0;

@@ -6,7 +6,7 @@
 
 using namespace unicursal::gcode;
 
-TEST_CASE("firmwares tell who they are, each in its own way") {
+TEST_CASE("firmwares identify themselves, each in its own way") {
   const Identity marlin = identify(
       "FIRMWARE_NAME:Marlin 2.1.2.1 (Mar 1 2023 12:30:00) SOURCE_CODE_URL:https://example.org "
       "PROTOCOL_VERSION:1.0 MACHINE_TYPE:My Diamond EXTRUDER_COUNT:1 UUID:0000-11");
@@ -35,7 +35,7 @@ TEST_CASE("versions compare as numbers, not as text") {
   CHECK(Version{1, 1, 9} < Version{2, 0, 0});
 }
 
-TEST_CASE("capabilities are what was told, and nothing else") {
+TEST_CASE("capabilities are those that were announced") {
   Identity identity;
   CHECK_FALSE(identity.can("AUTOREPORT_TEMP"));
   identity.learn("AUTOREPORT_TEMP", true);
@@ -45,16 +45,16 @@ TEST_CASE("capabilities are what was told, and nothing else") {
   for (int i = 0; i < 1000; ++i) identity.learn("NOISE" + std::to_string(i), true);
   CHECK(identity.capabilities.size() == Identity::most_capabilities);
 
-  const Reply told = parse_reply("Cap:AUTOREPORT_TEMP:1");
-  REQUIRE(std::holds_alternative<reply::Capability>(told));
-  CHECK(std::get<reply::Capability>(told).name == "AUTOREPORT_TEMP");
-  CHECK(std::get<reply::Capability>(told).on);
+  const Reply parsed = parse_reply("Cap:AUTOREPORT_TEMP:1");
+  REQUIRE(std::holds_alternative<reply::Capability>(parsed));
+  CHECK(std::get<reply::Capability>(parsed).name == "AUTOREPORT_TEMP");
+  CHECK(std::get<reply::Capability>(parsed).on);
   CHECK_FALSE(std::get<reply::Capability>(parse_reply("Cap:EEPROM:0")).on);
   for (const char* damaged : {"Cap:", "Cap::1", "Cap:EEPROM", "Cap:EEPROM:", "Cap:EEPROM:2", "Cap:EEPROM:1x"})
     CHECK(std::holds_alternative<reply::Unknown>(parse_reply(damaged)));
 }
 
-TEST_CASE("an answer without sense or without end is no trouble") {
+TEST_CASE("a senseless or endless answer does no harm") {
   for (const std::string& line :
        std::vector<std::string>{"", "FIRMWARE_NAME:", std::string(100000, 'A'), "FIRMWARE_NAME:9.",
                                 "FIRMWARE_NAME:.1.99999999999.3 \xff\x1b"}) {
@@ -64,8 +64,8 @@ TEST_CASE("an answer without sense or without end is no trouble") {
   }
 }
 
-TEST_CASE("Repetier's way of not knowing a command is understood") {
-  const Reply reply = parse_reply("Unknown command:M9999");
-  REQUIRE(std::holds_alternative<reply::Echo>(reply));
-  CHECK(std::get<reply::Echo>(reply).unknown_command);
+TEST_CASE("Repetier's reply to an unknown command is understood") {
+  const Reply parsed = parse_reply("Unknown command:M9999");
+  REQUIRE(std::holds_alternative<reply::Echo>(parsed));
+  CHECK(std::get<reply::Echo>(parsed).unknown_command);
 }

@@ -36,7 +36,7 @@ TEST_CASE("oks of both firmwares") {
   CHECK_FALSE(parsed<reply::Ok>("ok N99999999999").line);
 }
 
-TEST_CASE("what only looks like an ok is none") {
+TEST_CASE("a line that only resembles an ok is not an ok") {
   for (const char* line : {"okay", "ok:", "nok", "OK", "o", "okok"}) {
     CHECK(std::holds_alternative<reply::Unknown>(parse_reply(line)));
   }
@@ -51,7 +51,7 @@ TEST_CASE("resend requests") {
   }
 }
 
-TEST_CASE("errors tell the last line, or that the end has come") {
+TEST_CASE("errors report the last line, or a halt") {
   const auto mismatch = parsed<reply::Error>("Error:checksum mismatch, Last Line: 3");
   CHECK(mismatch.last_line == 3u);
   CHECK_FALSE(mismatch.halted);
@@ -91,7 +91,7 @@ TEST_CASE("the rest of the vocabulary") {
   parsed<reply::Unknown>("restart");
 }
 
-TEST_CASE("any bytes parse to something, and can be shown") {
+TEST_CASE("any bytes parse to some value and can be shown") {
   std::mt19937 random(11);
   const std::vector<std::string> starts = {
       "", "ok ", "ok N", "Resend:", "Error:", "T:", " T:1 /", "echo:", "skip "};

@@ -21,7 +21,7 @@ MoveListener deaf() {
   return {[](const PerAxis&, double) {}, [] {}};
 }
 
-/// What is said of the sound lines with `more` behind them.
+/// The complaint about the sound lines followed by `more`.
 std::string complaint(const std::vector<std::string>& more, const std::string& firmware = "marlin") {
   const Printer printer;
   LineCheck check(printer, dialect_named(firmware));
@@ -39,7 +39,7 @@ std::string complaint(const std::vector<std::string>& more, const std::string& f
 
 }  // namespace
 
-TEST_CASE("sound lines pass, and are told as moves") {
+TEST_CASE("sound lines pass and are reported as moves") {
   const Printer printer;
   LineCheck check(printer, dialect_named("marlin"));
   Chunk chunk;
@@ -59,7 +59,7 @@ TEST_CASE("sound lines pass, and are told as moves") {
   CHECK(complaint({}).empty());
 }
 
-TEST_CASE("every kind of line that would harm is refused with its place and its text") {
+TEST_CASE("every kind of harmful line is refused with its place and text") {
   const auto [lines, word] = GENERATE(table<std::vector<std::string>, std::string>({
       {{"G0 X200.1 F6000"}, "bed"},
       {{"G0 Y-.1 F6000"}, "bed"},
@@ -87,9 +87,9 @@ TEST_CASE("every kind of line that would harm is refused with its place and its 
       {{"G1 X3O"}, "number"},
       {{"G1 X"}, "empty"},
       {{"G1 Xnan"}, "number"},
-      {{"G1 I3"}, "none of a move's"},
-      {{"G2 X1 Y1 I3"}, "no command"},
-      {{"M112"}, "no command"},
+      {{"G1 I3"}, "letter that moves do not have"},
+      {{"G2 X1 Y1 I3"}, "such a command"},
+      {{"M112"}, "such a command"},
       {{" G1 X30"}, "begins with a space"},
       {{"G0 X10 *33"}, "character"},
       {{"M117 " + std::string(90, 'x')}, "too long"},
@@ -102,7 +102,7 @@ TEST_CASE("every kind of line that would harm is refused with its place and its 
   CHECK(said.find(lines.back().substr(0, 6)) != std::string::npos);
 }
 
-TEST_CASE("flow is looked at over half a millimetre, not in every crumb") {
+TEST_CASE("flow is checked over half a millimetre, not in every tiny move") {
   // 0.001 mm with the filament of 0.02 mm would be 20 times the flow
   CHECK(complaint({"G1 E4 F1500", "G1 X20.001 E.0008 F1200", "G1 X21 E.04"}).empty());
   std::vector<std::string> crumbs = {"G1 E4 F1500", "G1 X20.1 E.03 F6000"};
@@ -112,13 +112,13 @@ TEST_CASE("flow is looked at over half a millimetre, not in every crumb") {
   CHECK(complaint(crumbs).find("melts") != std::string::npos);
 }
 
-TEST_CASE("the user's own lines are passed over; behind them nothing is taken for granted") {
+TEST_CASE("the user's own lines are skipped, and no state is assumed behind them") {
   CHECK(complaint({user_lines_begin, "G29", "G1 X-5 F99999", user_lines_end}).empty());
   CHECK(complaint({user_lines_begin, "G91", user_lines_end, "M83", "T0", "G1 X30 E.4 F1200"})
             .find("unknown place") != std::string::npos);
 }
 
-TEST_CASE("after a refusal everything is as before it") {
+TEST_CASE("a refusal does not change the state") {
   const Printer printer;
   LineCheck check(printer, dialect_named("marlin"));
   Chunk chunk;
@@ -130,7 +130,7 @@ TEST_CASE("after a refusal everything is as before it") {
   CHECK_NOTHROW(check.read(chunk, "layer 1", deaf()));
 }
 
-TEST_CASE("where T waits for all motion to end, the clock is told") {
+TEST_CASE("the time estimate stops at T if T waits for the end of motion") {
   const Printer printer;
   LineCheck check(printer, dialect_named("repetier"));
   Chunk chunk;

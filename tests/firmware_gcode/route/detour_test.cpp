@@ -35,7 +35,7 @@ double nearest(core::Vec2 here, std::vector<core::Vec2> via, const core::Vec2& t
 
 }  // namespace
 
-TEST_CASE("a travel goes round an island in its way, and not much further than a taut string") {
+TEST_CASE("a travel goes around an island, hardly longer than a taut string") {
   const core::Polygon island = square(90, 95, 20);
   const core::Vec2 from(60, 100), to(140, 104);
   const auto via = detour(from, to, {square(50, 90, 12), island, square(135, 95, 12)}, bed);
@@ -45,7 +45,7 @@ TEST_CASE("a travel goes round an island in its way, and not much further than a
   CHECK(length(from, via, to) < taut + 2);
 }
 
-TEST_CASE("a free way stays straight, and one that would be long does, too") {
+TEST_CASE("a travel stays straight if it is free, or if a detour would be long") {
   const core::Vec2 from(60, 100), to(140, 100);
   CHECK(detour(from, to, {square(90, 110, 20)}, bed).empty());
   CHECK(detour(from, to, {}, bed).empty());
@@ -53,7 +53,7 @@ TEST_CASE("a free way stays straight, and one that would be long does, too") {
       detour(from, to, {square(80, 30, 40), {{{95, 2}, {105, 2}, {105, 198}, {95, 198}}, {}}}, bed).empty());
 }
 
-TEST_CASE("holes are gone round as well, but not the one that the way ends in") {
+TEST_CASE("a travel goes around holes, except one that contains its end") {
   core::Polygon plate = square(20, 20, 100);
   const core::Polygon hole = square(60, 60, 20);
   plate.holes = {{hole.outer.rbegin(), hole.outer.rend()}};
@@ -64,7 +64,7 @@ TEST_CASE("holes are gone round as well, but not the one that the way ends in") 
   CHECK(detour(from, {70, 70}, {plate, square(68, 68, 4)}, bed).empty());
 }
 
-TEST_CASE("no way leads over the bed's edge") {
+TEST_CASE("no detour leaves the bed") {
   const core::Vec2 from(10, 3), to(60, 3);
   for (const core::Vec2& p : detour(from, to, {square(30, 0.5, 10)}, bed)) {
     CHECK(p.y() >= 0);

@@ -14,7 +14,7 @@ using namespace unicursal::gcode;
 namespace {
 
 /// A closed curve that fills a rectangle in folds 1 mm apart, there and back; its right half in zone 1 if
-/// asked for.
+/// requested.
 core::BeadPath comb(const core::Vec2& corner, double width, double height, bool two_zones = false,
                     double shift = 0) {
   core::BeadPath path;
@@ -97,7 +97,7 @@ Tally tally(const std::vector<RoutedLayer>& layers) {
 
 }  // namespace
 
-TEST_CASE("every path is gone round once, either way, from any vertex") {
+TEST_CASE("a traversal covers every bead once, in either direction, from any vertex") {
   const core::BeadPath path = comb({0, 0}, 10, 8);
   for (const bool reversed : {false, true}) {
     for (const std::size_t start : {std::size_t{0}, std::size_t{5}, path.size() - 1}) {
@@ -118,7 +118,7 @@ TEST_CASE("every path is gone round once, either way, from any vertex") {
   }
 }
 
-TEST_CASE("one island in every layer: no travel, whatever the seam, though the curves differ") {
+TEST_CASE("one island per layer: no travel for any seam, although the curves differ") {
   std::vector<PlacedLayer> layers;
   for (std::size_t i = 0; i < 12; ++i)
     layers.push_back(layer_of({comb({50, 50}, 20, 16, true, 0.1 * static_cast<double>(i % 5))}, i));
@@ -130,8 +130,7 @@ TEST_CASE("one island in every layer: no travel, whatever the seam, though the c
   }
 }
 
-TEST_CASE(
-    "a layer begins with the mixture that the last one ended with, and on a border if that saves a change") {
+TEST_CASE("a layer begins with the last mixture, and on a border if that saves a change") {
   // Eight rows, crossed there and back: sixteen changes all round, one less from a border.
   std::vector<PlacedLayer> layers;
   for (std::size_t i = 0; i < 6; ++i) layers.push_back(layer_of({comb({50, 50}, 20, 16, true)}, i));
@@ -143,24 +142,25 @@ TEST_CASE(
     all_round += path.beads[i].zone != path.beads[(i + 1) % path.size()].zone;
   CHECK(t.travels == 0);
   CHECK(t.changes == layers.size() * (all_round - 1));
-  // Which takes the other direction every time.
+  // The direction alternates.
   for (std::size_t i = 1; i < result.size(); ++i)
     CHECK(result[i].traversals[0].reversed != result[i - 1].traversals[0].reversed);
 }
 
-TEST_CASE("the horizon sees where a part goes") {
-  // The part shrinks from the left: whoever begins there has to travel.
+TEST_CASE("the horizon sees how a part continues") {
+  // The part shrinks from the left: a start there needs a travel.
   std::vector<PlacedLayer> layers = {layer_of({comb({50, 50}, 40, 10)}, 0),
                                      layer_of({comb({60, 50}, 30, 10)}, 1),
                                      layer_of({comb({80, 50}, 10, 10)}, 2)};
   CHECK(tally(routed(layers, options_for())).travels == 0);
 }
 
-TEST_CASE("a growing horizon gives the first layer at once, and later ones as soon as they see enough") {
+TEST_CASE(
+    "a growing horizon returns the first layer at once, and later ones as soon as enough layers are known") {
   RouteOptions options = options_for();
   options.growing = true;
   Route route(options);
-  const std::size_t decided[] = {1, 1, 2, 3, 3, 4, 5, 5, 6, 7};  // after so many layers have come
+  const std::size_t decided[] = {1, 1, 2, 3, 3, 4, 5, 5, 6, 7};  // after so many layers
   std::size_t taken = 0;
   for (std::size_t i = 0; i < std::size(decided); ++i) {
     route.add(layer_of({comb({50, 50}, 40, 10)}, i));
@@ -175,7 +175,7 @@ TEST_CASE("a growing horizon gives the first layer at once, and later ones as so
   CHECK(taken == std::size(decided));
 }
 
-TEST_CASE("islands: as many travels as there are more islands than layers, and none in between") {
+TEST_CASE("islands: one travel per additional island, and none between layers") {
   std::mt19937 random(3);
   for (const std::size_t islands : {2u, 3u, 5u, 9u}) {
     std::vector<PlacedLayer> layers;
@@ -203,7 +203,7 @@ TEST_CASE("islands: as many travels as there are more islands than layers, and n
   }
 }
 
-TEST_CASE("the order of islands is as short as any, by trying all") {
+TEST_CASE("the order of islands is as short as the best of all orders") {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> place(0, 150);
   for (int round = 0; round < 20; ++round) {
@@ -225,7 +225,7 @@ TEST_CASE("the order of islands is as short as any, by trying all") {
   }
 }
 
-TEST_CASE("a hidden seam lies inside, an aligned one above itself, scattered ones move") {
+TEST_CASE("a hidden seam lies inside, aligned ones above each other, scattered ones move") {
   const auto with_outline = [](std::size_t i) {
     PlacedLayer layer = layer_of({comb({50, 50}, 20, 16, false, 0.1 * static_cast<double>(i % 3))}, i);
     layer.outlines = {{{{49.5, 49.5}, {70.5, 49.5}, {70.5, 66}, {49.5, 66}}, {}}};

@@ -48,7 +48,7 @@ std::size_t index_of(const std::vector<std::string>& lines, const std::string& s
   return static_cast<std::size_t>(found - lines.begin());
 }
 
-/// Changes mixtures straight, without those that hurry a change on.
+/// A printer without overshoots.
 Printer straight() {
   Printer printer;
   printer.overshoot = false;
@@ -64,7 +64,7 @@ PrintSettings two_colours() {
   return settings;
 }
 
-/// A wavy closed curve round (100, 100), its second half in zone 1.
+/// A wavy closed curve around (100, 100), its second half in zone 1.
 core::BeadPath wavy_path(std::size_t count, double radius = 30) {
   core::BeadPath path;
   for (std::size_t i = 0; i < count; ++i) {
@@ -83,7 +83,7 @@ PlacedLayer layer_of(std::vector<core::BeadPath> paths, std::size_t index = 0) {
   return {index, 0.2 * static_cast<double>(index + 1), 0.2, std::move(paths)};
 }
 
-/// What a chunk does to the filament, read back from its text.
+/// The feed of a chunk, read back from its text.
 struct Played {
   double bead_filament = 0;       ///< mm, with motion in the plane
   double still_filament = 0;      ///< mm, without
@@ -120,7 +120,7 @@ void play(const Chunk& chunk, Played& state) {
   }
 }
 
-/// All that the layers become, as one chunk.
+/// The chunks of all layers as one chunk.
 Chunk printed(Encoder& encoder, const std::vector<PlacedLayer>& layers) {
   Chunk all;
   const auto add_chunk = [&all](const Chunk& chunk) {
@@ -200,15 +200,15 @@ TEST_CASE("every tool is defined by all three feeders before it is used") {
     if (line.starts_with('T')) CHECK(defined[std::stoi(line.substr(1))]);
   }
   if (overshoot)
-    CHECK(defined.size() > 3);  // and those that hurry changes on
+    CHECK(defined.size() > 3);  // and those of overshoots
   else
     CHECK(defined.size() == 3);  // two materials and the retraction tool
 }
 
-TEST_CASE("intended mixtures are floored and as the lines write them") {
+TEST_CASE("intended mixtures have the floor share and the resolution of the lines") {
   Encoder encoder({}, two_colours());
   const Mixture sky = encoder.intended(0);
-  CHECK(sky.share(0) == Approx(0.686));  // 0.7 and 0.3 share what the floor of 0.02 leaves
+  CHECK(sky.share(0) == Approx(0.686));  // 0.7 and 0.3 of the rest above the floor of 0.02
   CHECK(sky.share(1) == Approx(0.294));
   CHECK(sky.share(2) == Approx(0.02));
   const auto lines = commands(encoder.start());
@@ -219,7 +219,8 @@ TEST_CASE("intended mixtures are floored and as the lines write them") {
   CHECK(lines[first + 3] == "M164 S0");
 }
 
-TEST_CASE("sixteen mixtures leave no retraction tool, with seventeen one is kept and the others take turns") {
+TEST_CASE(
+    "sixteen mixtures leave no retraction tool; with seventeen there is one and the others are redefined") {
   Encoder sixteen({}, many_colours(16));
   auto lines = commands(sixteen.start());
   CHECK(std::count(lines.begin(), lines.end(), "M164 S15") == 1);
@@ -271,8 +272,8 @@ TEST_CASE("extruded filament is area times height, for each mixture") {
   double by_layer = 0;
   for (const LayerShare& share : chunk.layers) by_layer += share.volume;
   CHECK(by_layer == Approx(chunk.volume));
-  // Each mixture's volume is told as the lines have it: where the tool changes, one rounding unit may go
-  // astray.
+  // Each mixture's volume is that of the lines: where the tool changes, one rounding unit may be
+  // lost.
   REQUIRE(chunk.mixture_volumes.size() == 2);
   for (const auto& [mixture, fed] : chunk.mixture_volumes) {
     const int tool = mixture == encoder.intended(0) ? 0 : 1;
@@ -320,7 +321,7 @@ TEST_CASE("speed never exceeds what an axis can do") {
   }
 }
 
-TEST_CASE("a layer goes all round, ends where it started, and the next goes on from there") {
+TEST_CASE("a layer is a closed loop, and the next one starts where it ends") {
   for (const Seam seam : {Seam::hidden, Seam::scattered, Seam::aligned, Seam::nearest}) {
     PrintSettings settings = two_colours();
     settings.seam = seam;
@@ -337,14 +338,14 @@ TEST_CASE("a layer goes all round, ends where it started, and the next goes on f
       played.travel = 0;
       play(only_layer(all, i), played);
       CHECK(played.travel < 1.5);             // not a travel, but the step to the next layer's nearest vertex
-      CHECK(played.still_filament == still);  // so nothing is drawn back
+      CHECK(played.still_filament == still);  // no retraction
       CHECK((played.position - begin).norm() < 1.5);
       CHECK(played.z == Approx(layers[i].top));
     }
   }
 }
 
-TEST_CASE("a travel draws every inlet back alike and pushes as much forward again") {
+TEST_CASE("a travel retracts all inlets alike and undoes that") {
   auto far = wavy_path(50, 4);
   for (auto& bead : far.beads) bead.position += core::Vec2(60, 0);
   Encoder encoder(straight(), two_colours());
@@ -359,7 +360,7 @@ TEST_CASE("a travel draws every inlet back alike and pushes as much forward agai
   CHECK(lines[back + 3] != "T2");
 }
 
-TEST_CASE("the prime line keeps clear of the part or is left out") {
+TEST_CASE("the prime line keeps clear of the part or is omitted") {
   const auto primed = [](const core::Box& extent) {
     PrintSettings settings = two_colours();
     settings.extent = extent;
@@ -370,7 +371,7 @@ TEST_CASE("the prime line keeps clear of the part or is left out") {
   const Chunk front = primed({{60, 60}, {140, 140}});
   CHECK(index_of(commands(front), "G0 X5 Y5") < index_of(commands(front), "G1 E4"));
   CHECK(front.prime_volume > 12);
-  // The part reaches over the front edge: the left one is next.
+  // The part covers the front edge: the left edge is next.
   const Chunk left = primed({{60, 0}, {140, 140}});
   CHECK(index_of(commands(left), "G0 X5 Y5") < index_of(commands(left), "G1 Y"));
   CHECK(index_of(commands(left), "G1 Y") < index_of(commands(left), "G1 E-4"));
@@ -382,7 +383,7 @@ TEST_CASE("the prime line keeps clear of the part or is left out") {
   CHECK(front.warnings.empty());
 }
 
-TEST_CASE("the nozzle is primed with what it needs first") {
+TEST_CASE("the nozzle is primed with the first mixture of the part") {
   Encoder encoder(straight(), two_colours());
   encoder.start();
   const auto lines = commands(printed(encoder, {layer_of({wavy_path(300)})}));
@@ -459,16 +460,16 @@ TEST_CASE("the user's own lines can neither heat after the end nor outlive the i
   CHECK(last_of(end, "M104") == "M104 S0");
   CHECK(last_of(end, "M140") == "M140 S0");
   CHECK(last_of(end, "M10") == "M107");
-  CHECK(index_of(end, "M104 S0") < index_of(end, "M104 S220"));  // cold while they run, too
+  CHECK(index_of(end, "M104 S0") < index_of(end, "M104 S220"));  // off while they run, too
   CHECK(end.back() == "M85 S0");
 }
 
-TEST_CASE("the end is right wherever the printer has stopped") {
+TEST_CASE("the end is correct wherever the printer has stopped") {
   const PrintSettings all_tools = many_colours(16);
   for (const PrintSettings& settings : {two_colours(), all_tools}) {
     Encoder encoder(straight(), settings);
     encoder.start();
-    // May end at x = 0, where the end parks: x is to be written all the same.
+    // The print may end at x = 0, where the end parks: x must still be written.
     core::BeadPath triangle;
     triangle.beads = {{{0, 150}, 20.0, 0}, {{0, 200}, 0.5, 0}, {{1, 200}, 20.0, 0}};
     Played played;
@@ -507,7 +508,7 @@ TEST_CASE("a part that would begin in the air is refused") {
   CHECK_THROWS_WITH(encoder.layer(layer_of({wavy_path(100)}, 1)),
                     Catch::Contains("layer 1") && Catch::Contains("in the air at 0.2 mm") &&
                         Catch::Contains("turn or place the part"));
-  // A refusal changes nothing; and it is primed once.
+  // A refusal has no effect, and the nozzle is primed once.
   const Chunk all = printed(encoder, {layer_of({wavy_path(100)}, 0), layer_of({wavy_path(100)}, 2)});
   CHECK(std::count(all.lines.begin(), all.lines.end(), ";TYPE:Custom") == 1);
   CHECK(all.layers.size() >= 2);
@@ -519,14 +520,14 @@ TEST_CASE("an end without a beginning moves nothing") {
   for (const auto& line : commands(encoder.finish())) CHECK(line.front() != 'G');
 }
 
-TEST_CASE("names cannot smuggle commands into a file") {
+TEST_CASE("names cannot inject commands into a file") {
   PrintSettings settings = two_colours();
   settings.materials[0].name = "sky\nM104 S300";
   Encoder encoder({}, settings);
   for (const auto& line : encoder.start().lines) CHECK(line.find('\n') == std::string::npos);
 }
 
-TEST_CASE("what the printer cannot do is refused, naming layer and place, and changes nothing") {
+TEST_CASE("impossible layers are refused with layer and place, and change nothing") {
   Encoder encoder({}, two_colours()), undisturbed({}, two_colours());
   encoder.start(), undisturbed.start();
   auto outside = wavy_path(100);
@@ -540,7 +541,7 @@ TEST_CASE("what the printer cannot do is refused, naming layer and place, and ch
   broken = wavy_path(100);
   broken.beads[3].area = std::numeric_limits<double>::infinity();
   CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
-  broken.beads[3].area = 1e30;  // finite, but would be split into moves without end
+  broken.beads[3].area = 1e30;  // finite, but would be split into endless moves
   CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
   broken.beads[3].area = -1;
   CHECK_THROWS_AS(encoder.layer(layer_of({broken})), core::DataError);
@@ -553,7 +554,7 @@ TEST_CASE("what the printer cannot do is refused, naming layer and place, and ch
         printed(undisturbed, {layer_of({wavy_path(100)})}).lines);
 }
 
-TEST_CASE("printers and settings that make no sense are refused") {
+TEST_CASE("impossible printers and settings are refused") {
   const auto refused = [](const Printer& printer, const PrintSettings& settings, const std::string& part) {
     CHECK_THROWS_WITH(Encoder(printer, settings), Catch::Contains(part));
   };
@@ -590,12 +591,12 @@ TEST_CASE("printers and settings that make no sense are refused") {
   refused(printer, two_colours(), "longer than 80");
 }
 
-TEST_CASE("empty layers and paths of one point pass") {
+TEST_CASE("empty layers and paths of one point are accepted") {
   Encoder encoder({}, two_colours());
   encoder.start();
   core::BeadPath point;
   point.beads = {{{100, 100}, 0.0, 0}};
   CHECK(commands(encoder.layer(layer_of({}))).empty());
   CHECK(commands(encoder.layer(layer_of({point, {}}))).empty());
-  CHECK(printed(encoder, {layer_of({wavy_path(10)})}).prime_volume > 0);  // the first that is printed
+  CHECK(printed(encoder, {layer_of({wavy_path(10)})}).prime_volume > 0);  // the first layer with beads
 }

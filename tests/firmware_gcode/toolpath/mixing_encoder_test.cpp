@@ -1,4 +1,4 @@
-// The lines of whole prints, played through the model of the chamber: what leaves the nozzle where.
+// The lines of whole prints, played through the model of the chamber: what leaves the nozzle and where.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <deque>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double filament_area = std::numbers::pi / 4 * 1.75 * 1.75;
 
-/// A wavy ring round (100, 100): zone 0 above, zone 1 below.
+/// A wavy ring around (100, 100): zone 0 above, zone 1 below.
 core::BeadPath ring(std::size_t count, double radius = 30) {
   core::BeadPath path;
   for (std::size_t i = 0; i < count; ++i) {
@@ -51,7 +51,7 @@ std::vector<std::string> lines_of(Encoder& encoder, std::size_t layers) {
   return lines;
 }
 
-/// Tells `seen` of every bit of plastic on the part: where, what, how much.
+/// Calls `seen` for every bit of plastic on the part: place, shares, volume.
 template <typename Seen>
 void play(const std::vector<std::string>& lines, const ChamberModel& chamber, Seen seen) {
   std::map<int, Tanks::Shares> tools;
@@ -90,7 +90,7 @@ void play(const std::vector<std::string>& lines, const ChamberModel& chamber, Se
 
 }  // namespace
 
-TEST_CASE("what leaves the nozzle is what its zone wants, over the borders of layers, too") {
+TEST_CASE("every zone gets its mixture, also across layers") {
   const PrintSettings settings =
       settings_for({{"sky", Mixture({0.7, 0.3, 0})}, {"rose", Mixture({0, 0.2, 0.8})}});
   for (const std::size_t tanks : {1u, 3u}) {
@@ -147,9 +147,10 @@ TEST_CASE("a chunk says from which line on which mixture is fed") {
     printer.firmware = firmware;
     printer.flow_factors = {1, 1.05, 1};
     Encoder encoder(printer, settings);
-    // The name of the mixture by what the firmware has been told: the shares are those of the feeders' steps.
-    const auto fed = [&](const Tanks::Shares& told) -> std::string {
-      Tanks::Shares shares = told;
+    // The name of the mixture by the shares that the firmware has received, which are those of the feeders'
+    // steps.
+    const auto fed = [&](const Tanks::Shares& received) -> std::string {
+      Tanks::Shares shares = received;
       for (std::size_t f = 0; f < max_feeders; ++f) shares[f] /= printer.flow_factors[f];
       const Mixture mixture(shares);
       for (std::size_t i = 0; i < 2; ++i) {
@@ -213,7 +214,7 @@ TEST_CASE("every layer's share of the chunks adds up, and each ends once") {
     CHECK(sum == Approx(chunk.volume));
   };
   constexpr std::size_t count = 9;
-  // Up to four layers to choose the route over, and what the chamber holds.
+  // Withheld: up to four layers for the route, and the content of the chamber.
   const std::size_t decided[count] = {1, 1, 2, 3, 3, 4, 5, 5, 6};
   for (std::size_t i = 0; i < count; ++i) {
     take(encoder.layer({i, 0.2 * static_cast<double>(i + 1), 0.2, {ring(300)}}));

@@ -34,7 +34,7 @@ TEST_CASE("numbers read back as what they were rounded to") {
   }
 }
 
-TEST_CASE("mixtures are shares, whatever their scale") {
+TEST_CASE("mixtures are shares at any scale") {
   CHECK(Mixture({10, 30, 0}).share(1) == Approx(0.75));
   CHECK_THROWS_WITH(Mixture({0, 0, 0}), Catch::Contains("all shares are zero"));
   CHECK_THROWS_WITH(Mixture({1e308, 1e308, 0}), Catch::Contains("too large"));
@@ -43,7 +43,7 @@ TEST_CASE("mixtures are shares, whatever their scale") {
   CHECK_THROWS_AS(Mixture({std::numeric_limits<double>::infinity(), 0, 0}), core::DataError);
 }
 
-TEST_CASE("a floor lifts idle feeders and keeps the proportion of the others") {
+TEST_CASE("a floor raises idle feeders and keeps the proportion of the others") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> shares(0, 1), floors(0, 1.0 / 3);
   for (int i = 0; i < 2000; ++i) {
@@ -65,7 +65,7 @@ TEST_CASE("a floor lifts idle feeders and keeps the proportion of the others") {
   CHECK(Mixture({0.2, 0.3, 0.5}).with_floor(0) == Mixture({0.2, 0.3, 0.5}));
 }
 
-TEST_CASE("bead speed pushes the asked flow within the axes' limits") {
+TEST_CASE("the bead speed gives the requested flow within the axes' limits") {
   Printer printer;               // 150 mm/s in x and y; beads of 0.24 to 1 mm
   const PrintSettings settings;  // 2 mm³/s
   const LayingSpeed pace(printer, settings);

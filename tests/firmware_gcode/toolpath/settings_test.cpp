@@ -1,4 +1,4 @@
-// What the users of slicers expect to set, as it comes out in the lines.
+// Settings that users of slicers expect, and their effect on the lines.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -19,7 +19,7 @@ PrintSettings plain() {
   settings.zone_materials = {0};
   settings.extent = {{80, 80}, {120, 120}};
   settings.layer_count = 3;
-  settings.horizon = 1;  // so that every layer comes out at once
+  settings.horizon = 1;  // every layer is returned at once
   settings.look_ahead = false;
   return settings;
 }
@@ -75,7 +75,7 @@ TEST_CASE("the nozzle is lifted on a travel and comes down again") {
   CHECK(count(chunk, "G1 Z.2 F600") + count(chunk, "G1 Z.2") == 3);
 }
 
-TEST_CASE("the skirt is laid before the part, is counted, and the prime line keeps clear of it") {
+TEST_CASE("the skirt precedes the part, is counted, and the prime line keeps clear of it") {
   PrintSettings settings = plain();
   Encoder bare({}, settings);
   bare.start();
@@ -95,7 +95,7 @@ TEST_CASE("the skirt is laid before the part, is counted, and the prime line kee
   CHECK_FALSE(holds(encoder.layer(ring(1)), ";TYPE:Skirt"));
 }
 
-TEST_CASE("a skirt without room is told") {
+TEST_CASE("a skirt without room causes a warning") {
   Printer printer;
   printer.bed = {42, 42, 50};
   PrintSettings settings = plain();
@@ -108,7 +108,7 @@ TEST_CASE("a skirt without room is told") {
                     [](const auto& w) { return w.find("no skirt") != std::string::npos; }));
 }
 
-TEST_CASE("a slower first layer takes as much longer") {
+TEST_CASE("a slower first layer takes proportionally longer") {
   PrintSettings settings = plain();
   settings.flow = 1;
   Encoder fast({}, settings);
@@ -116,11 +116,11 @@ TEST_CASE("a slower first layer takes as much longer") {
   Encoder slow({}, settings);
   fast.start(), slow.start();
   const double first = fast.layer(ring(0)).seconds;
-  CHECK(slow.layer(ring(0)).seconds == Approx(2 * first).epsilon(0.1));  // travels stay as they were
+  CHECK(slow.layer(ring(0)).seconds == Approx(2 * first).epsilon(0.1));  // travels are as fast as before
   CHECK(slow.layer(ring(1)).seconds == Approx(fast.layer(ring(1)).seconds).epsilon(1e-2));
 }
 
-TEST_CASE("the seconds of chunks are those of their beads at the asked flow, and add up") {
+TEST_CASE("the seconds of chunks are those of their beads at the requested flow, and add up") {
   Encoder encoder({}, plain());
   double sum = encoder.start().seconds, volume = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -174,7 +174,7 @@ TEST_CASE("the same beads in Repetier's dialect: other tools, the same E") {
   CHECK(count(start, "M400") == 2);
 }
 
-TEST_CASE("numbers of the job stand in the user's own lines, and what they may not hold is refused") {
+TEST_CASE("the user's own lines may contain placeholders, and forbidden lines are refused") {
   Printer printer;
   printer.start_gcode = "M117 {layer_count} layers\n";
   Encoder encoder(printer, plain());

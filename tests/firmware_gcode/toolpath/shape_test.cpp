@@ -1,4 +1,4 @@
-// What is done to paths and round them before they are written: fewer vertices, a skirt.
+// Simplified paths, and the skirt.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -50,7 +50,7 @@ TEST_CASE("straight pieces of equal width become one") {
   CHECK(path.beads[0].area == Approx(15));
 }
 
-TEST_CASE("where width or zone changes a vertex stays") {
+TEST_CASE("a vertex stays where width or zone changes") {
   core::BeadPath path = rectangle(10, 10, 30, 20, 10);
   path.beads[4].area *= 1.03;
   CHECK(simplified(path).size() == 6);  // before and after it
@@ -59,15 +59,15 @@ TEST_CASE("where width or zone changes a vertex stays") {
   CHECK(simplified(path).size() == 6);
 }
 
-TEST_CASE("a path that turns back, or stands, keeps its turn") {
+TEST_CASE("a path that turns back or stands still keeps its turn") {
   core::BeadPath path;
   for (const double x : {10.0, 12.0, 14.0, 12.0, 12.0}) path.beads.push_back({core::Vec2(x, 10), 1.0, 0});
   const core::BeadPath fewer = simplified(path);
-  CHECK(fewer.size() == 4);  // only the first 12 says nothing
+  CHECK(fewer.size() == 4);  // only the first 12 is redundant
   CHECK(fewer.beads[1].position == core::Vec2(14, 10));
 }
 
-TEST_CASE("no vertex strays, no volume is lost, nothing moves to another zone") {
+TEST_CASE("no vertex moves away, no volume is lost, no bead changes its zone") {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> noise(-0.006, 0.006), widths(0.497, 0.503);
   for (int round = 0; round < 50; ++round) {
@@ -107,7 +107,7 @@ TEST_CASE("a skirt keeps its distance from the part, from itself and from the be
   }
 }
 
-TEST_CASE("a skirt comes nearer where the bed ends, and stays away where there is no room") {
+TEST_CASE("a skirt moves nearer to the part at the bed's edge, and is omitted without room") {
   Printer printer;
   printer.bed = {60, 60, 60};
   const auto tight = skirt({0, 0.2, 0.2, {rectangle(5, 5, 50, 50, 5)}}, {2, 10}, printer);
