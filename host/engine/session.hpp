@@ -1,22 +1,18 @@
-// One print on one printer, from the first word on the line to cold heaters, steered while it runs. It lives
+// One print on one printer, from the first byte on the line to cold heaters, steered while it runs. It lives
 // on an Asio loop that somebody else runs: the foreground command (stream.hpp) or the daemon.
 //
 //   PlannedSource source(lookahead, run);
 //   Session session(loop.get_executor(), open_port(path, baud), source);
-//   session.on_event([&](const SessionEvent& event) { tell(to_json(event)); });
+//   session.on_event([&](const SessionEvent& event) { show(event.text); });
 //   asio::co_spawn(loop, session.run(), [](std::exception_ptr, StreamResult result) { … });
 //   session.pause("somebody at the door");          // any time, on the loop's thread
 //
-// Everything here belongs to the loop's thread. A command returns at once; what comes of it is told by events
-// and status(). s, °C, per cent.
+// Everything here belongs to the loop's thread. A command returns at once; events and status() show its
+// effect. s, °C, per cent.
 //
-// A pause ends a segment: what the printer has taken is finished, the filament is drawn back in equal shares,
-// the nozzle rises and goes aside (firmware_gcode/interruption/pause.hpp). Going on, the next line follows:
-// none is lost, none is run twice. A cancelled print is parked and cooled. When the firmware asks for one of
-// these by `//action:`, it is done as if the user had asked. M85 is kept fresh during a pause, so that the
-// firmware cools the printer when this program dies then. A nozzle that has had nothing to do for some
-// seconds, because the disk is full or planning has fallen behind, is taken aside like that as well, until it
-// can go on.
+// A paused print goes on with its next line: none is lost, none is run twice (holding.hpp). A cancelled print
+// is parked and cooled. When the firmware asks for one of these by `//action:`, the session does it as if the
+// user had asked. How it works inside: session_impl.hpp.
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -40,44 +36,46 @@
 
 namespace unicursal::host {
 
-/// For a look-ahead that plans by the real clock of a session.
+/// A planning clock for a look-ahead that plans while a session prints.
 PlanningClock planning_clock(std::shared_ptr<Clock> clock);
-/// The same, with the time that the printing leaves.
+/// Options of a look-ahead that spends as much time on planning as the printing leaves.
 LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock);
 
-/// How the printer of a profile is talked to. `log`: of the serial line.
+/// Options of the link to a profile's printer. `log`: file for every byte on the serial line.
 LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log);
 
 class Session {
  public:
-  /// Takes over the descriptor. What it refers to must outlive it.
+  /// Takes over the descriptor `port`. The source, and what the settings refer to, must outlive the session.
   Session(asio::any_io_executor executor, int port, Source& source, StreamSettings settings = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The whole print; ends when every line is acknowledged. Once. Throws nothing: whatever goes wrong is told
-  /// in the result, since a report is due then as well. When the spool's disk is full, the print waits.
+  /// Runs the whole print; returns when every line is acknowledged. May be called once. Does not throw: a
+  /// failure is in the result, since a report is due then as well. When the spool's disk is full, it waits.
   asio::awaitable<StreamResult> run();
 
   Refusal pause(const std::string& reason = "the user has paused it");
   Refusal resume();
-  /// Parks and cools. While it heats, the heating ends at once.
+  /// Parks and cools the printer. Heating ends at once.
   Refusal cancel(const std::string& reason = "the user has stopped it");
-  /// M112, past every queue; then the board's reset line, if it does not confirm. Nothing is parked.
+  /// Sends M112 past every queue; then pulls the board's reset line if the printer does not confirm. It does
+  /// not park.
   Refusal emergency_stop();
-  /// Of the speed that the print asks for, 10…300 %.
+  /// Sets the speed, 10…300 % of what the print asks for.
   Refusal set_speed(double percent);
-  /// Of the plastic that the print asks for, 50…200 %.
+  /// Sets the extrusion, 50…200 % of what the print asks for.
   Refusal set_flow(double percent);
-  /// °C, from 0 (off) up to what is sane; the print's own changes of temperature still come.
+  /// Sets the target, °C; 0 is off, absurd ones are refused. The print's own changes of temperature still
+  /// come.
   Refusal set_nozzle(double temperature);
   Refusal set_bed(double temperature);
 
   SessionStatus status() const;
-  /// Called after every change; keep it short. An observer may ask for status() and give commands.
+  /// The observer is called after every change and must be quick. It may ask for status() and give commands.
   void on_event(std::function<void(const SessionEvent&)> observer);
-  /// What can be said when the loop itself has failed.
+  /// The result when the loop itself has failed: cools the printer as well as it can.
   StreamResult failed(std::exception_ptr error);
 
  private:
