@@ -1,6 +1,6 @@
-// What interrupts a print and lets it go on: pauses, waits for something that is missing, and changes of
-// temperature, speed and flow. The print calls between_batches() and wait_for(); commands only leave marks.
-// s, °C. It belongs to the loop's thread.
+// Interruptions of a print: pauses, waits for something that is missing, and changes of temperature, speed
+// and flow. The print calls between_batches() and wait_for(); commands only leave marks for them. s, °C. It
+// belongs to the loop's thread.
 //
 // A pause ends a segment: the printer finishes what it has, the filament is drawn back in equal shares, the
 // nozzle rises and goes aside (firmware_gcode/interruption/pause.hpp). Then the next line follows: none is
@@ -29,16 +29,16 @@
 
 namespace unicursal::host {
 
-// What commands are answered with.
+// Answers to commands.
 constexpr auto pause_when_hot = "it is held as soon as it is hot";
 constexpr auto ends_already = "the print is ending";
 
-/// What the print cannot go on without, and may have to wait for.
+/// Something that the print cannot go on without, and may have to wait for.
 struct Need {
   std::string why;             ///< the reason for the waiting, a sentence
   std::function<bool()> come;  ///< whether it is there
-  std::function<asio::awaitable<void>()>
-      look;                         ///< looks for it now and then; empty: its coming wakes the session
+  /// Looks for it now and then; empty if its coming wakes the session.
+  std::function<asio::awaitable<void>()> look;
   TimePoint at = TimePoint::max();  ///< when it will be there, in virtual time
   bool at_work = false;             ///< this computer is busy with it: virtual time stands still
 };
@@ -100,10 +100,10 @@ class Holding {
 
   Parts parts_;
   std::deque<std::string> changes_;         ///< lines that were asked for, to be interposed
-  TimePoint hot_until_ = TimePoint::max();  ///< while the nozzle stands aside: from then on it cools
-  bool waits_aside_ = false;  ///< the nozzle stands aside since something is missing, not for a pause
-  std::vector<std::string> way_aside_;  ///< the lines of a pause that have led the nozzle away, and back
-  bool cooled_ = false;                 ///< the nozzle was cooled while the print was held
+  TimePoint hot_until_ = TimePoint::max();  ///< a nozzle that stands aside is cooled from then on
+  bool waits_aside_ = false;                ///< the nozzle stands aside since something is missing
+  std::vector<std::string> way_aside_;      ///< lines that have led the nozzle away in a pause, and back
+  bool cooled_ = false;                     ///< the nozzle was cooled while the print was held
   std::size_t pauses_ = 0;
 };
 

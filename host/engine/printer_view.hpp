@@ -13,13 +13,13 @@ namespace unicursal::host {
 /// What a line from the printer means to the print.
 struct Remark {
   enum class Kind {
-    temperatures,  ///< nothing else is in it
+    temperatures,  ///< it only reports temperatures
     unknown_m85,   ///< the firmware does not know M85: nothing cools it when this computer fails
     no_mixing,     ///< the firmware does not know M163
     too_cold,      ///< it drives on without extruding, since the nozzle is too cold
     action,        ///< `text`: what it asks for by "//action:"
     halted,        ///< it has stopped itself; only a reset helps
-    other          ///< a person may want to see it, the session does nothing
+    other          ///< a person may want to see it; the session does nothing
   };
   Kind kind = Kind::other;
   std::string text;
@@ -35,11 +35,12 @@ struct PrinterView {
   gcode::Temperatures temperatures;  ///< as the printer last reported them, °C
   bool mixes = true;                 ///< false once the printer has denied it
   bool halted = false;               ///< the firmware has said that it has stopped itself
-  gcode::ModalState expected;        ///< after all lines of the print that were handed to the link
+  gcode::ModalState expected;        ///< its state after all lines of the print that were handed to the link
+  std::string mixture;               ///< fed after those lines: name or shares; empty before the first
   bool may_wait_for_heat = false;    ///< it may be in a wait for heat, and read nothing until that ends
   bool must_not_move = false;        ///< it does not know where its nozzle is
-  double speed_percent = 100;        ///< that the user has set, of the print's speed
-  double flow_percent = 100;         ///< that the user has set, of the print's plastic
+  double speed_percent = 100;        ///< of the print's speed, as the user has set it
+  double flow_percent = 100;         ///< of the print's extrusion, as the user has set it
 };
 
 }  // namespace unicursal::host

@@ -1,7 +1,6 @@
 // A session from outside: its public functions, and what the printer says.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 

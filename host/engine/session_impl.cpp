@@ -21,10 +21,10 @@ namespace {
 
 constexpr double look_ahead = 300;  ///< s of printing that are planned before they are needed
 
-/// Lines handed to the link at once: few, so that a command takes effect soon.
+/// Lines handed to the link together: few, so that a command takes effect soon.
 constexpr std::size_t batch = 16;
 
-constexpr auto late_answer = std::chrono::seconds(1);  ///< of a printer that says ok first
+constexpr auto late_answer = std::chrono::seconds(1);  ///< after the ok, of a printer that answers later
 
 constexpr auto fell_behind = "planning has fallen behind; it goes on by itself when the next layer is there";
 
@@ -33,7 +33,7 @@ bool moves_away(const std::string& line) {
   return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
 }
 
-/// Lines of a lead-in up to the last one that waits for heat: what follows moves.
+/// The number of lines up to the last one that waits for heat; those after it move.
 std::uint64_t heat_lines(const std::vector<std::string>& lead_in) {
   const auto waits = [](const std::string& line) {
     return line.starts_with("M109") || line.starts_with("M190");
@@ -210,6 +210,7 @@ asio::awaitable<void> Session::State::send_spooled() {
         reader.next(heating ? std::min<std::uint64_t>(batch, hot - places.next()) : batch);
     if (lines.empty()) break;
     progress.replay(reader.layers_begun(), reader.fraction());
+    printer.mixture = reader.mixture();
     co_await send_batch(std::move(lines));
     if (heating && places.next() >= hot) co_await get_hot();
     printer.must_not_move = printer.must_not_move && intent.ends();
@@ -324,7 +325,7 @@ asio::awaitable<void> Session::State::park() {
     link.cool_down();
     throw;
   }
-  gcode::keep_commands(chunk.lines);
+  gcode::keep_commands(chunk);
   co_await send_end(std::move(chunk));
 }
 
@@ -338,11 +339,13 @@ asio::awaitable<void> Session::State::send_end(gcode::Chunk chunk) {
 asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
   // While the printer heats commands have to wait, and at the end they come too late.
   const bool whole = printer.may_wait_for_heat || announcer.is_ending();
+  auto mixture = chunk.mixtures.begin();
   for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
     if (!whole) co_await holding.between_batches();
     if (intent.ends() && !announcer.is_ending()) co_return;
     if (!whole) progress.sent(static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
     const std::size_t end = std::min(i + batch, chunk.lines.size());
+    for (; mixture != chunk.mixtures.end() && mixture->line < end; ++mixture) printer.mixture = mixture->name;
     co_await send_batch({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                          chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
   }

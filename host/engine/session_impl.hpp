@@ -72,7 +72,6 @@ struct Session::State {
   // What is reported (session_status.cpp)
   SessionStatus status() const;
   Ahead ahead() const;
-  std::string mixture() const;
 
   asio::thread_pool disk{1};
   const asio::any_io_executor executor;

@@ -10,9 +10,10 @@ namespace unicursal::host {
 /// Takes the comments out of the chunk and spools it. Returns why that failed, or an empty string.
 asio::awaitable<std::string> Session::State::try_to_spool(SpooledChunk& record, gcode::Chunk& chunk) {
   if (spool) record.begun = layers_begun_in(chunk.lines);
-  gcode::keep_commands(chunk.lines);
+  gcode::keep_commands(chunk);
   if (!spool) co_return std::string();
   record.lines = chunk.lines;
+  record.mixtures = chunk.mixtures;
   co_return co_await write(record);
 }
 

@@ -1,28 +1,9 @@
 // A session's status, and the words for its states and events.
-#include <fmt/format.h>
-
-#include <charconv>
-#include <cmath>
 
 #include "host/engine/seconds.hpp"
 #include "host/engine/session_impl.hpp"
 
 namespace unicursal::host {
-namespace {
-
-std::optional<double> share_in(const std::string& line) {
-  const auto at = line.find(" P");
-  if (!line.starts_with("M163 ") || at == std::string::npos) return std::nullopt;
-  double share = 0;
-  const char* begin = line.data() + at + 2;
-  const auto [end, error] = std::from_chars(begin, line.data() + line.size(), share);
-  return error == std::errc() ? std::optional(share) : std::nullopt;
-}
-
-constexpr double same_share = 0.002;  ///< what rounding to a firmware's integers may change
-
-}  // namespace
-
 const char* name(SessionState state) {
   switch (state) {
     case SessionState::connecting:
@@ -72,27 +53,6 @@ Ahead Session::State::ahead() const {
           [this](std::size_t begin, std::size_t end) { return source.foretold(begin, end); }};
 }
 
-/// By the tool in use and what was last stored into it.
-std::string Session::State::mixture() const {
-  const gcode::ModalState& expected = printer.expected;
-  if (!expected.tool || !caught_up) return {};
-  const auto tool = expected.tools.find(*expected.tool);
-  if (tool == expected.tools.end()) return {};
-  std::vector<double> shares;
-  for (const std::string& line : tool->second) {
-    if (const auto share = share_in(line)) shares.push_back(*share);
-  }
-  for (const NamedMixture& named : source.mixtures()) {
-    bool same = shares.size() >= 3;
-    for (std::size_t i = 0; i < 3 && same; ++i)
-      same = std::abs(named.mixture.share(i) - shares[i]) < same_share;
-    if (same) return named.name;
-  }
-  std::string text;
-  for (const double share : shares) text += fmt::format("{}{:.2f}", text.empty() ? "" : " : ", share);
-  return text;
-}
-
 SessionStatus Session::State::status() const {
   SessionStatus status;
   status.state = announcer.state();
@@ -108,7 +68,7 @@ SessionStatus Session::State::status() const {
   }
   status.elapsed = seconds(clock->now() - began);
   status.temperatures = printer.temperatures;
-  status.mixture = mixture();
+  status.mixture = printer.mixture;
   const Waiting waiting = source.waiting();
   status.lookahead = waiting.seconds;
   status.lookahead_layers = waiting.layers;

@@ -1,4 +1,4 @@
-// The words of a session: its settings, states, events and results. s, °C, per cent.
+// Values of a session: its settings, states, events and results. s, °C, per cent.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@
 
 namespace unicursal::host {
 
-/// Something went wrong when the printer may have been hot; it has been cooled if it still listens.
+/// Something went wrong while the printer may have been hot. It has been cooled if it still listens.
 class PrintError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The printer is not the one that the print was made for; nothing was heated or moved. The message has the
+/// The printer is not the one that the print was made for; nothing was heated or moved. The message names the
 /// remedy.
 class PrinterUnfit : public std::runtime_error {
  public:
@@ -33,51 +33,51 @@ class PrinterUnfit : public std::runtime_error {
 
 enum class Ending {
   completed,
-  stopped,  ///< by the user; the rest was not sent, the printer was cooled
+  stopped,  ///< the user has stopped it; the rest was not sent, the printer was cooled
   failed
 };
 
-/// The printer cannot simply go on with the next line; nothing was sent.
+/// Why the printer cannot go on with the next line; nothing was sent.
 struct Lost {
   std::string why;                     ///< a clause: "it has started anew"
-  std::optional<std::uint64_t> place;  ///< in the leg, if the printer has told up to where it has come
+  std::optional<std::uint64_t> place;  ///< the next line's place in the leg, if the printer has reported it
 };
 
 struct StreamResult {
   Ending ending = Ending::completed;
-  std::string reason;   ///< why it failed, a sentence
+  std::string reason;   ///< why it failed, a sentence; else empty
   bool parked = false;  ///< the nozzle was moved away at the end
   LinkStatistics statistics;
-  std::string firmware;  ///< as it names itself
-  double waited = 0;     ///< s that the print has waited for a layer to be planned
+  std::string firmware;  ///< the name that it reports
+  double waited = 0;     ///< s that the print has waited for layers to be planned
   std::optional<Lost> lost;
   std::size_t pauses = 0;  ///< times that it was held
-  bool unfit = false;      ///< it has failed since the printer is another one; nothing was heated or moved
-  bool begun = false;      ///< lines of it were sent; otherwise no spool keeps it
+  bool unfit = false;      ///< the printer is not fit for this print; nothing was heated or moved
+  bool begun = false;      ///< lines of it may have been sent; a print that never began is not kept
 };
 
 /// A print that goes on.
 struct Continuation {
-  std::optional<Leg> leg;  ///< to begin; absent: the printer is alive, and the last leg goes on
-  /// Brings the source's run to where the spool ends, meanwhile, in a thread of its own.
+  std::optional<Leg> leg;  ///< a new leg; absent: the printer is alive, and the last leg goes on
+  /// Brings the source's run to where the spool ends. It is called on a thread of its own.
   std::function<void()> catch_up;
 };
 
-/// What becomes of the nozzle's heat during a pause. The bed stays warm, or the part would come off.
+/// The nozzle's heat during a pause. The bed stays warm, or the part would come off.
 enum class PauseHeat {
-  keep,  ///< for a quarter of an hour
-  lower  ///< so far that nothing drips or chars; it is heated again before the print goes on
+  keep,  ///< keep it for a quarter of an hour
+  lower  ///< lower it until nothing drips or chars; the nozzle is heated again before the print goes on
 };
 
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
-  Spool* spool = nullptr;         ///< that keeps the print, if one does; not if it never began
-  std::filesystem::path profile;  ///< to be named where it has to be corrected; may be empty
-  LinkOptions link = {};          ///< on the clock above
-  /// With a spool that holds the first layers already; the source begins behind them.
+  Spool* spool = nullptr;         ///< keeps the print; nullptr: it is not kept
+  std::filesystem::path profile;  ///< its file, for messages that ask to correct it; may be empty
+  LinkOptions link = {};          ///< its clock is replaced by the one above
+  /// For a resumed print. Precondition: a spool that holds the first layers; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;
-  /// s after which a pause ends by itself: for where nobody is there to end it.
+  /// s after which a pause ends by itself, for prints that nobody attends; absent: never.
   std::optional<double> longest_pause;
 };
 
@@ -89,13 +89,13 @@ enum class SessionState {
   paused,      ///< until resume() or cancel()
   resuming,    ///< reheats, primes, returns
   finishing,   ///< after the last layer: parks and cools
-  cancelling,  ///< before its end
+  cancelling,  ///< before the last layer: parks and cools
   done,
-  stopped,  ///< by the user
+  stopped,  ///< the user has stopped it
   failed
 };
 
-/// "printing"; the word that events and reports use.
+/// The word that events and reports use, such as "printing".
 const char* name(SessionState state);
 
 constexpr bool has_ended(SessionState state) {
@@ -105,18 +105,18 @@ constexpr bool has_ended(SessionState state) {
 /// A snapshot of a session.
 struct SessionStatus {
   SessionState state = SessionState::connecting;
-  std::string reason;                ///< of a pause or an end, a sentence; empty where there is none to tell
-  std::size_t layer = 0;             ///< that is being sent, counted from 1; 0 before the first
-  std::size_t layers = 0;            ///< to be printed
-  double layer_fraction = 0;         ///< of the lines at hand, that were sent
-  double percent = 0;                ///< of the printing time, as far as it can be foretold
+  std::string reason;                ///< why it is held or has ended, a sentence; may be empty
+  std::size_t layer = 0;             ///< the layer that is being sent, counted from 1; 0 before the first
+  std::size_t layers = 0;            ///< layers of the whole print
+  double layer_fraction = 0;         ///< share of the lines at hand that were sent, 0…1
+  double percent = 0;                ///< of the printing time, by the time model
   double elapsed = 0;                ///< s since the session began
   std::optional<double> left;        ///< s of printing, by the time model; absent before the first layer
-  gcode::Temperatures temperatures;  ///< as last told
-  std::string mixture;               ///< its name, or its shares; empty before the first
+  gcode::Temperatures temperatures;  ///< as last reported, °C
+  std::string mixture;               ///< name, or shares, of the mixture that is fed; empty before the first
   double lookahead = 0;              ///< s of printing that are planned and not yet sent
   std::size_t lookahead_layers = 0;  ///< planned and waiting
-  std::optional<double> queue;       ///< of the printer's planned moves, 0…1 full, where it tells
+  std::optional<double> queue;       ///< fill of the printer's queue of moves, 0…1; absent if not reported
   double speed_percent = 100, flow_percent = 100;
   std::vector<std::string> warnings;  ///< one sentence each
 };
@@ -125,9 +125,9 @@ struct SessionEvent {
   enum class Kind {
     state,     ///< the state has changed
     progress,  ///< a few lines were sent
-    heat,      ///< the printer has told temperatures
-    notice,    ///< the session has something to say: `text`, a sentence
-    printer    ///< the printer has: `text`, made safe to show
+    heat,      ///< the printer has reported temperatures
+    notice,    ///< a message from the session: `text`, a sentence
+    printer    ///< a line from the printer: `text`, made safe to show
   };
   Kind kind = Kind::state;
   std::string text;
@@ -135,7 +135,7 @@ struct SessionEvent {
 
 const char* name(SessionEvent::Kind kind);
 
-/// Why a command is not obeyed, a sentence; nothing when it is.
+/// Why a command is refused, a sentence; nullopt if it is obeyed.
 using Refusal = std::optional<std::string>;
 
 }  // namespace unicursal::host

@@ -21,33 +21,26 @@ void report_printed(Source& source, const Clock& clock, double left) {
   source.printed(seconds(clock.now().time_since_epoch()), left);
 }
 
-std::vector<NamedMixture> PlannedSource::mixtures() const {
-  std::vector<NamedMixture> mixtures;
-  for (const MaterialVolume& material : run_.totals().materials)
-    mixtures.push_back({material.name, material.intended});
-  return mixtures;
-}
-
 std::optional<PrintStep> PlannedSource::next() {
   std::optional<PlannedLayer> layer = lookahead_.wait();
-  PrintStep piece;
+  PrintStep step;
   if (!layer) {
     if (std::exchange(ended_, true)) return std::nullopt;
-    piece.record.kind = SpooledChunk::Kind::rest;
-    piece.chunk = run_.rest();
-    return piece;
+    step.record.kind = SpooledChunk::Kind::rest;
+    step.chunk = run_.rest();
+    return step;
   }
-  piece.record = record_of(*layer, run_.prepared());
-  piece.ready_at = layer->ready_at;
-  taken_ = piece.record.layer.index + 1;
-  piece.chunk = run_.layer(std::move(*layer));
-  for (const gcode::LayerShare& share : piece.chunk.layers) {
+  step.record = record_of(*layer, run_.prepared());
+  step.ready_at = layer->ready_at;
+  taken_ = step.record.layer.index + 1;
+  step.chunk = run_.layer(std::move(*layer));
+  for (const gcode::LayerShare& share : step.chunk.layers) {
     if (share.last) given_ = share.layer + 1;
   }
-  return piece;
+  return step;
 }
 
-/// The encoder withholds a few layers, over which it chooses the route.
+/// The encoder withholds a few layers, since it chooses the route over them together.
 Waiting PlannedSource::waiting() const {
   Waiting waiting = lookahead_.waiting();
   if (ended_ || taken_ <= given_) return waiting;

@@ -1,5 +1,5 @@
-// What a session prints, piece by piece: planned ahead of the nozzle, or known from beginning to end. All of
-// it is called on the loop's thread. mm, mm³/s, s.
+// What a session prints, step by step: planned ahead of the nozzle, or known from beginning to end. All
+// functions are called on the loop's thread. mm, mm³/s, s.
 #pragma once
 
 #include <cstddef>
@@ -19,59 +19,53 @@
 
 namespace unicursal::host {
 
-/// A stretch of the print.
+/// A chunk of the print with what the spool keeps of it.
 struct PrintStep {
   gcode::Chunk chunk;
-  SpooledChunk record;  ///< for the spool, but for its lines
-  double ready_at = 0;  ///< s of the clock before which it would not have been there, in virtual time
-};
-
-/// A mixture by the name that a person knows.
-struct NamedMixture {
-  std::string name;
-  gcode::Mixture mixture;
+  SpooledChunk record;  ///< for the spool; the session adds lines, layers and mixtures from the chunk
+  double ready_at = 0;  ///< s of the clock from which on it is there, in virtual time; 0: at once
 };
 
 class Source {
  public:
   virtual ~Source() = default;
 
-  /// On which printer, and what a pause has to keep clear of.
+  /// The printer that the print is made for, and the part's extent, which a pause keeps clear of.
   virtual const gcode::Printer& printer() const = 0;
   virtual core::Box extent() const = 0;
   virtual double flow() const = 0;
-  virtual std::vector<NamedMixture> mixtures() const = 0;
   virtual std::vector<std::string> warnings() const = 0;
 
-  virtual std::size_t layers() const = 0;  ///< in all
-  /// Heats; what is sent first.
+  /// Layers of the whole print.
+  virtual std::size_t layers() const = 0;
+  /// The lines that are sent first; they heat the printer.
   virtual gcode::Chunk start() = 0;
-  /// Whether next() has something to say; `listener` is told, by any thread, when that may have become so.
+  /// Whether next() returns without waiting.
   virtual bool ready() const = 0;
+  /// `listener` is called, on any thread, when ready() may have become true.
   virtual void on_ready(std::function<void()> listener) = 0;
-  /// The next piece, or nothing after the last and after cancel(). Precondition: ready.
+  /// The next step; nullopt after the last one and after cancel(). Precondition: ready() or cancelled.
   virtual std::optional<PrintStep> next() = 0;
-  /// Parks and cools, wherever the printer has stopped in what was sent.
+  /// The lines that park and cool the printer; they fit wherever it has stopped in what was sent.
   virtual gcode::Chunk finish() = 0;
-  /// No further piece is needed.
+  /// No further step is needed.
   virtual void cancel() = 0;
 
   /// As Lookahead::printed().
   virtual void printed(double now, double left) = 0;
-  /// Planned, and in no piece yet.
+  /// Layers that are planned and not yet in a step.
   virtual Waiting waiting() const = 0;
-  /// s that the flow foretells for the layers from `begin` up to `end`, which is not one of them; nothing as
-  /// long as that is unknown.
+  /// s that the layers from `begin` up to, but without, `end` take at the job's flow; nullopt while unknown.
   virtual std::optional<double> foretold(std::size_t begin, std::size_t end) const = 0;
 };
 
 /// Reports to the source that the lines sent so far leave `left` s of printing, at the clock's present time.
 void report_printed(Source& source, const Clock& clock, double left);
 
-/// A job's layers as they are planned. What it refers to must outlive it.
+/// A job's layers as they are planned. The look-ahead and the run must outlive it.
 class PlannedSource final : public Source {
  public:
-  /// `rest_given`: nothing is withheld by the run's encoder behind the last layer.
+  /// `rest_given`: the run's encoder withholds nothing after the last layer, since that was sent before.
   PlannedSource(Lookahead& lookahead, Run& run, bool rest_given = false)
       : lookahead_(lookahead),
         run_(run),
@@ -82,7 +76,6 @@ class PlannedSource final : public Source {
   const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
   core::Box extent() const override { return run_.prepared().frame.extent; }
   double flow() const override { return run_.flow(); }
-  std::vector<NamedMixture> mixtures() const override;
   std::vector<std::string> warnings() const override { return run_.warnings(); }
 
   std::size_t layers() const override { return run_.prepared().count; }
@@ -101,29 +94,29 @@ class PlannedSource final : public Source {
  private:
   Lookahead& lookahead_;
   Run& run_;
-  bool ended_;                         ///< nothing is withheld any more, or wanted
-  std::size_t taken_ = 0, given_ = 0;  ///< layers of the print up to which the encoder has taken, and given
+  bool ended_;             ///< the encoder withholds nothing more, or the print was cancelled
+  std::size_t taken_ = 0;  ///< the encoder was given the layers before this one
+  std::size_t given_ = 0;  ///< the encoder has returned all of the layers before this one
   ForetoldTimes times_;
 };
 
-/// A print that needs no planning any more.
+/// A print that is encoded already.
 struct FinishedPrint {
-  gcode::Chunk start;              ///< heats; what is sent first
+  gcode::Chunk start;              ///< as Source::start()
   std::vector<gcode::Chunk> body;  ///< in order
-  gcode::Chunk finish;             ///< parks and cools, wherever the printer has stopped in what was sent
+  gcode::Chunk finish;             ///< as Source::finish()
 };
 
-/// Its chunks; they count as layers. What it refers to must outlive it.
+/// The chunks of such a print, each of which counts as a layer. What it refers to must outlive it.
 class FinishedSource final : public Source {
  public:
   FinishedSource(const FinishedPrint& print, const gcode::Printer& printer)
       : print_(print), printer_(printer) {}
 
   const gcode::Printer& printer() const override { return printer_; }
-  /// It may lie anywhere.
+  /// The whole bed: the print may lie anywhere.
   core::Box extent() const override { return {{0, 0}, {printer_.bed[0], printer_.bed[1]}}; }
   double flow() const override { return printer_.max_flow; }
-  std::vector<NamedMixture> mixtures() const override { return {}; }
   std::vector<std::string> warnings() const override { return {}; }
 
   std::size_t layers() const override { return print_.body.size(); }

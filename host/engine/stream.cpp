@@ -18,10 +18,11 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-constexpr std::size_t longest_words = 1000;  ///< bytes of a line that is typed
+constexpr std::size_t longest_words = 1000;  ///< bytes of a typed line
 
-/// Opened anew, since what is set for it would hold for whoever else has the standard input open. A program
-/// in the background gets an error instead of being stopped.
+/// Opens the terminal for itself, since O_NONBLOCK on the standard input would affect other programs that
+/// share it. A program in the background gets an error instead of being stopped. Returns −1 without a
+/// terminal.
 int open_terminal() {
   if (::isatty(STDIN_FILENO) != 1) return -1;
   std::signal(SIGTTIN, SIG_IGN);

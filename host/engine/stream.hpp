@@ -1,4 +1,4 @@
-// A session in the foreground: an event loop of its own, and the signals of a terminal.
+// A session in the foreground, with an event loop of its own and the signals of a terminal.
 #pragma once
 
 #include <functional>
@@ -7,17 +7,16 @@
 
 namespace unicursal::host {
 
-/// Told of every event, and may steer the session.
+/// Called at every event; it may steer the session.
 using SessionObserver = std::function<void(Session&, const SessionEvent&)>;
 
+/// Called with every line that is typed.
 using SessionConsole = std::function<void(Session&, const std::string& words)>;
 
-/// Sends a whole print to the port, whose descriptor it takes over; blocks until it has ended. SIGINT or
-/// SIGTERM once parks and cools, twice stops at once. SIGHUP, which a closed terminal may send twice, counts
-/// as one of them at most, and not at all where it is ignored (nohup). Throws nothing: what goes wrong is
-/// told in the result.
-/// `console`: called with every line that is typed into the terminal that this program runs in, if it does in
-/// one.
+/// Sends a whole print to the descriptor `port`, which it takes over; blocks until the print has ended. Does
+/// not throw: a failure is in the result. SIGINT or SIGTERM once parks and cools, twice stops at once.
+/// SIGHUP, which a closed terminal may send twice, counts once at most, and not at all if it is ignored
+/// (nohup). `console` gets the lines that are typed into the program's terminal, if it has one.
 StreamResult stream(int port, Source& source, const SessionObserver& observer,
                     const StreamSettings& settings = {}, const SessionConsole& console = {});
 
