@@ -5,8 +5,8 @@
 
 namespace {
 
-/// Whoever starts this program with its standard streams closed would otherwise find words for people in the
-/// next files that it opens: the printer's line, or what is kept of the print.
+/// Opens /dev/null as each standard stream that is closed. Otherwise the next files that the program opens,
+/// such as the serial port, would take their numbers and receive the messages for people.
 void occupy_standard_streams() {
   int descriptor = 0;
   do {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double ns = 1e-9;
 
-/// The number that the text begins with is taken off it.
+/// Removes the number at the beginning of the text and returns it.
 template <class Number>
 std::optional<Number> take_number(std::string_view& text) {
   Number value{};

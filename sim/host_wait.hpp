@@ -1,5 +1,5 @@
-// What a host may say on the control socket (sim/lockstep.hpp): `wait UNTIL BYTES`. UNTIL in ns since
-// power-up, −1 for ever; BYTES that it has written in all.
+// The message that a host sends on the control socket (sim/lockstep.hpp): `wait UNTIL BYTES`. UNTIL is in ns
+// since power-up, or −1 for ever; BYTES is the number of bytes that the host has written so far.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 namespace unicursal::sim {
 
 struct HostWait {
-  double until = 0;         ///< s; infinite for ever
-  std::uint64_t bytes = 0;  ///< written by the host
+  double until = 0;         ///< Printer time, s; infinity = for ever.
+  std::uint64_t bytes = 0;  ///< Bytes that the host has written so far.
 
   bool operator==(const HostWait&) const = default;
 };
 
-/// Nothing for what is no such message.
+/// Returns nullopt if the message is malformed.
 std::optional<HostWait> parse_wait(std::string_view message);
 
 }  // namespace unicursal::sim

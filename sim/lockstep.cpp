@@ -22,10 +22,10 @@ namespace {
 
 constexpr double ns = 1e-9;
 constexpr std::size_t longest_message = 128;
-/// How long bytes that a host has written may take to reach the other end of the terminal, ms. Microseconds
-/// as a rule; this is for a computer that is very busy.
+/// Time that bytes from the host may take to reach this end of the terminal, ms. They normally take
+/// microseconds; the limit is for a very busy computer.
 constexpr int byte_patience = 30000;
-/// Events of the printer, a fraction of a second's work, after which it is seen whether the host still waits.
+/// Number of printer events (a fraction of a second's work) between two checks that the host still waits.
 constexpr std::uint64_t steps_between_looks = 100'000;
 
 [[noreturn]] void fail(const std::string& what) {
@@ -78,7 +78,7 @@ void Lockstep::run() {
   }
 }
 
-/// False when a signal comes first.
+/// Returns false if a signal arrives first.
 bool Lockstep::readable(int descriptor) {
   pollfd waits[2] = {{stop_.descriptor(), POLLIN, 0}, {descriptor, POLLIN, 0}};
   while (::poll(waits, 2, -1) < 0 && errno == EINTR) {
@@ -112,12 +112,13 @@ std::optional<HostWait> Lockstep::next_wait() {
   if (!message) return std::nullopt;
   const auto wait = parse_wait(*message);
   if (!wait || wait->bytes < heard_) {
-    throw std::runtime_error("the host said \"" + *message + "\" on the control socket, which means nothing");
+    throw std::runtime_error("the host sent \"" + *message + "\" on the control socket, which is not valid");
   }
   return wait;
 }
 
-/// Much can happen before there is something to read. False: the host hung up meanwhile, or a signal came.
+/// Returns false if the host hangs up meanwhile or a signal arrives: a lot can happen before there is
+/// something to read.
 bool Lockstep::advance(double until) {
   while (!printer_.advance(until, steps_between_looks)) {
     pollfd looks[2] = {{stop_.descriptor(), POLLIN, 0}, {host_.get(), POLLIN, 0}};
@@ -128,7 +129,7 @@ bool Lockstep::advance(double until) {
   return true;
 }
 
-/// Nothing when the host has closed the socket, or when a signal came.
+/// Returns nullopt if the host has closed the socket or a signal arrives.
 std::optional<std::string> Lockstep::read_message() {
   for (;;) {
     const auto end = pending_.find('\n');
@@ -138,7 +139,7 @@ std::optional<std::string> Lockstep::read_message() {
       return message;
     }
     if (pending_.size() > longest_message)
-      throw std::runtime_error("the host talks nonsense on the control socket");
+      throw std::runtime_error("the host sent too long a message on the control socket");
     if (host_.get() < 0 || !readable(host_.get())) return std::nullopt;
     std::array<char, longest_message> bytes;
     const auto count = ::read(host_.get(), bytes.data(), bytes.size());
@@ -147,13 +148,13 @@ std::optional<std::string> Lockstep::read_message() {
   }
 }
 
-/// All that the host says it has written, however long the terminal takes to pass it on.
+/// Takes all the bytes that the host says it has written; waits until the terminal has passed them on.
 void Lockstep::take_bytes(std::uint64_t total) {
   while (heard_ < total) {
     pollfd wait{terminal_->master(), POLLIN, 0};
     if (::poll(&wait, 1, byte_patience) <= 0) {
       throw std::runtime_error(
-          fmt::format("the host says it has written {} bytes, but only {} came", total, heard_));
+          fmt::format("the host says that it has written {} bytes, but only {} arrived", total, heard_));
     }
     const auto bytes = terminal_->read();
     if (!bytes) return;
@@ -163,7 +164,7 @@ void Lockstep::take_bytes(std::uint64_t total) {
   }
 }
 
-/// After the host has hung up; its last words may still be in the terminal.
+/// Called after the host has hung up: its last bytes may still be in the terminal.
 void Lockstep::take_rest() {
   dtr_low_ = terminal_->drops_dtr();
   for (auto bytes = terminal_->read(); bytes && !bytes->empty(); bytes = terminal_->read()) {
@@ -188,11 +189,11 @@ void Lockstep::answer() {
 void Lockstep::hand_over(std::string bytes) {
   for (terminal_->write(bytes); !bytes.empty(); terminal_->write(bytes)) {
     pollfd wait{terminal_->master(), POLLOUT, 0};
-    if (::poll(&wait, 1, byte_patience) <= 0) return;  // a host that does not read
+    if (::poll(&wait, 1, byte_patience) <= 0) return;  // the host does not read
   }
 }
 
-/// A host that comes back does so after the cable.
+/// Waits for the cable. A host can only return after it.
 void Lockstep::replug() {
   stopped_ = stopped_ || !std::isfinite(printer_.plug_time());
   if (stopped_) return;

@@ -1,17 +1,17 @@
 // Virtual time in lockstep with the host, over a Unix socket beside the pseudo-terminal. Printer time
-// advances only while the host says that it waits. Then a run depends neither on this computer's speed nor on
-// how its processes are scheduled: the same bytes at the same printer times give the same run.
+// advances only while the host says that it waits. A run therefore depends neither on this computer's speed
+// nor on the scheduling of its processes: the same bytes at the same printer times give the same run.
 //
-// One line each way, numbers in decimal, times in ns since power-up:
+// One line in each direction, numbers in decimal, times in ns since power-up:
 //
-//   host:     wait UNTIL BYTES      it waits until UNTIL (−1: for ever) and has written BYTES in all
-//   printer:  at NOW BYTES          that time is now; BYTES in all have been handed to the host
-//   printer:  at NOW BYTES gone     and the cable is pulled
-//   printer:  at NOW BYTES idle     nothing will ever happen unless the host does something
+//   host:     wait UNTIL BYTES      the host waits until UNTIL (−1: for ever); it has written BYTES so far
+//   printer:  at NOW BYTES          the time is NOW; BYTES have been handed to the host so far
+//   printer:  at NOW BYTES gone     the same, and the cable is pulled
+//   printer:  at NOW BYTES idle     the same, and nothing will happen until the host does something
 //
-// NOW is UNTIL, or earlier if something for the host to read came first. The host sets its clock to NOW,
-// waits until it can read those bytes, does all there is to do, and waits again. It opens the terminal before
-// its first `wait`, which counts as the opening of the line; closing the socket counts as hanging up.
+// NOW is UNTIL, or earlier if there is something for the host to read. The host sets its clock to NOW,
+// reads those bytes, does everything that is due, and waits again. It opens the terminal before its first
+// `wait`, which counts as the opening of the line; closing the socket counts as hanging up.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +30,14 @@ namespace unicursal::sim {
 
 class Lockstep {
  public:
-  /// `ready` gets the path of the terminal when both ends can be opened. Throws std::system_error when the
-  /// socket cannot be made. Precondition: options.control.
+  /// Calls `ready` with the terminal's path as soon as a host can open terminal and socket. Throws
+  /// std::system_error if the socket cannot be made. Precondition: options.control has a value.
   Lockstep(const SimulatorOptions& options, Printer& printer, std::function<void(const std::string&)> ready);
   ~Lockstep();
   Lockstep(const Lockstep&) = delete;
   Lockstep& operator=(const Lockstep&) = delete;
 
-  /// Until a signal comes or, with `once`, the host hangs up.
+  /// Runs until a signal arrives or, with options.once, until the host hangs up.
   void run();
 
  private:
@@ -60,8 +60,8 @@ class Lockstep {
   StopSignals stop_;
   std::unique_ptr<Terminal> terminal_;
   Descriptor listener_, host_;
-  std::string pending_;  ///< of a message not yet complete
-  std::uint64_t heard_ = 0, told_ = 0;
+  std::string pending_;                 ///< The beginning of an incomplete message.
+  std::uint64_t heard_ = 0, told_ = 0;  ///< Bytes received from the host and handed to it.
   bool dtr_low_ = true, used_ = false, stopped_ = false;
 };
 

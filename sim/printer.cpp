@@ -67,10 +67,10 @@ bool Printer::advance(double until, std::uint64_t most_steps) {
   return true;
 }
 
-/// Everything that is due by `time`, which nothing else precedes.
+/// Processes everything that is due at `time`. Precondition: nothing is due earlier.
 void Printer::step(double time) {
   now_ = std::max(now_, time);
-  receive(std::nextafter(now_, 0.0));  // the beginning of a line may have filled the buffer before
+  receive(std::nextafter(now_, 0.0));  // the beginning of the line may have filled the buffer already
   firmware_->advance(now_);
   receive(now_);
   for (const Fault& fault : faults_.due(now_)) strike(fault);
@@ -116,7 +116,7 @@ void Printer::strike(const Fault& fault) {
     case FaultKind::fatal:
       return firmware_->die(fault.text);
     default:
-      return;  // these strike at bytes and lines
+      return;  // the other kinds affect bytes and lines
   }
 }
 

@@ -1,10 +1,11 @@
 // The printer as one machine: cable, faults and firmware, without any input or output of this computer. It
-// has no clock of its own; whoever holds it says how far printer time goes. Printer seconds since power-up.
+// has no clock of its own; its owner decides how far printer time advances. Times are printer seconds since
+// power-up.
 //
 //   Printer printer(machine, personality("marlin"), {250000, Usb::cdc}, faults, bed);
 //   printer.opened();
 //   printer.write("G28\n");
-//   printer.advance(60);                    // returns as soon as something has reached the computer
+//   printer.advance(60);                    // returns early if something has reached the computer
 //   use(printer.take_output());
 #pragma once
 
@@ -27,30 +28,30 @@ class Printer {
   Printer(const Machine& machine, const Personality& personality, const WireModel& wire,
           const FaultPlan& faults, MoveSink& sink);
 
-  /// A computer opens the line: the first time power comes on, later a board with its reset on DTR resets if
-  /// `dtr_rises`.
+  /// The computer opens the line. The first time, power comes on; later, a board whose reset hangs on DTR
+  /// resets if `dtr_rises`.
   void opened(bool dtr_rises = true);
-  /// The computer sends.
+  /// The computer sends `bytes`.
   void write(std::string_view bytes);
-  /// Lets time run until then, or until something has reached the computer, or the cable is just pulled.
-  /// False: so many steps have been taken, and there is more to come.
+  /// Advances time to `until`. Stops earlier if something has reached the computer or the cable has just been
+  /// pulled. Returns false if `most_steps` events were processed and more are due.
   bool advance(double until, std::uint64_t most_steps = std::numeric_limits<std::uint64_t>::max());
-  /// When the next thing happens by itself.
+  /// The time of the next event that happens by itself; nullopt if none will.
   std::optional<double> next_event() const;
   double now() const { return now_; }
-  /// What has reached the computer and was not taken yet.
+  /// Returns the bytes that have reached the computer since the last call.
   std::string take_output() { return std::exchange(output_, {}); }
   bool has_output() const { return !output_.empty(); }
-  /// Something is under way that ends by itself: bytes, a boot, a command that waits.
+  /// Whether something is in progress that ends by itself: bytes on the cable, a boot, a waiting command.
   bool busy() const;
 
-  /// The cable is out.
+  /// Whether the cable is pulled.
   bool unplugged() const { return plug_at_.has_value(); }
-  /// When it comes back; infinite if never. Precondition: unplugged().
+  /// The time at which the cable is plugged in again; infinity = never. Precondition: unplugged().
   double plug_time() const { return *plug_at_; }
   void plug_in() { plug_at_.reset(); }
 
-  /// Nobody listens any more: what is on its way arrives, what was received is done.
+  /// The host is gone: lets the bytes on the cable arrive and executes everything that was received.
   void run_down();
 
   const Firmware& firmware() const { return *firmware_; }

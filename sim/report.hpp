@@ -1,5 +1,6 @@
-// What a simulation came to, as JSON: lines, time, motion, filament by feeder and by mixture, the chamber,
-// the deposit by layer. Facts only; what the job wanted is not known here. mm, mm³, °C, printer seconds.
+// The result of a simulation as JSON: lines, time, motion, filament by feeder and by mixture, the chamber,
+// the deposit by layer. It holds facts only; the simulator does not know the job. mm, mm³, °C, printer
+// seconds.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace unicursal::sim {
 
-/// What came of the moves.
+/// Everything that recorded the moves.
 struct Outcome {
   const FeedLog& feed;
   const Nozzle& nozzle;

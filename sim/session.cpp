@@ -10,12 +10,12 @@ namespace unicursal::sim {
 
 namespace {
 
-/// Real time from a host's opening the line to the first words when time leaps. A host that sets its port up
-/// and empties it meanwhile misses nothing.
+/// If time leaps: real time from the opening of the line to the first message. A host that configures and
+/// flushes its port meanwhile does not lose anything.
 constexpr std::chrono::milliseconds boot_pause{50};
-constexpr std::size_t much_output = 1 << 16;  // bytes unsent at which no more input is read
-constexpr std::size_t most_output = 1 << 20;  // bytes unsent beyond which replies are lost
-constexpr int events_between_looks = 16;      // leaps of time before the line is looked at again
+constexpr std::size_t much_output = 1 << 16;  // unsent bytes at which no more input is read
+constexpr std::size_t most_output = 1 << 20;  // unsent bytes beyond which replies are lost
+constexpr int events_between_looks = 16;      // leaps between two checks of the line
 constexpr double longest_sleep = 3.6e6;       // ms
 
 }  // namespace
@@ -50,7 +50,7 @@ double Session::present() const {
   return std::chrono::duration<double>(Clock::now() - start_).count() * options_.speed;
 }
 
-/// How long poll() may sleep before the printer does something by itself, ms; negative: for ever.
+/// Time until the printer's next event, for poll(), ms; negative = for ever.
 int Session::sleep_time() const {
   if (!paced() || !started_) return -1;
   std::optional<double> next = printer_.next_event();
@@ -80,7 +80,7 @@ void Session::leap() {
 
 // ---- hosts
 
-/// False when a signal came first.
+/// Returns false if a signal arrives first.
 bool Session::wait_for_host() {
   for (;;) {
     terminal_->forget_openings();
@@ -102,7 +102,7 @@ void Session::open() {
   while (!stopped_ && printer_.firmware().booting() && !printer_.unplugged()) leap();
 }
 
-/// Until the host hangs up, the cable is pulled or a signal comes.
+/// Runs until the host hangs up, the cable is pulled or a signal arrives.
 void Session::serve() {
   hung_up_ = false;
   while (!stopped_ && !hung_up_) {
@@ -130,7 +130,7 @@ void Session::wait_for_events(bool leaps) {
   }
 }
 
-/// The device vanishes under the host, and comes back under a new name (behind the same link).
+/// The device disappears, and returns under a new name (behind the same link).
 void Session::replug() {
   terminal_.reset();
   stopped_ = stopped_ || !std::isfinite(printer_.plug_time());

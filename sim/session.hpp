@@ -1,7 +1,8 @@
-// Hosts that come and go at the pseudo-terminal, and the printer's clock meanwhile: real time times k; or,
-// with speed 0, leaps. Then printer time stands still while the host is silent and nothing is under way, the
-// cable takes no time, and what takes time is over at once: a full queue leaps to the end of its oldest move,
-// a heater to its target. So such a run depends on the bytes received only, not on the computer's speed.
+// Serves hosts that come and go at the pseudo-terminal, and runs the printer's clock: real time × speed, or
+// leaps if the speed is 0. With leaps, printer time stands still while the host is silent and nothing is in
+// progress, bytes take no time on the cable, and every wait is skipped: a full queue leaps to the end of its
+// oldest move, a heater to its target. Such a run depends only on the bytes received, not on the computer's
+// speed.
 #pragma once
 
 #include <chrono>
@@ -18,10 +19,10 @@ namespace unicursal::sim {
 
 class Session {
  public:
-  /// `ready` gets the path of the terminal, and that of the new one whenever the cable comes back.
+  /// Calls `ready` with the terminal's path, and again with the new path when the cable is plugged in again.
   Session(const SimulatorOptions& options, Printer& printer, std::function<void(const std::string&)> ready);
 
-  /// Until a signal comes or, with `once`, the host hangs up.
+  /// Runs until a signal arrives or, with options.once, until the host hangs up.
   void run();
 
  private:
@@ -43,7 +44,7 @@ class Session {
   std::function<void(const std::string&)> ready_;
   StopSignals stop_;
   std::unique_ptr<Terminal> terminal_;
-  std::string output_;  ///< replies not yet written
+  std::string output_;  ///< Replies that the terminal has not taken yet.
   Clock::time_point start_{};
   bool started_ = false, dtr_low_ = true, used_ = false, hung_up_ = false, stopped_ = false;
 };

@@ -40,7 +40,7 @@ Usb usb_named(const std::string& name) {
   if (name == "none") return Usb::none;
   if (name == "cdc") return Usb::cdc;
   if (name == "ftdi") return Usb::ftdi;
-  throw std::invalid_argument("there is no USB chip \"" + name + "\"; there are none, cdc, ftdi");
+  throw std::invalid_argument("there is no USB chip \"" + name + "\"; use none, cdc or ftdi");
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   MoveSinks sinks({&feed, &nozzle, &motion});
   Printer printer(machine_for(options), personality(options.personality), wire_for(options),
                   plan_for(options), sinks);
-  if (options.transcript)  // at once: somebody may be following it
+  if (options.transcript)  // flushed at once, since somebody may be following it
     printer.watch_commands([&](const std::string& command) { transcript << command << std::endl; });
   run_session(options, printer, ready);
   deposit.finish();

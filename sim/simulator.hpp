@@ -1,5 +1,6 @@
-// A printer in a process of its own: what `unicursal simulate` runs. This header, with its options, is the
-// whole seam between host and sim; everything else goes over the serial line and the report file.
+// A printer in a process of its own; `unicursal simulate` runs it. This header, simulator_options.hpp and
+// sim/bed/raster.hpp are the whole interface between host and sim. Everything else goes over the serial line,
+// the control socket and the report file.
 #pragma once
 
 #include <functional>
@@ -9,17 +10,16 @@
 
 namespace unicursal::sim {
 
-/// Throws std::invalid_argument for options that make no printer, std::system_error for an unreadable file.
+/// Throws std::invalid_argument for impossible options and std::system_error for an unreadable file.
 void check(const SimulatorOptions& options);
 
-/// What `faults` may hold, one line for each kind.
+/// The kinds of fault for SimulatorOptions::faults, one line each.
 std::string fault_help();
 
-/// Runs until SIGINT/SIGTERM (or, with `once`, until the host hangs up) and writes report and pictures.
-/// `ready` is called once with the path of the pseudo-terminal when a host may open it.
-/// Returns a process exit code. Throws std::system_error when the terminal or a file cannot be made, and
-/// std::invalid_argument for options that make no printer; both before `ready`, except when the disk fills
-/// up.
+/// Runs until SIGINT or SIGTERM (or, with options.once, until the host hangs up), then writes report and
+/// pictures. Calls `ready` with the path of the pseudo-terminal when a host may open it, and again when the
+/// cable comes back. Returns a process exit code. Throws std::system_error if the terminal or a file cannot
+/// be made, and std::invalid_argument for impossible options; both before `ready`, unless the disk fills up.
 int run_simulator(const SimulatorOptions& options, const std::function<void(const std::string&)>& ready);
 
 }  // namespace unicursal::sim

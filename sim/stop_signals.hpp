@@ -1,5 +1,6 @@
-// SIGINT and SIGTERM as something that poll() can wait for. While one of these lives the signals end nothing
-// by themselves; afterwards they do again what they did before. One at a time in a process.
+// SIGINT and SIGTERM as a descriptor that poll() can wait for. While an object of this class exists, the
+// signals do not end the process; its destructor restores the previous handlers. At most one object may
+// exist in a process.
 #pragma once
 
 #include <csignal>
@@ -16,7 +17,7 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// Becomes readable, and stays so, when a signal has come.
+  /// Becomes readable when a signal arrives, and stays readable.
   int descriptor() const { return read_end_.get(); }
 
  private:

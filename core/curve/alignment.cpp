@@ -6,8 +6,8 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double least_field = 0.1;  ///< ‖V‖ below which a place asks for no direction
-constexpr int pieces = 4;            ///< of a segment, where the field is looked up
+constexpr double least_field = 0.1;  ///< a smaller ‖V‖ asks for no direction
+constexpr int pieces = 4;            ///< of a segment; the field is looked up in each
 
 /// The angle from direction `v` (a doubled vector) to the line along `u`, in [−π/2, π/2].
 double angle_between(const Vec2& u, const Vec2& v) {

@@ -11,7 +11,7 @@ namespace unicursal::core {
 /// One segment of the closed curve: from `position` to the next bead's position.
 struct Bead {
   Vec2 position{0, 0};
-  double area = 0;       ///< mm², what the segment fills; times the layer height it is the volume (§3.4)
+  double area = 0;  ///< area that the segment fills, mm²; times the layer height it is the volume (§3.4)
   std::size_t zone = 0;  ///< index into Part::zones(); segments are split at the borders of zones
 };
 
@@ -22,7 +22,7 @@ struct BeadPath {
   std::size_t size() const { return beads.size(); }
   const Vec2& start(std::size_t i) const { return beads[i].position; }
   const Vec2& end(std::size_t i) const { return beads[i + 1 < beads.size() ? i + 1 : 0].position; }
-  /// mm
+  /// Length of segment i, mm.
   double length(std::size_t i) const { return (end(i) - start(i)).norm(); }
   /// Bead width, mm: area ÷ length, the spacing of the curve there. Zero-length segments have width 0.
   double width(std::size_t i) const {

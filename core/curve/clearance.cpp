@@ -11,16 +11,9 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double safe_share = 0.45;  ///< of a clearance that either side may use up; below one half
-constexpr double rounding = 1e-14;   ///< of the largest coordinate, a distance that may be none at all
-constexpr std::size_t range = 1024;  ///< segments that are looked around in one piece
-
-std::vector<Segment> segments_of(const Curve& curve) {
-  std::vector<Segment> segments(curve.size());
-  for (std::size_t i = 0; i < curve.size(); ++i)
-    segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
-  return segments;
-}
+constexpr double safe_share = 0.45;  ///< share of a clearance that either side may use; less than one half
+constexpr double rounding = 1e-14;   ///< a distance that may be zero, as a share of the largest coordinate
+constexpr std::size_t range = 1024;  ///< segments per piece of parallel work
 
 double mean_length(const std::vector<Segment>& segments) {
   double sum = 0;
@@ -32,7 +25,7 @@ bool neighbours(const Curve& curve, std::size_t i, std::size_t j) {
   return i == j || curve.after(i) == j || curve.after(j) == i;
 }
 
-/// Closed segments, exact: do they share a point?
+/// Whether two closed segments share a point. Exact.
 bool meet(const Segment& s, const Segment& t) {
   const int a = orientation(s.a, s.b, t.a), b = orientation(s.a, s.b, t.b);
   const int c = orientation(t.a, t.b, s.a), d = orientation(t.a, t.b, s.b);
@@ -45,8 +38,8 @@ bool meet(const Segment& s, const Segment& t) {
   return true;
 }
 
-/// The distance, squared, from every segment of a closed curve to the nearest one that has no vertex in
-/// common with it. Since none meet, it is that of a vertex of one from the other.
+/// The squared distance from every segment of a closed curve to the nearest segment that has no vertex in
+/// common with it. Since no two segments meet, it is the distance from a vertex of one to the other.
 class Strands {
  public:
   Strands(const Curve& curve, const std::vector<Segment>& segments, double reach)
@@ -64,7 +57,7 @@ class Strands {
     from_end_ = from_start_;
   }
 
-  /// Looks around the segments [first, last).
+  /// Measures the segments [first, last).
   void look(std::size_t first, std::size_t last) {
     std::vector<double> to_segments, to_points;
     for (std::size_t i = first; i < last; ++i) {
@@ -95,7 +88,7 @@ class Strands {
   double clearance2(std::size_t segment) const { return std::min(from_start_[segment], from_end_[segment]); }
 
  private:
-  /// What is known of a segment, and of the one before it, which ends where it starts.
+  /// The squared distances found so far of a segment and of the one before it, which ends at its start.
   struct Found {
     std::size_t segment;
     double own, before;
@@ -106,7 +99,8 @@ class Strands {
     return length2 > 0 ? 1 / length2 : 0;
   }
 
-  /// `to_segment`: from the start to segment j; `to_point`: from the segment to the start of j.
+  /// `to_segment`: squared distance from the start to segment j; `to_point`: from the segment to the start of
+  /// j.
   void add(Found& found, std::size_t j, double to_segment, double to_point) const {
     const std::size_t i = found.segment;
     if (to_point < found.own && j != i && j != curve_.after(i)) found.own = to_point;
@@ -131,15 +125,15 @@ class Strands {
   const std::vector<Segment>& segments_;
   SegmentRows rows_;
   double reach_;
-  std::vector<double> ax_, ay_, ux_, uy_, inverse_;  ///< in the order of rows
-  std::vector<double> from_start_, from_end_;        ///< per segment, found from its ends
+  std::vector<double> ax_, ay_, ux_, uy_, inverse_;  ///< in the order of rows_
+  std::vector<double> from_start_, from_end_;        ///< per segment, found at its start and at its end
 };
 
 }  // namespace
 
 std::vector<double> freedom(const Curve& curve, const BorderIndex& border, double reach,
                             const Margins& margins, Workers* workers) {
-  const std::vector<Segment> segments = segments_of(curve);
+  const std::vector<Segment> segments = curve.segments();
   Workers serial(1);
   Workers& all = workers != nullptr ? *workers : serial;
   Strands strands(curve, segments, reach + margins.self);
@@ -166,7 +160,7 @@ std::vector<double> freedom(const Curve& curve, const BorderIndex& border, doubl
 
 std::size_t self_intersections(const Curve& curve) {
   if (curve.size() < 4) return 0;
-  const std::vector<Segment> segments = segments_of(curve);
+  const std::vector<Segment> segments = curve.segments();
   const SegmentGrid grid(segments, std::max(mean_length(segments), 1e-9));
   std::size_t count = 0;
   std::vector<std::size_t> seen(segments.size(), segments.size());
@@ -183,7 +177,7 @@ std::size_t self_intersections(const Curve& curve) {
 
 std::size_t segments_outside(const Curve& curve, const BorderIndex& border) {
   std::size_t count = 0;
-  for (const Segment& s : segments_of(curve)) {
+  for (const Segment& s : curve.segments()) {
     bool bad = !border.contains(s.a);
     border.near({s.a.cwiseMin(s.b), s.a.cwiseMax(s.b)}, [&](std::size_t e) {
       bad = bad || meet(s, {border.edges()[e].a, border.edges()[e].b});

@@ -11,8 +11,8 @@ namespace unicursal::core {
 namespace {
 
 constexpr double depths[] = {0.5, 0.4, 0.3, 0.2, 0.1, 0.05};  ///< bead widths inside the border
-constexpr double bend = 0.01;                                 ///< bead widths a simplified contour may move
-constexpr double least_length = 0.7;                          ///< of area ÷ bead width
+constexpr double bend = 0.01;         ///< bead widths by which simplification may move the contour
+constexpr double least_length = 0.7;  ///< shortest contour, as a share of area ÷ bead width
 constexpr std::size_t fewest_vertices = 5;
 
 }  // namespace
@@ -25,7 +25,7 @@ std::optional<Curve> contour(const Polygon& region, double bead_width) {
     const auto widest = std::max_element(inner.begin(), inner.end(), [](const Polygon& l, const Polygon& r) {
       return perimeter(l.outer) < perimeter(r.outer);
     });
-    // Half a bead inside a speck of an island there is hardly more than a point.
+    // Half a bead inside a tiny island the offset is hardly more than a point.
     if (widest->outer.size() < 3 || perimeter(widest->outer) < least_length * area(region) / bead_width)
       continue;
     Curve curve{simplified(widest->outer, bend * bead_width)};

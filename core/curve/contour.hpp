@@ -1,4 +1,4 @@
-// The smallest sensible closed path: one round along the border, for islands too small for a cell graph.
+// The simplest closed path: once around along the border, for islands too small for a cell graph.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace unicursal::core {
 
-/// Half a bead width inside the border, or as close to that as the island is wide; strictly inside and
-/// simple, at least 5 vertices. Holes are passed on the inner side only if the offset merges with them.
-/// Nothing when even a hair's breadth does not fit.
+/// A contour half a bead width inside the border, or nearer to the border if the island is too narrow for
+/// that. It is simple, strictly inside, and has at least 5 vertices. A hole is respected only where the
+/// offset outline merges with it. Returns nullopt if no contour fits.
 std::optional<Curve> contour(const Polygon& region, double bead_width);
 
 }  // namespace unicursal::core

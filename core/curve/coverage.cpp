@@ -1,6 +1,6 @@
 #include "core/curve/coverage.hpp"
 
-#include <utility>
+#include <array>
 
 namespace unicursal::core {
 
@@ -8,11 +8,7 @@ Coverage::Coverage(const Lattice& lattice, double slack, Workers* workers)
     : lattice_(lattice), owners_(lattice, {slack, true, workers}) {}
 
 double Coverage::evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient) {
-  std::vector<Segment> segments(curve.size());
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
-  }
-  owners_.assign(std::move(segments));
+  owners_.assign(curve.segments());
   const std::vector<SegmentPull>& pulls = owners_.pulls();
   for (std::size_t i = 0; i < curve.size(); ++i) {
     gradient[i] += 2 * weight * (pulls[i].all - pulls[i].end + pulls[curve.before(i)].end);

@@ -1,11 +1,11 @@
 // The coverage objective (paper (7), Appendix A "CVT objective") on a sampling lattice: the integral over the
 // island of the squared distance to the curve, mm⁴, and its gradient per vertex, mm³.
 //
-// Departure from the paper: the diagram of segments is sampled, not constructed; each sample pulls the two
-// ends of its nearest segment as (15), (21) and (22) do in the limit. A square that the border between two
-// cells cuts is shared by both, in proportion, which makes five squares per bead width as good as twelve
-// that have one owner each. The gradient is that of the continuous objective; against the sampled value it is
-// right but for terms of second order in the size of a square (tests hold it against differences).
+// Departure from the paper: the diagram of segments is sampled, not constructed. Each sample pulls the two
+// ends of its nearest segment, as (15), (21) and (22) do in the limit. A square that is cut by the border
+// between two cells is divided among them in proportion, which makes five squares per bead width as good as
+// twelve squares with one owner each. The gradient is that of the continuous objective; it differs from that
+// of the sampled value by terms of second order in the size of a square (tests compare it with differences).
 #pragma once
 
 #include <vector>
@@ -24,10 +24,10 @@ class Coverage {
   /// Returns the value and adds its gradient, times `weight`, to `gradient` (one entry per vertex).
   double evaluate(const Curve& curve, double weight, std::vector<Vec2>& gradient);
 
-  /// Owners as of the last evaluate(): segment i leaves vertex i.
+  /// The samples' owners in the last evaluate(); segment i leaves vertex i.
   const LatticeOwners& owners() const { return owners_; }
 
-  /// mm² that each segment was nearest to then.
+  /// The area that each segment was nearest to in the last evaluate(), mm².
   std::vector<double> areas() const;
 
  private:

@@ -34,7 +34,7 @@ double width_variation(const BeadPath& path, double window) {
 
 std::vector<double> widths_around(const BeadPath& path, double window) {
   const std::size_t n = path.size();
-  // Sums from the start over two rounds, so that no stretch meets the end.
+  // Sums from the start over two rounds, so that no window passes the end.
   std::vector<double> lengths{0}, areas{0};
   for (std::size_t i = 0; i < 2 * n; ++i) {
     lengths.push_back(lengths.back() + path.length(i % n));

@@ -7,12 +7,13 @@
 
 namespace unicursal::core {
 
-/// Standard deviation ÷ mean of area ÷ length over consecutive windows of `window` mm along the closed path
-/// (the last one, if cut short, is left out). Zero for a path shorter than two windows.
+/// Standard deviation ÷ mean of the bead width (area ÷ length) over consecutive windows of `window` mm along
+/// the closed path; a shorter rest at the end is left out. Zero for a path shorter than two windows.
 double width_variation(const BeadPath& path, double window);
 
-/// Per bead, mm: area ÷ length of the stretch of `window` mm along the closed path around the bead's middle.
-/// A bead's own width says little where it is short. Shorter paths have one width throughout.
+/// The mean bead width around each bead, mm: area ÷ length of the stretch of `window` mm along the closed
+/// path around the bead's middle. (The own width of a short bead says little.) A path shorter than the window
+/// has one width.
 std::vector<double> widths_around(const BeadPath& path, double window);
 
 }  // namespace unicursal::core

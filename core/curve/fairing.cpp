@@ -20,14 +20,14 @@ namespace {
 
 using Field = std::vector<Vec2>;  ///< one vector per vertex
 
-constexpr double irrational_turn = 0.5535743589;  ///< rad; the lattice's angle against the island's axes
+constexpr double irrational_turn = 0.5535743589;  ///< angle between the lattice and the island's axes, rad
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
-constexpr double slack_in_widths = 0.1;    ///< lists of near segments hold for such moves
-constexpr double vertex_spacing = 0.75;    ///< bead widths, on the curve as it comes
-constexpr double final_spacing = 0.4;      ///< bead widths; vertices nearer than half of it go
+constexpr double slack_in_widths = 0.1;  ///< lists of near segments stay valid for such moves
+constexpr double vertex_spacing = 0.75;  ///< bead widths, on the coarse curve
+constexpr double final_spacing = 0.4;    ///< bead widths; of vertices nearer than half of it, one is removed
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
-constexpr double finest_wave = 4;          ///< bead widths; what vertices do together (long_waves.hpp)
+constexpr double finest_wave = 4;  ///< bead widths; the shortest common move of vertices (long_waves.hpp)
 constexpr double wave_strength = 0.04;
 constexpr int multiplier_period = 10;  ///< iterations between updates of the length multiplier
 
@@ -69,10 +69,10 @@ class Fairer {
     curve.vertices = turned(std::move(curve.vertices), irrational_turn);
     curve = spread(curve, vertex_spacing);
     curve = descend(std::move(curve), options_.coarse_iterations / 2);
-    curve = relieved(curve);
+    curve = without_crowding(curve);
     curve = spread(curve, vertex_spacing);
     curve = descend(std::move(curve), options_.coarse_iterations - options_.coarse_iterations / 2);
-    curve = relieved(curve);
+    curve = without_crowding(curve);
     if (options_.fine_iterations > 0) {
       curve = subdivided(spread(curve, vertex_spacing));
       alignment_weight_ = options_.fine_alignment;
@@ -96,9 +96,9 @@ class Fairer {
     return respaced(curve, border_, spacing * options_.bead_width, options_.workers);
   }
 
-  /// Without the fingers that are too many where they are.
-  Curve relieved(const Curve& curve) {
-    if (ended_) return curve;  // what is not smooth yet only seems crowded
+  /// The curve without the fingers that crowd a place.
+  Curve without_crowding(const Curve& curve) {
+    if (ended_) return curve;  // a curve that is not smooth yet only seems crowded
     Field unused(curve.size(), Vec2(0, 0));
     coverage_.evaluate(curve, 1, unused);
     return retracted(curve, coverage_.areas(), border_, options_.bead_width).curve;
@@ -107,7 +107,8 @@ class Fairer {
   double evaluate(const Curve& curve, Field& gradient) {
     gradient.assign(curve.size(), Vec2(0, 0));
     double value = coverage_.evaluate(curve, 1, gradient);
-    // One vertex of the subdivided curve stands for half the length: scale so that bending costs the same.
+    // A vertex of the subdivided curve stands for half the length: this scale keeps the cost of bending the
+    // same.
     const double per_vertex = area_ / static_cast<double>(curve.size());
     const double coarse = area_ / (vertex_spacing * options_.bead_width * options_.bead_width);
     const double finer = static_cast<double>(curve.size()) / coarse;
@@ -138,7 +139,7 @@ class Fairer {
     return value;
   }
 
-  /// A segment belongs to the zone that its middle lies in, and stays with it until the next look.
+  /// Assigns each segment to the zone in which its middle lies, until the next call.
   void look_up_zones(const Curve& curve) {
     members_.assign(options_.zones.size(), std::vector<char>(curve.size(), 0));
     for (std::size_t z = 0; z < members_.size(); ++z) {
@@ -149,7 +150,7 @@ class Fairer {
     }
   }
 
-  /// One accepted step along a descent direction; false when none was found.
+  /// Takes one step along a descent direction. Returns false if no acceptable step was found.
   bool step(Curve& curve, double& value, Field& gradient) {
     Field direction = newton_.direction(gradient);
     double longest = 0;
@@ -188,7 +189,7 @@ class Fairer {
     Field gradient;
     double value = evaluate(curve, gradient);
     for (int i = 0; i < iterations; ++i) {
-      if (options_.another && !options_.another()) {
+      if (options_.may_continue && !options_.may_continue()) {
         ended_ = true;
         break;
       }
@@ -216,11 +217,12 @@ class Fairer {
   Alignment alignment_;
   Leash leash_;
   QuasiNewton newton_;
-  std::vector<std::vector<char>> members_;  ///< per orientation zone and segment
+  std::vector<std::vector<char>>
+      members_;  ///< [zone][segment]: whether the segment lies in the orientation zone
   double multiplier_ = 0, stiffness_ = 0;
   double alignment_weight_ = 0;
   int iterations_ = 0;
-  bool ended_ = false;  ///< there was no time for more
+  bool ended_ = false;  ///< the budget was spent
 };
 
 }  // namespace

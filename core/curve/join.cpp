@@ -9,13 +9,13 @@
 namespace unicursal::core {
 namespace {
 
-/// One side of a joint's opening; `mate` is where the bridge from there leads.
+/// One end of a joint's opening.
 struct End {
   std::size_t track = 0;
   double position = 0;
-  bool forwards = false;  ///< the curve goes on forwards from here
-  std::size_t mate = 0;
-  std::size_t far_end = 0;  ///< where the curve that goes on from here is opened next
+  bool forwards = false;    ///< the remaining curve runs forwards from here
+  std::size_t mate = 0;     ///< the end to which the bridge from here leads
+  std::size_t far_end = 0;  ///< the end at which the remaining curve from here meets the next opening
 };
 
 /// Four ends for each joint, in the order from, to, from, to of its openings.
@@ -35,7 +35,7 @@ std::vector<End> ends_of(const std::vector<Joint>& joints) {
   return ends;
 }
 
-/// Finds the stretches that stay: from each opening's far side to the next opening along the curve.
+/// Finds the stretches that remain: from the far end of each opening to the next opening along the curve.
 void pair_far_ends(std::vector<End>& ends) {
   std::vector<std::size_t> order(ends.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;

@@ -2,33 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 
 #include "core/geometry/border_index.hpp"
 #include "core/geometry/segment_grid.hpp"
+#include "core/numeric/disjoint_sets.hpp"
 
 namespace unicursal::core {
 namespace {
 
-/// How much is asked of a joint, in bead widths; from good to barely possible.
-struct Demand {
-  double cut;        ///< taken out of each curve
-  double reach;      ///< the greatest distance between them
+/// What is required of a joint, in bead widths.
+struct Requirement {
+  double cut;        ///< length taken out of each curve
+  double reach;      ///< greatest distance between the curves
   double clearance;  ///< of bridges from other strands
-  double guard;      ///< along the curves, between joints
+  double guard;      ///< least distance between joints along the curves
 };
 constexpr double most_reach = 2.2;
-// With one bead width taken out, two bridges side by side fill exactly what the curves left.
-constexpr Demand demands[] = {
+// From good to barely possible. With one bead width taken out, two bridges side by side fill exactly the same
+// area.
+constexpr Requirement requirements[] = {
     {1.0, 1.6, 0.45, 1.5}, {0.7, 1.9, 0.3, 0.8}, {0.5, most_reach, 0.2, 0.4}, {0.3, most_reach, 0.08, 0.2}};
-constexpr double to_border = 0.5;       ///< of the clearance from strands
-constexpr double steepness = 0.5;       ///< least slope at which a strand may leave from a bridge's end
-constexpr double position_step = 0.35;  ///< bead widths, between places that are tried
-constexpr double same_cost = 0.02;      ///< bead widths; of joints as good as that the first is taken
+constexpr double to_border = 0.5;       ///< clearance from the border, as a share of that from strands
+constexpr double steepness = 0.5;       ///< least slope at which a strand may leave the end of a bridge
+constexpr double position_step = 0.35;  ///< bead widths between the places that are tried
+constexpr double same_cost = 0.02;      ///< bead widths; smaller differences of cost do not count
 
-struct Site {
+struct Place {
   std::size_t track = 0, segment = 0;
 };
 
@@ -60,32 +61,15 @@ double middle(const Opening& opening, const Track& track) {
   return opening.from + track.wrapped(opening.to - opening.from) / 2;
 }
 
-/// The trees of tracks that joints have made so far.
-class Forest {
- public:
-  explicit Forest(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t root(std::size_t i) const {
-    while (parent_[i] != i) i = parent_[i];
-    return i;
-  }
-  bool connected(const Joint& joint) const {
-    return root(joint.openings[0].track) == root(joint.openings[1].track);
-  }
-  void connect(const Joint& joint) { parent_[root(joint.openings[0].track)] = root(joint.openings[1].track); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 class JointFinder {
  public:
   JointFinder(const std::vector<Track>& tracks, const Polygon& island, double w, const JointPrice& price)
-      : tracks_(tracks), price_(price), border_(island, w), w_(w), forest_(tracks.size()) {
+      : tracks_(tracks), price_(price), border_(island, w), w_(w), joined_(tracks.size()) {
     for (std::size_t t = 0; t < tracks.size(); ++t) {
-      const Curve& curve = tracks[t].curve();
-      for (std::size_t i = 0; i < curve.size(); ++i) {
-        sites_.push_back({t, i});
-        segments_.push_back({curve.vertices[i], curve.vertices[curve.after(i)]});
+      const std::size_t first_segment = segments_.size();
+      for (const Segment& segment : tracks[t].curve().segments()) {
+        places_.push_back({t, segments_.size() - first_segment});
+        segments_.push_back(segment);
       }
     }
     grid_.emplace(segments_, w);
@@ -96,13 +80,13 @@ class JointFinder {
     std::set<double> prices;
     for (const Neighbours& pair : neighbours_) prices.insert(pair.price);
     for (const double price : prices) {
-      for (const Demand& demand : demands) take(candidates(price, demand), demand);
+      for (const Requirement& required : requirements) take(candidates(price, required), required);
     }
     return std::move(joints_);
   }
 
  private:
-  /// Every place of every track where a later one is within reach.
+  /// Notes every place of every track from which a later track is within reach.
   void look_around() {
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       const double length = tracks_[t].length();
@@ -116,7 +100,7 @@ class JointFinder {
     const auto first = static_cast<std::ptrdiff_t>(neighbours_.size());
     const Vec2 p = tracks_[t].at(s), reach = most_reach * w_ * Vec2(1, 1);
     grid_->near({p - reach, p + reach}, [&](std::size_t k) {
-      const auto [track, segment] = sites_[k];
+      const auto [track, segment] = places_[k];
       if (track <= t) return;
       const auto& [a, b] = segments_[k];
       const double distance = distance_to_segment(p, a, b), length = (b - a).norm();
@@ -135,21 +119,21 @@ class JointFinder {
       n->price = price_ ? price_(n->a, n->b) : 0.0;
   }
 
-  /// Joints of what is not connected yet, best first.
-  std::vector<Candidate> candidates(double price, const Demand& demand) const {
+  /// Possible joints of tracks that are not connected yet, best first.
+  std::vector<Candidate> candidates(double price, const Requirement& required) {
     std::vector<Candidate> result;
     for (const Neighbours& pair : neighbours_) {
-      if (pair.price > price || pair.distance > demand.reach * w_) continue;
-      if (forest_.root(pair.a) == forest_.root(pair.b)) continue;
-      if (std::optional<Candidate> candidate = between(pair, demand)) result.push_back(*candidate);
+      if (pair.price > price || pair.distance > required.reach * w_) continue;
+      if (joined_.same(pair.a, pair.b)) continue;
+      if (std::optional<Candidate> candidate = between(pair, required)) result.push_back(*candidate);
     }
     std::stable_sort(result.begin(), result.end(),
                      [](const Candidate& l, const Candidate& r) { return l.cost < r.cost; });
     return result;
   }
 
-  std::optional<Candidate> between(const Neighbours& pair, const Demand& demand) const {
-    const double cut = demand.cut * w_, s = pair.s, t = pair.t;
+  std::optional<Candidate> between(const Neighbours& pair, const Requirement& required) const {
+    const double cut = required.cut * w_, s = pair.s, t = pair.t;
     const Track &one = tracks_[pair.a], &other = tracks_[pair.b];
     if (std::min(one.length(), other.length()) < 3 * cut) return std::nullopt;
     Joint joint{{Opening{pair.a, one.wrapped(s - cut / 2), one.wrapped(s + cut / 2)},
@@ -160,29 +144,30 @@ class JointFinder {
     const auto crosswise = bridges(tracks_, joint);
     joint.crosswise = length(crosswise[0]) + length(crosswise[1]) < length(straight[0]) + length(straight[1]);
     const auto& [first, second] = joint.crosswise ? crosswise : straight;
-    if (std::max(length(first), length(second)) > demand.reach * w_) return std::nullopt;
+    if (std::max(length(first), length(second)) > required.reach * w_) return std::nullopt;
     const double bent = (cut - (second.a - first.a).norm()) + (cut - (second.b - first.b).norm());
     const double cost = std::abs(length(first) - w_) + std::abs(length(second) - w_) + 2 * bent;
     return Candidate{joint, std::lround(cost / (same_cost * w_))};
   }
 
-  void take(const std::vector<Candidate>& candidates, const Demand& demand) {
+  void take(const std::vector<Candidate>& candidates, const Requirement& required) {
     for (const auto& [joint, cost] : candidates) {
-      if (forest_.connected(joint) || !fits(joint, demand)) continue;
-      forest_.connect(joint);
+      const std::size_t one = joint.openings[0].track, other = joint.openings[1].track;
+      if (joined_.same(one, other) || !fits(joint, required)) continue;
+      joined_.join(one, other);
       joints_.push_back(joint);
       for (const Bridge& bridge : bridges(tracks_, joint)) built_.push_back(bridge);
     }
   }
 
-  bool fits(const Joint& joint, const Demand& demand) const {
+  bool fits(const Joint& joint, const Requirement& required) const {
     for (const Opening& opening : joint.openings) {
-      if (!apart_from_others(opening, demand)) return false;
+      if (!apart_from_others(opening, required)) return false;
     }
     const auto both = bridges(tracks_, joint);
-    if (distance_between_segments(both[0].a, both[0].b, both[1].a, both[1].b) < 0.5 * demand.cut * w_)
+    if (distance_between_segments(both[0].a, both[0].b, both[1].a, both[1].b) < 0.5 * required.cut * w_)
       return false;
-    const double clear = demand.clearance * w_;
+    const double clear = required.clearance * w_;
     for (const Bridge& bridge : both) {
       if (border_.distance(bridge.a, bridge.b, to_border * clear) < to_border * clear) return false;
       for (const Bridge& other : built_) {
@@ -196,20 +181,21 @@ class JointFinder {
     return true;
   }
 
-  bool apart_from_others(const Opening& opening, const Demand& demand) const {
+  bool apart_from_others(const Opening& opening, const Requirement& required) const {
     const Track& track = tracks_[opening.track];
     const auto length = [&](const Opening& o) { return track.wrapped(o.to - o.from); };
     for (const Joint& joint : joints_) {
       for (const Opening& other : joint.openings) {
         if (other.track == opening.track && track.distance(middle(opening, track), middle(other, track)) <
-                                                (length(opening) + length(other)) / 2 + demand.guard * w_)
+                                                (length(opening) + length(other)) / 2 + required.guard * w_)
           return false;
       }
     }
     return true;
   }
 
-  /// From strands that do not end at the bridge; around the openings they are leaves_steeply()'s matter.
+  /// Whether the bridge keeps clear of strands that do not end at it; leaves_steeply() checks those around
+  /// openings.
   bool clear_of_strands(const Bridge& bridge, const Joint& joint, double clear) const {
     bool free = true;
     const Vec2 margin(clear, clear);
@@ -223,9 +209,9 @@ class JointFinder {
     return free;
   }
 
-  /// What remains of a segment that is partly within `margin` of an opening.
+  /// The parts of a segment that are not within `margin` of an opening.
   std::vector<Segment> outside_of(const Joint& joint, std::size_t k, double margin) const {
-    const auto [t, i] = sites_[k];
+    const auto [t, i] = places_[k];
     const Segment& segment = segments_[k];
     for (const Opening& opening : joint.openings) {
       if (opening.track != t) continue;
@@ -251,7 +237,7 @@ class JointFinder {
     return {segment};
   }
 
-  /// A curve's strands beyond an opening do not lie along the bridges.
+  /// Whether the strands on both sides of an opening lead away from the bridge.
   bool leaves_steeply(const Bridge& bridge, const Opening& opening, double clear) const {
     constexpr int samples = 10;
     const Track& track = tracks_[opening.track];
@@ -269,10 +255,10 @@ class JointFinder {
   BorderIndex border_;
   double w_;
   std::vector<Neighbours> neighbours_;
-  std::vector<Site> sites_;
+  std::vector<Place> places_;
   std::vector<Segment> segments_;
   std::optional<SegmentGrid> grid_;
-  Forest forest_;
+  DisjointSets joined_;  ///< tracks that the joints so far make one curve of
   std::vector<Joint> joints_;
   std::vector<Bridge> built_;
 };

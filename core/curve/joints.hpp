@@ -1,4 +1,4 @@
-// Where closed curves that run side by side are joined: the places that make one curve of many. mm.
+// The places at which closed curves that run side by side can be joined into one. mm.
 #pragma once
 
 #include <array>
@@ -10,24 +10,26 @@
 
 namespace unicursal::core {
 
-/// What it costs to join curve i to curve j. Dear joints are made only where no cheaper ones connect.
+/// The price of a joint between curve i and curve j. Expensive joints are made only where cheaper ones do not
+/// connect the curves.
 using JointPrice = std::function<double(std::size_t i, std::size_t j)>;
 
-/// The stretch of `cut` mm around a position that a joint takes out of a curve.
+/// The stretch that a joint takes out of a curve.
 struct Opening {
   std::size_t track = 0;
-  double from = 0, to = 0;  ///< positions along it, forwards
+  double from = 0, to = 0;  ///< positions along the curve, forwards, mm
 };
 
 /// Two openings, and two bridges between their four ends.
 struct Joint {
   std::array<Opening, 2> openings;
-  bool crosswise = false;  ///< bridges lead from either `from` to the other's `to`; else from and to stay
+  bool crosswise =
+      false;  ///< bridges lead from one opening's `from` to the other's `to`; else from `from` to `from`
 };
 
-/// Joints that connect all tracks, one fewer than there are tracks, each as smooth as its place allows; no
-/// two are near one another. Fewer when some track cannot be reached without touching a strand or the border.
-/// Preconditions: the curves are simple, disjoint and inside `island`.
+/// Joints that connect all tracks, one fewer than there are tracks. Each is as smooth as its place allows,
+/// and no two are near each other. There are fewer if some track cannot be reached without touching a strand
+/// or the border. Preconditions: the curves are simple, disjoint and inside `island`.
 std::vector<Joint> find_joints(const std::vector<Track>& tracks, const Polygon& island, double bead_width,
                                const JointPrice& price);
 

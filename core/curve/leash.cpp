@@ -5,12 +5,12 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double freedom_in_widths = 1.0;  ///< clearances are not looked for beyond it
-constexpr double border_margin = 0.02;     ///< bead widths; a curve this close counts as touching
-constexpr double self_margin = 0.005;      ///< bead widths, between its own strands
-constexpr double tight = 0.5;  ///< share of its freedom from which on a vertex counts as held back
-constexpr double many = 0.01;  ///< of all vertices, held back: time to measure anew
-constexpr int some_steps = 5;  ///< after which any vertex held back is reason enough
+constexpr double freedom_in_widths = 1.0;  ///< greatest clearance that is measured, bead widths
+constexpr double border_margin = 0.02;  ///< bead widths; a curve this close to the border counts as touching
+constexpr double self_margin = 0.005;   ///< bead widths; strands this close count as touching
+constexpr double tight = 0.5;  ///< a vertex that has used this share of its freedom counts as held back
+constexpr double many = 0.01;  ///< share of vertices held back above which clearances are measured again
+constexpr int some_steps = 5;  ///< steps after which a single vertex held back suffices
 
 }  // namespace
 

@@ -13,18 +13,19 @@ namespace unicursal::core {
 
 class Leash {
  public:
-  /// Keeps references. `bead_width` mm: the unit of margins and of the farthest clearance looked for.
+  /// Keeps references. `bead_width` mm is the unit of the margins and of the greatest clearance that is
+  /// measured.
   Leash(const BorderIndex& border, double bead_width, Workers* workers = nullptr)
       : border_(border), width_(bead_width), workers_(workers) {}
 
   /// Measures clearances. Precondition: the curve is simple and inside.
   void fasten(const Curve& curve);
 
-  /// Shortens a move to what is free. Precondition: as many vertices as when fastened.
+  /// Moves every vertex back to within its freedom. Precondition: as many vertices as when fastened.
   void limit(Curve& curve);
 
-  /// To be called with what limit() allowed once it is taken for good: measures anew when the leash has
-  /// become tight for many vertices, or has been so for a few for some steps.
+  /// To be called when a curve that passed limit() is accepted. Measures clearances again if many vertices
+  /// have little freedom left, or if a few have had little for some steps.
   void follow(const Curve& curve);
 
  private:
@@ -33,8 +34,8 @@ class Leash {
   Workers* workers_;
   std::vector<Vec2> anchor_;
   std::vector<double> free_;
-  std::size_t tight_ = 0;  ///< vertices that the last limit() left little freedom
-  int steps_ = 0;          ///< since the leash was fastened
+  std::size_t tight_ = 0;  ///< vertices with little freedom left after the last limit()
+  int steps_ = 0;          ///< accepted since the leash was fastened
 };
 
 }  // namespace unicursal::core

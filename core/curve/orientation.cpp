@@ -10,13 +10,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// In [0, π).
+/// The same angle modulo π, in [0, π).
 double modulo_pi(double angle) {
   const double wrapped = angle - pi * std::floor(angle / pi);
   return wrapped < pi ? wrapped : 0.0;
 }
 
-/// The strokes in order of angle and the map that carries them to the even spread (Figure 30).
+/// The strokes in order of angle, and the map from their directions to the uniform distribution (Figure 30).
 struct Transport {
   std::vector<Stroke> sorted;
   double length = 0;
@@ -70,7 +70,7 @@ double isotropy_with_gradient(const Curve& curve, const std::vector<char>& count
   const Transport transport(std::move(sorted));
   if (!(transport.length > 0)) return 0;
 
-  // ∂E/∂θ from each stroke's own share; ∂E/∂l through the ends T (46) of all shares after it.
+  // ∂E/∂θ depends on each stroke's own share, ∂E/∂l on the ends T (46) of all shares after it.
   const std::size_t n = order.size();
   std::vector<double> turn(n), first(n), last(n);
   const double value = transport.walk([&](std::size_t k, double from, double to) {

@@ -1,11 +1,11 @@
-// The orientation objectives (paper (42) to (53)): how far the directions of a curve are from being spread
-// evenly, as a squared Wasserstein distance on the circle of directions, rad².
+// The orientation objectives (paper (42) to (53)): how far the directions of a curve are from an even
+// distribution, as a squared Wasserstein distance on the circle of directions, rad².
 //
-// E_iso is 0 when every direction has its equal share of the length and π²/12 when all segments run alike;
-// E_aniso = π²/12 − E_iso. Departures from the paper: the gradient is exact, it includes how the shares of
-// the directions change with the lengths, which (51) leaves out (and Θ (49) already holds the π that (51)
-// writes again). A segment counts as a whole where its middle is, instead of being cut at the zone's border
-// (10).
+// E_iso is 0 if every direction has an equal share of the length, and π²/12 if all segments have the same
+// direction; E_aniso = π²/12 − E_iso. Departures from the paper: the gradient is exact, since it includes how
+// the directions' shares change with the lengths, which (51) leaves out (also, Θ (49) already contains the π
+// that (51) writes again). A segment counts as a whole for the zone in which its middle lies; it is not cut
+// at the zone's border (10).
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,17 @@
 
 namespace unicursal::core {
 
-/// One straight piece: its angle modulo π counts, with its length as weight.
+/// One straight piece. Its angle counts modulo π, with its length as weight.
 struct Stroke {
   double angle = 0;   ///< rad
   double length = 0;  ///< mm
 };
 
-/// E_iso (48), rad². Zero for no length at all.
+/// E_iso (48), rad². Zero if the total length is zero.
 double isotropy_distance(std::vector<Stroke> strokes);
 
-/// E_iso of those segments of a curve whose entry in `counts` is true (segment i leaves vertex i); adds
-/// `weight` times its gradient. mm, rad².
+/// Returns E_iso of the segments whose entry in `counts` is true (segment i leaves vertex i), rad², and adds
+/// `weight` times its gradient to `gradient`.
 double isotropy_with_gradient(const Curve& curve, const std::vector<char>& counts, double weight,
                               std::vector<Vec2>& gradient);
 

@@ -12,43 +12,44 @@ namespace {
 
 // In bead widths, or their squares.
 constexpr double arc_tolerance = 0.005;  ///< of rounded offsets
-constexpr double corner_radius = 0.1;    ///< of a ring's corners, and a fifth of what two strands keep apart
-constexpr double least_left = 0.8;       ///< width of what is left to the fill; beads widen over the rest
-constexpr double level_step = 0.05;      ///< between the distances at which thin places are followed
-constexpr double narrow_share = 2.5;     ///< level steps: the radius below which centres belong to a level
-constexpr double half_level = 0.025;     ///< between a level's least and mean distance
-constexpr double thin_reach = 0.95;      ///< radius of discs that do not reach into thin places
-constexpr double thin_area = 0.6;        ///< out of their reach: more is no corner
-constexpr double corner_spike = 0.02;    ///< of a thin place: less is a corner beside it
-constexpr double hair = 0.02;            ///< half the width of differences that are rounding
-constexpr double contact = 0.02;         ///< how near two areas touch
-constexpr double notch = 0.13;           ///< half the width of notches that are closed
-constexpr double small_area = 3, small_radius = 0.65;  ///< a piece of less is left to its neighbours
-constexpr double shortest_ring = 2.5;                  ///< a shorter one could not be joined to others
+constexpr double corner_radius = 0.1;    ///< of a ring's corners; a fifth of the distance between two strands
+constexpr double least_left = 0.8;   ///< least width of the area left to the fill; wider beads cover the rest
+constexpr double level_step = 0.05;  ///< between the levels (distances from the border) in thin places
+constexpr double narrow_share = 2.5;   ///< level steps; centres in places of smaller radius belong to a level
+constexpr double half_level = 0.025;   ///< difference between a level's mean and least distance
+constexpr double thin_reach = 0.95;    ///< radius of discs that do not reach into thin places
+constexpr double thin_area = 0.6;      ///< an area out of their reach that is smaller is a corner
+constexpr double corner_spike = 0.02;  ///< a smaller part of a thin place is a corner beside it
+constexpr double hair = 0.02;          ///< half the width of differences that are rounding
+constexpr double contact = 0.02;       ///< areas at this distance count as touching
+constexpr double notch = 0.13;         ///< half the width of notches that are closed
+constexpr double small_area = 3, small_radius = 0.65;  ///< a smaller piece is covered by its neighbours
+constexpr double shortest_ring = 2.5;                  ///< a shorter ring could not be joined to others
 constexpr double dust = 0.02;                          ///< smaller pieces and holes are rounding
-constexpr double pocket = 0.3;  ///< smaller holes of what a ring encloses, without reason, are closed
-constexpr double bend = 0.005;  ///< that a simplified ring may move
+constexpr double pocket = 0.3;  ///< smaller holes inside a ring that contain no hole of the region are closed
+constexpr double bend = 0.005;  ///< how far simplification may move a ring
 constexpr double shortest_segment = 0.02;
 constexpr std::size_t fewest_vertices = 5;
 
-/// Where a disc reaches: rounds corners. Unlike opened() it leaves no hairs where rounding differs.
+/// The part of a region that a disc reaches, with rounded corners. Unlike opened(), this leaves no hairs
+/// where rounding differs.
 Region disc_reach(const Region& region, double radius, double w) {
   return offset(offset(region, -radius, arc_tolerance * w), radius, arc_tolerance * w);
 }
 
-/// Rounding leaves hairs along edges, which link what is apart.
+/// Removes hairs along edges, which rounding leaves and which would connect separate areas.
 Region without_hairs(const Region& difference, double w) {
   return disc_reach(difference, hair * w, w);
 }
 
-/// What is narrower than two beads, corners aside.
+/// The places narrower than two beads, without corners.
 Region thin_places(const Polygon& region, double w) {
   Region thin = without_hairs(subtract({region}, opened({region}, thin_reach * w, arc_tolerance * w)), w);
   std::erase_if(thin, [&](const Polygon& piece) { return area(piece) < thin_area * w * w; });
   return thin;
 }
 
-/// Offsets leave vertices a hair apart, sometimes backwards.
+/// Removes vertices that offsets leave very close to each other, sometimes in reverse order.
 Ring without_crumbs(const Ring& ring, double least) {
   Ring result;
   for (const Vec2& v : ring) {
@@ -58,7 +59,7 @@ Ring without_crumbs(const Ring& ring, double least) {
   return result;
 }
 
-/// Offsets double the vertices of round borders again and again.
+/// Removes superfluous vertices: every offset doubles the vertices of round borders.
 Region lean(Region region, double tolerance) {
   for (Polygon& polygon : region) {
     polygon.outer = simplified(without_crumbs(polygon.outer, tolerance), tolerance);
@@ -82,7 +83,7 @@ Region half_discs(const Region& region, double least_width, double w) {
   return unite(all);
 }
 
-/// Is this a part of a thin place, or what links two wide places? Otherwise it reaches into a corner.
+/// Whether the discs lie in a thin place or connect two wide places. Otherwise they reach into a corner.
 bool worth_following(const Polygon& discs, const Region& thin, const Region& wide, double w) {
   if (area(intersect({discs}, thin)) > corner_spike * w * w) return true;
   const Region grown = offset({discs}, contact * w, arc_tolerance * w);
@@ -141,7 +142,7 @@ Region within_ring(const Polygon& region, double bead_width, double least_width)
   for (const Polygon& discs : subtract(half_discs({region}, least_width, w), base)) {
     if (worth_following(discs, thin, base, w)) followed.push_back(discs);
   }
-  // Grown a little they unite in spite of rounding; notches between them are closed on the way.
+  // A little growth unites them in spite of rounding, and closes notches between them.
   const Region closed = offset(offset(followed, notch * w, tolerance), -notch * w, tolerance);
   return without_dust(without_pockets(disc_reach(closed, corner_radius * w, w), region, w), w);
 }

@@ -1,10 +1,9 @@
-// Contours along the border of a region, and what they leave to the fill (paper, end of §4.2). mm.
+// Contours along the border of a region, and the area that they leave to the fill (paper, end of §4.2). mm.
 //
-// Contour k runs (k − ½) bead widths inside the border as closed rings, round every hole as well. Where the
-// region is narrower than two beads, a ring that kept that distance would run into itself; there it halves
-// its distance: at a width b of less than two beads it runs b ÷ 4 inside either border, so that there and
-// back fill b together. The paper proposes contours but does not say what becomes of thin places; this is
-// ours.
+// Contour k runs (k − ½) bead widths inside the border as closed rings, also around every hole. Where the
+// region is narrower than two beads, a ring at that distance would run into itself. There it comes closer to
+// the border: in a place of width b it runs b ÷ 4 inside either border, so that its runs there and back fill
+// b together. The paper proposes contours but does not treat thin places; this solution is ours.
 #pragma once
 
 #include <vector>
@@ -15,21 +14,21 @@
 namespace unicursal::core {
 
 struct Perimeters {
-  std::vector<std::vector<Curve>> rings;  ///< [0] the outermost contour's rings, and so on inwards
+  std::vector<std::vector<Curve>> rings;  ///< [0] are the rings of the outermost contour, and so on inwards
   Region
-      inside;  ///< what is left: more than 0.8 bead widths wide, and one bead width away from the last rings
+      inside;  ///< the area left to the fill: one bead width inside the last rings, over 0.8 bead widths wide
 };
 
-/// At most `count` contours; fewer when nothing is left for more, and none when not even a ring of
-/// `least_width` mm (the least that two beads side by side may take together) fits. Rings are simple,
-/// disjoint and strictly inside `region`, but for rounding; callers check what they make of them.
+/// At most `count` contours. There are fewer if no area is left for more, and none if not even a ring fits
+/// whose two sides together take `least_width` mm. Rings are simple, disjoint and strictly inside `region`,
+/// except for rounding; callers check the curves that they make of them.
 Perimeters perimeters(const Polygon& region, int count, double bead_width, double least_width);
 
-/// Is a piece between strands so large that it needs a curve of its own? All of a smaller one is within 1.15
-/// bead widths of what runs half a bead outside it.
+/// Whether a piece between strands is so large that it needs a curve of its own. All points of a smaller one
+/// are within 1.15 bead widths of the strands that run half a bead outside it.
 bool worth_a_curve(const Polygon& piece, double bead_width);
 
-/// The region that one ring round `region` encloses, between its outer and its inner rings.
+/// The area that one contour of `region` encloses, between its outer and its inner rings.
 Region within_ring(const Polygon& region, double bead_width, double least_width);
 
 }  // namespace unicursal::core

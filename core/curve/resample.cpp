@@ -12,15 +12,16 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double too_close = 0.5, too_far = 1.5;  ///< of the spacing
-// A segment as short as this leaves its neighbours next to no clearance from one another, and would stay so;
-// so would a hairpin whose strands are as near.
+constexpr double too_close = 0.5, too_far = 1.5;  ///< shares of the spacing
+// A segment this short (share of the spacing) leaves its neighbours almost no clearance from each other, and
+// would stay short for ever; the same holds for a hairpin whose strands are this near.
 constexpr double collapsed = 0.1;
 constexpr std::size_t fewest_vertices = 8;
 constexpr int most_sweeps = 6;
 
-/// Corners of a curve that may be cut off although no clearance says so: the curve stays simple and inside if
-/// its triangle holds no other vertex of curve or border, since whatever enters it has to end there.
+/// Finds corners that may be cut off although clearances do not allow it. The curve stays simple and inside
+/// if the corner's triangle holds no other vertex of curve or border, since whatever enters the triangle has
+/// to end in it.
 class Corners {
  public:
   Corners(const Curve& curve, const BorderIndex& border, double pitch)
@@ -41,18 +42,14 @@ class Corners {
   }
 
  private:
-  /// Most curves never ask.
+  /// Built at the first question: most curves never ask.
   const SegmentGrid& grid() {
-    if (!grid_) {
-      std::vector<Segment> segments(curve_.size());
-      for (std::size_t i = 0; i < segments.size(); ++i)
-        segments[i] = {curve_.vertices[i], curve_.vertices[curve_.after(i)]};
-      grid_.emplace(segments, pitch_);
-    }
+    if (!grid_) grid_.emplace(curve_.segments(), pitch_);
     return *grid_;
   }
 
-  /// Exact; the triangle's sides and, where it is flat, their whole line count as inside.
+  /// Whether the triangle holds the point. Exact; its sides count as inside, and so does their line if it is
+  /// flat.
   static bool holds(const std::array<Vec2, 3>& corner, const Vec2& point) {
     const int a = orientation(corner[0], corner[1], point), b = orientation(corner[1], corner[2], point),
               c = orientation(corner[2], corner[0], point);
@@ -65,7 +62,7 @@ class Corners {
   std::optional<SegmentGrid> grid_;
 };
 
-/// One sweep; a dropped vertex's neighbours stay, so that every move is measured against its own clearance.
+/// One sweep. The neighbours of a removed vertex stay, so that every move is compared with its own clearance.
 Curve thinned_once(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers) {
   const std::vector<double> free = freedom(curve, border, spacing, {}, workers);
   Curve result;

@@ -1,4 +1,4 @@
-// Vertices taken away and added without changing what a curve looks like. mm.
+// Removes and adds vertices without changing the shape of a curve. mm.
 #pragma once
 
 #include "core/curve/curve.hpp"
@@ -7,15 +7,16 @@
 
 namespace unicursal::core {
 
-/// Drops vertices that stand closer than half of `spacing` to their neighbours, where the curve moves by less
-/// than its clearance (so it stays simple and inside). Where a segment or a hairpin has come down to a tenth
-/// of it, there is no clearance left; then it is enough that nothing lies in the corner that is cut off.
+/// Removes vertices that are closer than half of `spacing` to a neighbour, if that moves the curve by less
+/// than its clearance (so that it stays simple and inside). Where a segment or a hairpin is shorter than a
+/// tenth of `spacing`, there is no clearance left; there it suffices that the corner that is cut off is
+/// empty.
 Curve thinned(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers = nullptr);
 
-/// The same, and cuts segments longer than 1.5 `spacing` in equal pieces.
+/// Does the same as thinned(), and cuts segments longer than 1.5 `spacing` into equal pieces.
 Curve respaced(const Curve& curve, const BorderIndex& border, double spacing, Workers* workers = nullptr);
 
-/// Every segment halved.
+/// The curve with every segment halved.
 Curve subdivided(const Curve& curve);
 
 }  // namespace unicursal::core

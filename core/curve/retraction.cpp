@@ -12,20 +12,20 @@
 namespace unicursal::core {
 namespace {
 
-// In bead widths, but for shares.
+// In bead widths, except for shares.
 constexpr double widest_bridge = 1.7;    ///< from one side of a finger to the other
-constexpr double shortest_finger = 2.5;  ///< out and back
+constexpr double shortest_finger = 2.5;  ///< length out and back
 constexpr double longest_finger = 16;
-constexpr double largest_part = 1.0 / 3;  ///< of the whole curve, that a finger may be
-constexpr double crowded = 0.87;       ///< area ÷ length of a finger ÷ bead width, above which it may stay
-constexpr double neighbourhood = 1.3;  ///< what a finger's room is shared with
+constexpr double largest_part = 1.0 / 3;  ///< longest finger, as a share of the whole curve
+constexpr double crowded = 0.87;          ///< a finger is crowded if its area ÷ length ÷ bead width is less
+constexpr double neighbourhood = 1.3;     ///< radius around a finger that counts as its surroundings
 constexpr double bridge_clearance = 0.2;
-constexpr double least_gain = 0.8;  ///< of excess length
+constexpr double least_gain = 0.8;  ///< reduction of excess length
 
 /// Segments from vertex `first` to vertex `last`, forwards.
 struct Finger {
   std::size_t first = 0, last = 0;
-  double gain = 0;  ///< mm of excess length that is gone if the finger is cut off
+  double gain = 0;  ///< reduction of excess length if the finger is cut off, mm
 };
 
 class Retractor {
@@ -35,7 +35,7 @@ class Retractor {
         border_(border),
         width_(width),
         longest_(std::min(longest_finger * width, largest_part * curve.length())),
-        grid_(segments(curve), width),
+        grid_(curve.segments(), width),
         along_(curve.size() + 1),
         filled_(curve.size() + 1),
         seen_(curve.size(), 0) {
@@ -71,19 +71,12 @@ class Retractor {
   }
 
  private:
-  static std::vector<Segment> segments(const Curve& curve) {
-    std::vector<Segment> result;
-    for (std::size_t i = 0; i < curve.size(); ++i)
-      result.push_back({curve.vertices[i], curve.vertices[curve.after(i)]});
-    return result;
-  }
-
   static Box around(const Vec2& a, const Vec2& b, double distance) {
     const Vec2 reach(distance, distance);
     return {a.cwiseMin(b) - reach, a.cwiseMax(b) + reach};
   }
 
-  /// Of a quantity summed along the curve, from vertex i forwards to vertex j.
+  /// The increase of a quantity summed along the curve, from vertex i forwards to vertex j.
   static double between(const std::vector<double>& sum, std::size_t i, std::size_t j) {
     return i <= j ? sum[j] - sum[i] : sum[j] - sum[i] + sum.back();
   }
@@ -97,7 +90,7 @@ class Retractor {
     });
   }
 
-  /// Vertices that end a crowded finger beginning at vertex i, with a bridge that is short and free.
+  /// The end vertices of crowded fingers that begin at vertex i and have a short and free bridge.
   std::vector<std::size_t> facing(std::size_t i) {
     std::vector<std::size_t> result;
     const Vec2& from = curve_.vertices[i];
@@ -114,12 +107,12 @@ class Retractor {
 
   bool touches(std::size_t s, std::size_t i) const { return s == i || curve_.after(s) == i; }
 
-  /// Whether the bridge from i to j keeps away from the border and from all segments but those at its ends.
+  /// Whether the bridge from i to j keeps clear of the border and of all segments except those at its ends.
   bool free(std::size_t i, std::size_t j) {
     const Vec2 &a = curve_.vertices[i], &b = curve_.vertices[j];
     const double clearance = bridge_clearance * width_;
     bool result = border_.distance(a, b, clearance) >= clearance;
-    // The segments next to those at the ends may be near; they must not be met.
+    // The segments next to those at the ends may be near, but must not be met.
     once(around(a, b, clearance), [&](std::size_t s) {
       if (!result || touches(s, i) || touches(s, j)) return;
       const bool next = touches(curve_.after(s), i) || touches(curve_.before(s), i) ||
@@ -131,7 +124,7 @@ class Retractor {
     return result;
   }
 
-  /// Length in excess near the finger, mm: what is there less what should fill the same area.
+  /// Excess length near the finger, mm: the actual length less the length that should fill the same area.
   double excess_around(std::size_t i, std::size_t j) {
     ++look_;
     const std::size_t look = look_;
@@ -148,14 +141,14 @@ class Retractor {
     return result;
   }
 
-  /// By how much the excess comes nearer to zero, should the finger be cut off.
+  /// By how much the excess comes nearer to zero if the finger is cut off.
   double gain_of(std::size_t i, std::size_t j) {
     const double shorter = between(along_, i, j) - (curve_.vertices[j] - curve_.vertices[i]).norm();
     const double excess = excess_around(i, j);
     return std::abs(excess) - std::abs(excess - shorter);
   }
 
-  /// The best of those that have no room in common.
+  /// The best fingers whose surroundings do not overlap.
   std::vector<Finger> chosen(std::vector<Finger> found) const {
     std::stable_sort(found.begin(), found.end(),
                      [](const Finger& l, const Finger& r) { return l.gain > r.gain; });
@@ -186,7 +179,7 @@ class Retractor {
   const Curve& curve_;
   const BorderIndex& border_;
   double width_;
-  double longest_;  ///< mm, of a finger
+  double longest_;  ///< longest finger, mm
   SegmentGrid grid_;
   std::vector<double> along_, filled_;  ///< sums of length and area before each vertex
   std::vector<std::size_t> seen_;

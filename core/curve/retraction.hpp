@@ -1,9 +1,9 @@
-// Fingers that crowd a place are drawn back. A finger is a stretch of the curve that goes out and comes back
-// beside itself; where a lobe of the island holds more strands than fit, moving vertices cannot help, since a
-// strand cannot leave. Cutting the finger off by a short bridge can: what it has filled is left to its
-// neighbours, and fairing gives its length back elsewhere. mm, mm².
+// Draws back fingers that crowd a place. A finger is a stretch of the curve that goes out and comes back
+// beside itself. If a lobe of the island holds more strands than fit, moving vertices does not help, since a
+// strand cannot leave. A short bridge that cuts a finger off does: its neighbours take over its area, and
+// fairing adds the lost length elsewhere. mm, mm².
 //
-// Not in the paper, whose curves keep the strands that the cycle gave them.
+// This is not in the paper, whose curves keep the strands of the cycle.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,9 @@ struct Retraction {
   std::size_t fingers = 0;  ///< drawn back
 };
 
-/// `areas`: what every segment of the curve fills (segment i leaves vertex i). Each bridge takes out about as
-/// much length as is too much near its finger, and comes no nearer to strands and border than strands may.
-/// Precondition: `curve` is simple and inside. So is the result.
+/// `areas` holds the area that each segment fills (segment i leaves vertex i). A finger is cut off only if
+/// that brings the length near it closer to the right one, and if its bridge keeps clear of strands and
+/// border. Precondition: `curve` is simple and inside. The same holds for the result.
 Retraction retracted(const Curve& curve, const std::vector<double>& areas, const BorderIndex& border,
                      double bead_width);
 

@@ -7,13 +7,14 @@
 
 namespace unicursal::core {
 
-/// The curve's length L, mm; adds `weight` · ∂L/∂v to the gradient. Coinciding neighbours pull nothing.
+/// Returns the curve's length L, mm, and adds `weight` · ∂L/∂v to the gradient. Coinciding neighbours add
+/// nothing.
 double length_with_gradient(const Curve& curve, double weight, std::vector<Vec2>& gradient);
 
-/// Σ ‖v_i − (v_{i−} + v_{i+})/2‖² (29), mm²; adds `weight` times its gradient (30).
+/// Returns Σ ‖v_i − (v_{i−} + v_{i+})/2‖² (29), mm², and adds `weight` times its gradient (30).
 double smoothness_with_gradient(const Curve& curve, double weight, std::vector<Vec2>& gradient);
 
-/// (29) alone.
+/// The value of (29) without a gradient, mm².
 double smoothness(const Curve& curve);
 
 }  // namespace unicursal::core

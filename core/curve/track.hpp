@@ -1,4 +1,4 @@
-// A closed curve by the length along it, mm: positions are taken modulo the curve's length.
+// A closed curve, parametrised by the length along it, mm. Positions are taken modulo the curve's length.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace unicursal::core {
 
 class Track {
  public:
-  /// Precondition: at least three vertices, not all in one place.
+  /// Precondition: at least three vertices, not all at the same point.
   explicit Track(Curve curve) : curve_(std::move(curve)), starts_(curve_.size() + 1) {
     for (std::size_t i = 0; i < curve_.size(); ++i) {
       starts_[i + 1] = starts_[i] + (curve_.vertices[curve_.after(i)] - curve_.vertices[i]).norm();
@@ -22,14 +22,15 @@ class Track {
 
   const Curve& curve() const { return curve_; }
   double length() const { return starts_.back(); }
-  /// Where vertex `i` lies.
+  /// The position of vertex `i`.
   double start(std::size_t i) const { return starts_[i]; }
 
+  /// The position in [0, length()) that is the same as `s`.
   double wrapped(double s) const {
     const double turn = s - std::floor(s / length()) * length();
     return turn < length() ? turn : 0.0;
   }
-  /// Along the curve, the shorter way.
+  /// The distance between two positions along the curve, the shorter way.
   double distance(double s, double t) const {
     const double ahead = wrapped(t - s);
     return std::min(ahead, length() - ahead);
@@ -45,7 +46,7 @@ class Track {
     const Vec2 &a = curve_.vertices[i], &b = curve_.vertices[curve_.after(i)];
     return span > 0 ? Vec2(a + (wrapped(s) - starts_[i]) / span * (b - a)) : a;
   }
-  /// The way from position `from` forwards to `to`, both included.
+  /// The points of the curve from position `from` forwards to `to`, both included.
   std::vector<Vec2> stretch(double from, double to) const {
     std::vector<Vec2> points{at(from)};
     const double way = wrapped(to - from);

@@ -1,33 +1,25 @@
 #include "core/cycle/population.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
-#include <numeric>
-#include <thread>
+#include <utility>
 
 namespace unicursal::core {
 namespace {
 
-/// One clone on its way, with what its run found out.
+/// A copy of a tour, the seed of its run, and the report of the run.
 struct Clone {
   Tour tour;
   std::uint64_t seed = 0;
   ShuffleReport report;
 };
 
-void evolve_all(std::vector<Clone>& clones, unsigned threads, const Evolve& evolve) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < clones.size(); k = next++) {
-      Random random(clones[k].seed);
-      clones[k].report = evolve(clones[k].tour, random, {});
-    }
-  };
-  std::vector<std::thread> others;
-  for (unsigned t = 1; t < std::min<std::size_t>(threads, clones.size()); ++t) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
+void evolve_all(std::vector<Clone>& clones, Workers* workers, const Evolve& evolve) {
+  Workers serial(1);
+  (workers != nullptr ? *workers : serial).each(clones.size(), [&](std::size_t k) {
+    Random random(clones[k].seed);
+    clones[k].report = evolve(clones[k].tour, random, {});
+  });
 }
 
 std::uint64_t fresh_seed(Random& random) {
@@ -42,8 +34,8 @@ double value_of(const ShuffleReport& report) {
 
 std::size_t distance(const Tour& a, const Tour& b) {
   std::size_t different = 0;
-  for (std::size_t s = 0; s < a.stop_count(); ++s) {
-    if (a.leave[s] >= 0 && a.leave[s] != b.leave[s]) ++different;
+  for (const StopIndex s : a.leave.indices()) {
+    if (a.visited(s) && a.leave[s] != b.leave[s]) ++different;
   }
   return different;
 }
@@ -60,7 +52,8 @@ std::vector<std::size_t> diverse(const std::vector<Tour>& tours, const std::vect
     for (const std::size_t k : chosen) nearest[k] = 0;
     const auto farthest = std::max_element(nearest.begin(), nearest.end());
     const auto k = static_cast<std::size_t>(farthest - nearest.begin());
-    if (std::find(chosen.begin(), chosen.end(), k) != chosen.end()) break;  // the rest are equal to these
+    if (std::find(chosen.begin(), chosen.end(), k) != chosen.end())
+      break;  // all others are equal to one of these
     chosen.push_back(k);
   }
   return chosen;
@@ -76,7 +69,7 @@ ShuffleReport evolve_population(Tour& tour, const ShuffleOptions& options, Rando
     for (const Tour& parent : parents) {
       for (std::size_t c = 0; c < candidates; ++c) clones.push_back({parent, fresh_seed(random), {}});
     }
-    evolve_all(clones, options.threads, evolve);
+    evolve_all(clones, options.workers, evolve);
     for (const Clone& clone : clones) report.add(clone.report);
     return clones;
   };
@@ -96,7 +89,7 @@ ShuffleReport evolve_population(Tour& tour, const ShuffleOptions& options, Rando
     kept_values.push_back(values[k]);
   }
   for (int generation = 1; generation < options.generations; ++generation) {
-    if (options.another && !options.another()) break;
+    if (options.may_continue && !options.may_continue()) break;
     clones = run(kept);
     for (std::size_t k = 0; k < clones.size(); ++k) {
       const std::size_t parent = k / candidates;
@@ -106,8 +99,8 @@ ShuffleReport evolve_population(Tour& tour, const ShuffleOptions& options, Rando
     }
   }
   const auto best = std::min_element(kept_values.begin(), kept_values.end()) - kept_values.begin();
-  report.after = kept_values[static_cast<std::size_t>(best)];
-  tour = std::move(kept[static_cast<std::size_t>(best)]);
+  report.after = kept_values[best];
+  tour = std::move(kept[best]);
   return report;
 }
 

@@ -5,17 +5,20 @@
 
 namespace unicursal::core {
 
+std::size_t Tour::visited_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(next.begin(), next.end(), [](StopIndex s) { return s.valid(); }));
+}
+
 Curve drawn(const Tour& tour) {
-  const auto first = std::find_if(tour.next.begin(), tour.next.end(), [](StopIndex s) { return s >= 0; });
-  assert(first != tour.next.end());
-  const auto start = static_cast<StopIndex>(first - tour.next.begin());
+  const StopIndex start = tour.first_visited();
+  assert(start.valid());
   Curve curve;
   StopIndex stop = start;
   do {
-    const auto s = static_cast<std::size_t>(stop);
-    curve.vertices.push_back(tour.position[s]);
-    tour.graph.append_bends(tour.leave[s], curve.vertices);
-    stop = tour.next[s];
+    curve.vertices.push_back(tour.position[stop]);
+    tour.graph.append_bends(tour.leave[stop], curve.vertices);
+    stop = tour.next[stop];
   } while (stop != start);
   return curve;
 }

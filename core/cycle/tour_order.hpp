@@ -1,14 +1,15 @@
-// The order of stops along a closed tour under local changes.
+// The order of the stops along a closed tour that changes locally.
 //
-// Every stop has a label that grows along the tour (modulo 2⁶⁴). A stop that moves gets a label between those
-// of its new neighbours; a stretch that moves is labelled anew, the shortest stretches of those that change
-// places; when there is no room left, all are. Asking is one subtraction. Departure from the paper, which
-// renumbers everything at every accepted change, O(N); two-level lists and splay trees bound the worst case
-// better, but pay at every question, and questions are far more frequent than moves (tests/bench/cycle).
+// Every stop has a label, and labels grow along the tour (modulo 2⁶⁴), so that a question about the order
+// costs one subtraction. A stop that moves gets a label between those of its new neighbours. A stretch that
+// moves is relabelled, and operation 4, which reorders four stretches, relabels the shortest ones. If no
+// labels are left between two neighbours, all stops are relabelled with even gaps. Departure from the paper,
+// which renumbers all stops at every accepted change, O(N). Two-level lists and splay trees would bound the
+// worst case better, but they cost more per question, and questions are far more frequent than moves.
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <utility>
 
 #include "core/cycle/tour.hpp"
 
@@ -19,26 +20,23 @@ class TourOrder {
   TourOrder() = default;
   explicit TourOrder(const Tour& tour) { renumber(tour); }
 
-  /// On the way from `first` to `last` in the tour's direction, does one pass `stop`? Ends count.
+  /// Whether the tour passes `stop` on its way from `first` to `last`, ends included.
   bool within(StopIndex first, StopIndex stop, StopIndex last) const {
-    return label(stop) - label(first) <= label(last) - label(first);
+    return labels_[stop] - labels_[first] <= labels_[last] - labels_[first];
   }
 
-  /// Gives all stops from `first` to `last` labels between those of the stops before and after. The tour's
-  /// links must be up to date, the labels around must be in order.
+  /// Gives all stops from `first` to `last` labels between those of the stops before and after them.
+  /// Preconditions: the tour's links are up to date, and the labels of all other stops are in order.
   void fit(const Tour& tour, StopIndex first, StopIndex last);
-  void swap(StopIndex a, StopIndex b) {
-    std::swap(labels_[static_cast<std::size_t>(a)], labels_[static_cast<std::size_t>(b)]);
-  }
+  void swap(StopIndex a, StopIndex b) { std::swap(labels_[a], labels_[b]); }
 
-  /// How many stops were given a label since the start: what keeping the order cost.
+  /// How many labels were given since the start: the price of keeping the order.
   std::uint64_t labelled() const { return labelled_; }
 
  private:
-  std::uint64_t label(StopIndex s) const { return labels_[static_cast<std::size_t>(s)]; }
   void renumber(const Tour& tour);
 
-  std::vector<std::uint64_t> labels_;
+  Per<StopIndex, std::uint64_t> labels_;
   std::uint64_t labelled_ = 0;
 };
 

@@ -8,7 +8,7 @@
 
 #include "core/field/direction_field.hpp"
 #include "core/field/grid_cover.hpp"
-#include "core/field/grid_distance.hpp"
+#include "core/numeric/grid_distance.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -100,7 +100,7 @@ struct BorderMeans {
 void set_stiffness(Level& level, const Grid& grid) {
   std::vector<std::uint8_t> fixed(grid.size());
   for (std::size_t k = 0; k < grid.size(); ++k) fixed[k] = level.kind[k] == Square::fixed;
-  const std::vector<double> distance = distance_to_marked(grid, fixed);
+  const std::vector<double> distance = distance_to_marked(grid.columns, grid.rows, fixed);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     level.stiffness[k] = std::pow(std::max(distance[k], least_distance), -2);
   }

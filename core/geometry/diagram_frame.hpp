@@ -8,17 +8,18 @@ namespace unicursal::core {
 /// How a piece was cut out of the island.
 struct Frame {
   const BorderIndex* island = nullptr;
-  Box lines;     ///< the piece lies between them; infinite where nothing was cut off
-  Box searched;  ///< holds all segments that were looked for
+  Box lines;     ///< the lines that bound the piece; infinite on sides that were not cut
+  Box searched;  ///< all segments that meet this box were found
 
   static bool level(const Vec2& a, const Vec2& b, Eigen::Index k, double line) {
     return a[k] == line && b[k] == line;
   }
+  /// Whether the edge a b runs along one of the lines.
   bool on_line(const Vec2& a, const Vec2& b) const {
     return level(a, b, 0, lines.min.x()) || level(a, b, 0, lines.max.x()) || level(a, b, 1, lines.min.y()) ||
            level(a, b, 1, lines.max.y());
   }
-  /// Is `p` on the same line as the edge a b?
+  /// Whether the edge a b runs along a line, and `p` lies on the same line.
   bool on_line(const Vec2& a, const Vec2& b, const Vec2& p) const {
     return on_line(a, b) && (a.x() == b.x() ? p.x() == a.x() : p.y() == a.y());
   }

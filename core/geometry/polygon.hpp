@@ -1,23 +1,12 @@
 // Points, rings and polygons with holes. All lengths in mm, areas in mm², angles in radians.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
+#include "core/numeric/vec2.hpp"
+
 namespace unicursal::core {
-
-using Vec2 = Eigen::Vector2d;
-
-/// The z component of the cross product; positive when b lies counter-clockwise of a.
-inline double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// A quarter turn counter-clockwise.
-inline Vec2 perpendicular(const Vec2& v) {
-  return {-v.y(), v.x()};
-}
 
 /// A closed polygonal line; the last vertex is joined to the first and not repeated.
 using Ring = std::vector<Vec2>;

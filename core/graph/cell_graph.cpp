@@ -14,10 +14,10 @@ namespace unicursal::core {
 namespace {
 
 constexpr int tries = 6;
-constexpr int needle_tries = 3;          ///< of them, before plain points are taken
-constexpr int needle_iterations = 30;    ///< 100 make 5 % more edges follow the field
-constexpr double shaking = 1e-3;         ///< of d, how far seeds move before another try
-constexpr double area_tolerance = 1e-6;  ///< relative, cells against domain
+constexpr int needle_tries = 3;          ///< tries with needles, before those with points
+constexpr int needle_iterations = 30;    ///< with 100, only 5 % more edges follow the field
+constexpr double shaking = 1e-3;         ///< how far seeds move before the next try, as a share of d
+constexpr double area_tolerance = 1e-6;  ///< relative difference of the cells' area and the domain's
 
 /// Where a Voronoi edge passes through the border.
 struct Crossing {
@@ -25,7 +25,7 @@ struct Crossing {
   double along_voronoi = 0;  ///< 0…1
   double along_border = 0;   ///< 0…1
   bool leaving = false;
-  NodeIndex node = -1;
+  NodeIndex node;
 };
 
 class Clipper {
@@ -35,7 +35,7 @@ class Clipper {
 
   std::optional<CellGraph> run(std::vector<std::size_t>& untouched_holes) {
     place_inner_nodes();
-    for (std::size_t e = 0; e < diagram_.edges.size(); ++e) {
+    for (const VoronoiEdgeIndex e : diagram_.edges.indices()) {
       if (!cut(e)) return std::nullopt;
     }
     if (!connect_inner_nodes() || !walk_borders(untouched_holes)) return std::nullopt;
@@ -51,31 +51,21 @@ class Clipper {
   }
 
   void place_inner_nodes() {
-    node_of_.assign(diagram_.vertices.size(), -1);
-    for (std::size_t v = 0; v < diagram_.vertices.size(); ++v) {
+    node_of_.resize(diagram_.vertices.size());
+    for (const VoronoiVertexIndex v : diagram_.vertices.indices()) {
       if (border_.contains(diagram_.vertices[v].position))
         node_of_[v] = add_node(diagram_.vertices[v].position);
     }
-    half_of_.assign(diagram_.edges.size(), {-1, -1});
+    half_of_.resize(diagram_.edges.size());
   }
 
   NodeIndex add_node(const Vec2& position) {
-    graph_.position.push_back(position);
-    spokes_.push_back({-1, -1, -1});
-    return static_cast<NodeIndex>(graph_.position.size()) - 1;
+    spokes_.push_back({});
+    return graph_.position.push_back(position);
   }
 
-  /// Returns the half-edge from `a`.
-  HalfEdgeIndex add_edge(NodeIndex a, NodeIndex b, Ring bends) {
-    const auto h = static_cast<HalfEdgeIndex>(graph_.half_edges.size());
-    graph_.half_edges.push_back({a, -1, outside});
-    graph_.half_edges.push_back({b, -1, outside});
-    graph_.via.push_back(std::move(bends));
-    return h;
-  }
-
-  /// Signs are exact and zero counts as positive, so that a line through a border vertex is on one side of
-  /// it.
+  /// Where the line from p to q crosses the border, in order. Signs are exact, and zero counts as positive,
+  /// so that a line through a border vertex passes on one side of it.
   std::vector<Crossing> crossings(const Vec2& p, const Vec2& q) const {
     std::vector<std::size_t> near;
     border_.near({p.cwiseMin(q), p.cwiseMax(q)}, [&](std::size_t e) { near.push_back(e); });
@@ -89,83 +79,84 @@ class Clipper {
       if ((orientation(p, q, a) >= 0) == (orientation(p, q, b) >= 0)) continue;
       const double slope = cross(q - p, b - a);
       found.push_back(
-          {e, cross(a - p, b - a) / slope, std::clamp(cross(a - p, q - p) / slope, 0.0, 1.0), p_left, -1});
+          {e, cross(a - p, b - a) / slope, std::clamp(cross(a - p, q - p) / slope, 0.0, 1.0), p_left, {}});
     }
     std::sort(found.begin(), found.end(),
               [](const Crossing& l, const Crossing& r) { return l.along_voronoi < r.along_voronoi; });
     return found;
   }
 
-  /// The stretch of a Voronoi edge inside, from the node where it begins to the one where it ends.
+  /// A stretch of a Voronoi edge inside the domain, which ends where the edge ends or leaves the domain.
   struct Stretch {
-    std::size_t voronoi_edge = 0;
-    NodeIndex begin = -1;
+    VoronoiEdgeIndex voronoi_edge;
+    NodeIndex begin;       ///< invalid outside
     bool at_start = true;  ///< it begins where the Voronoi edge does
     Ring bends;
   };
 
   HalfEdgeIndex add_stretch(Stretch& stretch, NodeIndex end) {
-    const HalfEdgeIndex h = add_edge(stretch.begin, end, std::move(stretch.bends));
+    const HalfEdgeIndex h = graph_.add_edge(stretch.begin, end, std::move(stretch.bends));
     if (stretch.at_start)
       half_of_[stretch.voronoi_edge][0] = h;
     else
-      spokes_[static_cast<std::size_t>(stretch.begin)][1] = h;
+      spokes_[stretch.begin][1] = h;
     return h;
   }
 
-  /// Follows a Voronoi edge over the border: ends the stretch inside, or begins one. False when the crossing
-  /// contradicts what came before.
+  /// Follows a Voronoi edge over the border: ends the stretch inside, or begins one. Returns false if the
+  /// crossing contradicts the earlier ones.
   bool cross_border(Crossing& crossing, Stretch& stretch) {
-    const bool inside = stretch.begin >= 0;
+    const bool inside = stretch.begin.valid();
     if (crossing.leaving != inside) return false;
     const BorderEdge& border = border_.edges()[crossing.border_edge];
     crossing.node = add_node(border.a + crossing.along_border * (border.b - border.a));
     crossings_.push_back(crossing);
     if (inside) {
       const HalfEdgeIndex h = add_stretch(stretch, crossing.node);
-      spokes_[static_cast<std::size_t>(crossing.node)][1] = PlanarGraph::twin(h);
+      spokes_[crossing.node][1] = PlanarGraph::twin(h);
     }
-    stretch = {stretch.voronoi_edge, inside ? -1 : crossing.node, false, {}};
+    stretch = {stretch.voronoi_edge, inside ? NodeIndex() : crossing.node, false, {}};
     return true;
   }
 
-  /// Keeps the pieces of a Voronoi edge that lie inside. False when ends and crossings contradict each other.
-  bool cut(std::size_t number) {
+  /// Keeps the stretches of a Voronoi edge that lie inside. Returns false if ends and crossings contradict
+  /// each other.
+  bool cut(VoronoiEdgeIndex number) {
     const VoronoiEdge& edge = diagram_.edges[number];
-    const NodeIndex end = node_of_[static_cast<std::size_t>(edge.to)];
-    Stretch stretch{number, node_of_[static_cast<std::size_t>(edge.from)], true, {}};
-    Vec2 here = diagram_.vertices[static_cast<std::size_t>(edge.from)].position;
+    const NodeIndex end = node_of_[edge.to];
+    Stretch stretch{number, node_of_[edge.from], true, {}};
+    Vec2 here = diagram_.vertices[edge.from].position;
     for (std::size_t piece = 0; piece <= edge.via.size(); ++piece) {
       const bool last = piece == edge.via.size();
-      const Vec2& there =
-          last ? diagram_.vertices[static_cast<std::size_t>(edge.to)].position : edge.via[piece];
+      const Vec2& there = last ? diagram_.vertices[edge.to].position : edge.via[piece];
       for (Crossing& crossing : crossings(here, there)) {
         if (!cross_border(crossing, stretch)) return false;
       }
-      if (!last && stretch.begin >= 0) stretch.bends.push_back(there);
+      if (!last && stretch.begin.valid()) stretch.bends.push_back(there);
       here = there;
     }
-    if ((stretch.begin >= 0) != (end >= 0)) return false;
-    if (end >= 0) half_of_[number][1] = PlanarGraph::twin(add_stretch(stretch, end));
+    if (stretch.begin.valid() != end.valid()) return false;
+    if (end.valid()) half_of_[number][1] = PlanarGraph::twin(add_stretch(stretch, end));
     return true;
   }
 
   bool connect_inner_nodes() {
-    for (std::size_t v = 0; v < diagram_.vertices.size(); ++v) {
-      if (node_of_[v] < 0) continue;
+    for (const VoronoiVertexIndex v : diagram_.vertices.indices()) {
+      if (!node_of_[v].valid()) continue;
       for (std::size_t i = 0; i < 3; ++i) {
-        const int edge = diagram_.vertices[v].edges[i];
-        if (edge < 0) return false;
-        const bool starts = diagram_.edges[static_cast<std::size_t>(edge)].from == static_cast<int>(v);
-        const HalfEdgeIndex h = half_of_[static_cast<std::size_t>(edge)][starts ? 0 : 1];
-        if (h < 0) return false;
-        spokes_[static_cast<std::size_t>(node_of_[v])][i] = h;
+        const VoronoiEdgeIndex edge = diagram_.vertices[v].edges[i];
+        if (!edge.valid()) return false;
+        const bool starts = diagram_.edges[edge].from == v;
+        const HalfEdgeIndex h = half_of_[edge][starts ? 0 : 1];
+        if (!h.valid()) return false;
+        spokes_[node_of_[v]][i] = h;
       }
     }
     return true;
   }
 
-  /// Stretches of border between neighbouring crossings become edges that bend with it.
+  /// Makes an edge of each stretch of border between neighbouring crossings; it bends with the border.
+  /// Returns false if no Voronoi edge reaches one of the rings.
   bool walk_borders(std::vector<std::size_t>& untouched_holes) {
     std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& l, const Crossing& r) {
       return l.border_edge != r.border_edge ? l.border_edge < r.border_edge : l.along_border < r.along_border;
@@ -182,10 +173,10 @@ class Clipper {
       }
       for (auto here = begin; here != end; ++here) {
         const auto there = here + 1 == end ? begin : here + 1;
-        const HalfEdgeIndex h = add_edge(here->node, there->node, bends(*here, *there, ring));
+        const HalfEdgeIndex h = graph_.add_edge(here->node, there->node, bends(*here, *there, ring));
         // Counter-clockwise about a border node: forward, inward, backward.
-        spokes_[static_cast<std::size_t>(here->node)][0] = h;
-        spokes_[static_cast<std::size_t>(there->node)][2] = PlanarGraph::twin(h);
+        spokes_[here->node][0] = h;
+        spokes_[there->node][2] = PlanarGraph::twin(h);
         border_half_edges_.push_back(PlanarGraph::twin(h));
       }
       begin = end;
@@ -211,26 +202,23 @@ class Clipper {
     for (const auto& around : spokes_) {
       for (std::size_t i = 0; i < 3; ++i) {
         const HalfEdgeIndex arriving = PlanarGraph::twin(around[i]);
-        graph_.half_edges[static_cast<std::size_t>(arriving)].next = around[(i + 2) % 3];
+        graph_.half_edges[arriving].next = around[(i + 2) % 3];
       }
     }
   }
 
   bool trace_faces() {
-    std::vector<bool> seen(graph_.half_edges.size(), false);
-    for (HalfEdgeIndex start : border_half_edges_) {
-      for (HalfEdgeIndex h = start; !seen[static_cast<std::size_t>(h)]; h = graph_.next(h)) {
-        seen[static_cast<std::size_t>(h)] = true;
-      }
+    Per<HalfEdgeIndex, bool> seen(graph_.half_edges.size(), false);
+    for (const HalfEdgeIndex start : border_half_edges_) {
+      for (HalfEdgeIndex h = start; !seen[h]; h = graph_.next(h)) seen[h] = true;
     }
     double covered = 0;
-    for (std::size_t s = 0; s < graph_.half_edges.size(); ++s) {
-      if (seen[s]) continue;
-      const auto face = static_cast<FaceIndex>(graph_.face_count());
-      graph_.face_start.push_back(static_cast<HalfEdgeIndex>(s));
-      for (auto h = static_cast<HalfEdgeIndex>(s); !seen[static_cast<std::size_t>(h)]; h = graph_.next(h)) {
-        seen[static_cast<std::size_t>(h)] = true;
-        graph_.half_edges[static_cast<std::size_t>(h)].face = face;
+    for (const HalfEdgeIndex start : graph_.half_edges.indices()) {
+      if (seen[start]) continue;
+      const FaceIndex face = graph_.face_start.push_back(start);
+      for (HalfEdgeIndex h = start; !seen[h]; h = graph_.next(h)) {
+        seen[h] = true;
+        graph_.half_edges[h].face = face;
       }
       const double piece = signed_area(graph_.outline(face));
       if (!(piece > 0)) return false;
@@ -243,14 +231,15 @@ class Clipper {
   const Polygon& domain_;
   BorderIndex border_;
   CellGraph graph_;
-  std::vector<NodeIndex> node_of_;                     ///< per Voronoi vertex
-  std::vector<std::array<HalfEdgeIndex, 2>> half_of_;  ///< per Voronoi edge, leaving its two ends
-  std::vector<std::array<HalfEdgeIndex, 3>> spokes_;   ///< per node, leaving it counter-clockwise
+  Per<VoronoiVertexIndex, NodeIndex> node_of_;                   ///< invalid for a vertex outside
+  Per<VoronoiEdgeIndex, std::array<HalfEdgeIndex, 2>> half_of_;  ///< the half-edges that leave its two ends
+  Per<NodeIndex, std::array<HalfEdgeIndex, 3>> spokes_;  ///< half-edges that leave it, counter-clockwise
   std::vector<Crossing> crossings_;
-  std::vector<HalfEdgeIndex> border_half_edges_;  ///< those with the outside to their left
+  std::vector<HalfEdgeIndex> border_half_edges_;  ///< half-edges with the outside to their left
 };
 
-/// A second seed opposite the first one about the hole, so that the border between the two cells meets it.
+/// Adds a seed on the other side of the hole than the nearest seed, so that the border between the two cells
+/// meets the hole.
 void add_seed_beyond(const Ring& hole, const Polygon& domain, std::vector<Vec2>& seeds) {
   const Vec2 center = bounds(hole).center();
   const auto nearest = std::min_element(seeds.begin(), seeds.end(), [&](const Vec2& l, const Vec2& r) {
@@ -269,7 +258,7 @@ void add_seed_beyond(const Ring& hole, const Polygon& domain, std::vector<Vec2>&
   }
 }
 
-/// Moves every seed a little, out of what may be degenerate.
+/// Moves every seed a little, away from degenerate positions.
 void shake(std::vector<Vec2>& seeds, const Polygon& domain, double d, Random& random) {
   for (Vec2& seed : seeds) {
     const double turn = random.uniform(0, 2 * std::numbers::pi);

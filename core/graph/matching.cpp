@@ -13,44 +13,41 @@ using Graph = lemon::SmartGraph;
 /// The library's graph; edges in the order given.
 struct Network {
   Graph graph;
-  std::vector<Graph::Edge> edges;
+  Per<EdgeIndex, Graph::Edge> edges;
 
-  Network(int node_count, const std::vector<std::pair<int, int>>& pairs) {
-    graph.reserveNode(node_count);
+  Network(std::size_t node_count, const Per<EdgeIndex, EdgeEnds>& pairs) {
+    graph.reserveNode(static_cast<int>(node_count));
     graph.reserveEdge(static_cast<int>(pairs.size()));
-    std::vector<Graph::Node> nodes;
-    nodes.reserve(static_cast<std::size_t>(node_count));
-    for (int n = 0; n < node_count; ++n) nodes.push_back(graph.addNode());
+    Per<NodeIndex, Graph::Node> nodes;
+    nodes.reserve(node_count);
+    for (std::size_t n = 0; n < node_count; ++n) nodes.push_back(graph.addNode());
     edges.reserve(pairs.size());
-    for (const auto& pair : pairs) {
-      edges.push_back(graph.addEdge(nodes[static_cast<std::size_t>(pair.first)],
-                                    nodes[static_cast<std::size_t>(pair.second)]));
-    }
+    for (const EdgeEnds& ends : pairs) edges.push_back(graph.addEdge(nodes[ends.first], nodes[ends.second]));
   }
 
   template <typename Matching>
-  std::vector<bool> matched(const Matching& matching) const {
-    std::vector<bool> result(edges.size());
-    for (std::size_t e = 0; e < edges.size(); ++e) result[e] = matching.matching(edges[e]);
+  Per<EdgeIndex, bool> matched(const Matching& matching) const {
+    Per<EdgeIndex, bool> result(edges.size());
+    for (const EdgeIndex e : edges.indices()) result[e] = matching.matching(edges[e]);
     return result;
   }
 };
 
 }  // namespace
 
-std::vector<bool> perfect_matching(int node_count, const std::vector<std::pair<int, int>>& edges) {
+Per<EdgeIndex, bool> perfect_matching(std::size_t node_count, const Per<EdgeIndex, EdgeEnds>& edges) {
   const Network network(node_count, edges);
   lemon::MaxMatching<Graph> matching(network.graph);
   matching.run();
-  if (2 * matching.matchingSize() != node_count) return {};
+  if (2 * matching.matchingSize() != static_cast<int>(node_count)) return {};
   return network.matched(matching);
 }
 
-std::vector<bool> heaviest_perfect_matching(int node_count, const std::vector<std::pair<int, int>>& edges,
-                                            const std::vector<int>& weights) {
+Per<EdgeIndex, bool> heaviest_perfect_matching(std::size_t node_count, const Per<EdgeIndex, EdgeEnds>& edges,
+                                               const Per<EdgeIndex, int>& weights) {
   const Network network(node_count, edges);
   Graph::EdgeMap<int> weight(network.graph);
-  for (std::size_t e = 0; e < edges.size(); ++e) weight[network.edges[e]] = weights[e];
+  for (const EdgeIndex e : edges.indices()) weight[network.edges[e]] = weights[e];
   lemon::MaxWeightedPerfectMatching<Graph> matching(network.graph, weight);
   if (!matching.run()) return {};
   return network.matched(matching);

@@ -1,18 +1,23 @@
 // Perfect matching of the cell graph (paper §3.3.1; Petersen: every bridgeless cubic graph has one).
 #pragma once
 
+#include <cstddef>
 #include <utility>
-#include <vector>
+
+#include "core/graph/index.hpp"
 
 namespace unicursal::core {
 
-/// For each edge, whether it is matched. Empty when there is no perfect matching. Parallel edges are
-/// allowed, loops are not. LEMON's blossom method; in practice linear on cell graphs (tests/bench/matching).
-std::vector<bool> perfect_matching(int node_count, const std::vector<std::pair<int, int>>& edges);
+/// The two nodes that an edge joins.
+using EdgeEnds = std::pair<NodeIndex, NodeIndex>;
 
-/// The same of greatest total weight, for a cycle that avoids what the weights ask to leave out. Slower:
+/// For each edge, whether it is matched. Empty if there is no perfect matching. Parallel edges are allowed,
+/// loops are not. LEMON's blossom method; in practice linear on cell graphs (tests/bench/matching).
+Per<EdgeIndex, bool> perfect_matching(std::size_t node_count, const Per<EdgeIndex, EdgeEnds>& edges);
+
+/// The perfect matching of greatest total weight, for a cycle that avoids the edges of great weight. Slower:
 /// O(n m log n) at worst, about n log n on cell graphs.
-std::vector<bool> heaviest_perfect_matching(int node_count, const std::vector<std::pair<int, int>>& edges,
-                                            const std::vector<int>& weights);
+Per<EdgeIndex, bool> heaviest_perfect_matching(std::size_t node_count, const Per<EdgeIndex, EdgeEnds>& edges,
+                                               const Per<EdgeIndex, int>& weights);
 
 }  // namespace unicursal::core

@@ -1,92 +1,96 @@
 #include "core/graph/needle_diagram.hpp"
-#include "core/geometry/predicates.hpp"
 
 #include <algorithm>
 #include <array>
+
+#include "core/geometry/predicates.hpp"
 
 namespace unicursal::core {
 namespace {
 
 constexpr int points_per_needle = 5;
 
-/// Joins the edges of a diagram into chains from node to node, a node being where three groups meet.
+/// Joins the edges of a diagram into chains from node to node. A node is a vertex where three groups meet.
 class Merger {
  public:
-  Merger(const Voronoi& fine, const std::vector<int>& group) : fine_(fine), group_(group) {
-    groups_ = group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1;
+  Merger(const Voronoi& fine, const Per<CellIndex, CellIndex>& group) : fine_(fine), group_(group) {
+    groups_ = group.empty() ? 0 : std::max_element(group.begin(), group.end())->number() + 1;
   }
 
   std::optional<Voronoi> run() {
     find_nodes();
-    for (std::size_t v = 0; v < fine_.vertices.size(); ++v) {
-      if (node_of_[v] < 0) continue;
-      for (std::size_t i = 0; i < 3; ++i) follow(static_cast<int>(v), fine_.vertices[v].edges[i]);
+    for (const VoronoiVertexIndex v : fine_.vertices.indices()) {
+      if (!node_of_[v].valid()) continue;
+      for (const VoronoiEdgeIndex e : fine_.vertices[v].edges) follow(v, e);
     }
-    for (std::size_t e = 0; e < fine_.edges.size(); ++e) {
-      if (kept(static_cast<int>(e)) && chain_of_[e] < 0) return std::nullopt;
+    for (const VoronoiEdgeIndex e : fine_.edges.indices()) {
+      if (kept(e) && !chain_of_[e].valid()) return std::nullopt;
     }
     connect();
     return std::move(result_);
   }
 
  private:
-  int group_of(int site) const {
-    const auto s = static_cast<std::size_t>(site);
-    return s < group_.size() ? group_[s] : groups_ + static_cast<int>(s - group_.size());
+  CellIndex group_of(CellIndex cell) const {
+    const std::size_t c = cell.number();
+    return c < group_.size() ? group_[cell] : CellIndex(groups_ + (c - group_.size()));
   }
-  const VoronoiEdge& edge(int e) const { return fine_.edges[static_cast<std::size_t>(e)]; }
-  const VoronoiVertex& vertex(int v) const { return fine_.vertices[static_cast<std::size_t>(v)]; }
+  const VoronoiEdge& edge(VoronoiEdgeIndex e) const { return fine_.edges[e]; }
 
-  /// Edges to infinity (−1) lie between far sites, each of which is a group of its own.
-  bool kept(int e) const { return e < 0 || group_of(edge(e).left) != group_of(edge(e).right); }
+  /// Edges to infinity (invalid) lie between far sites, each of which is a group of its own.
+  bool kept(VoronoiEdgeIndex e) const {
+    return !e.valid() || group_of(edge(e).left) != group_of(edge(e).right);
+  }
 
   void find_nodes() {
-    node_of_.assign(fine_.vertices.size(), -1);
-    chain_of_.assign(fine_.edges.size(), -1);
-    for (std::size_t v = 0; v < fine_.vertices.size(); ++v) {
-      const VoronoiVertex& vertex = fine_.vertices[v];
-      if (!std::all_of(vertex.edges.begin(), vertex.edges.end(), [&](int e) { return kept(e); })) continue;
-      node_of_[v] = static_cast<int>(result_.vertices.size());
-      result_.vertices.push_back({vertex.position, {-1, -1, -1}});
+    node_of_.resize(fine_.vertices.size());
+    chain_of_.resize(fine_.edges.size());
+    for (const VoronoiVertexIndex v : fine_.vertices.indices()) {
+      const auto& edges = fine_.vertices[v].edges;
+      if (!std::all_of(edges.begin(), edges.end(), [&](VoronoiEdgeIndex e) { return kept(e); })) continue;
+      node_of_[v] = result_.vertices.push_back({fine_.vertices[v].position, {}});
     }
   }
 
-  /// The chain that leaves node `v` by edge `e`, unless it came in from its other end.
-  void follow(int v, int e) {
-    if (e < 0 || chain_of_[static_cast<std::size_t>(e)] >= 0) return;
+  /// Adds the chain that leaves node `v` by edge `e`, unless it was added from its other end.
+  void follow(VoronoiVertexIndex v, VoronoiEdgeIndex e) {
+    if (!e.valid() || chain_of_[e].valid()) return;
     const bool forward = edge(e).from == v;
     VoronoiEdge chain;
     chain.left = group_of(forward ? edge(e).left : edge(e).right);
     chain.right = group_of(forward ? edge(e).right : edge(e).left);
-    chain.from = node_of_[static_cast<std::size_t>(v)];
+    chain.from = node_of_[v];
     for (;;) {
-      chain_of_[static_cast<std::size_t>(e)] = static_cast<int>(result_.edges.size());
+      chain_of_[e] = VoronoiEdgeIndex(result_.edges.size());
       v = edge(e).from == v ? edge(e).to : edge(e).from;
-      if (node_of_[static_cast<std::size_t>(v)] >= 0) break;
-      chain.via.push_back(vertex(v).position);
-      const auto& around = vertex(v).edges;
-      e = *std::find_if(around.begin(), around.end(), [&](int other) { return other != e && kept(other); });
+      if (node_of_[v].valid()) break;
+      chain.via.push_back(fine_.vertices[v].position);
+      const auto& around = fine_.vertices[v].edges;
+      e = *std::find_if(around.begin(), around.end(),
+                        [&](VoronoiEdgeIndex other) { return other != e && kept(other); });
     }
-    chain.to = node_of_[static_cast<std::size_t>(v)];
+    chain.to = node_of_[v];
     result_.edges.push_back(std::move(chain));
   }
 
   void connect() {
-    for (std::size_t v = 0; v < fine_.vertices.size(); ++v) {
-      if (node_of_[v] < 0) continue;
-      auto& around = result_.vertices[static_cast<std::size_t>(node_of_[v])].edges;
+    for (const VoronoiVertexIndex v : fine_.vertices.indices()) {
+      if (!node_of_[v].valid()) continue;
+      auto& around = result_.vertices[node_of_[v]].edges;
       for (std::size_t i = 0; i < 3; ++i) {
-        const int e = fine_.vertices[v].edges[i];
-        around[i] = e < 0 ? -1 : chain_of_[static_cast<std::size_t>(e)];
+        const VoronoiEdgeIndex e = fine_.vertices[v].edges[i];
+        if (e.valid()) around[i] = chain_of_[e];
       }
     }
   }
 
   const Voronoi& fine_;
-  const std::vector<int>& group_;
-  int groups_ = 0;
-  std::vector<int> node_of_;   ///< per vertex of the fine diagram, −1 where fewer than three groups meet
-  std::vector<int> chain_of_;  ///< per edge of the fine diagram
+  const Per<CellIndex, CellIndex>& group_;
+  std::size_t groups_ = 0;
+  /// The node at a vertex of the fine diagram; invalid where fewer than three groups meet.
+  Per<VoronoiVertexIndex, VoronoiVertexIndex> node_of_;
+  /// The chain that an edge of the fine diagram belongs to.
+  Per<VoronoiEdgeIndex, VoronoiEdgeIndex> chain_of_;
   Voronoi result_;
 };
 
@@ -105,50 +109,48 @@ class Straightener {
  public:
   Straightener(Voronoi& diagram, std::size_t cells) : diagram_(diagram), sides_(cells) {
     bent_.assign(diagram.edges.size(), false);
-    for (std::size_t e = 0; e < diagram.edges.size(); ++e) {
-      for (const int cell : {diagram.edges[e].left, diagram.edges[e].right}) {
-        if (static_cast<std::size_t>(cell) < cells) sides_[static_cast<std::size_t>(cell)].push_back(e);
+    for (const VoronoiEdgeIndex e : diagram.edges.indices()) {
+      for (const CellIndex cell : {diagram.edges[e].left, diagram.edges[e].right}) {
+        if (cell.number() < cells) sides_[cell].push_back(e);
       }
     }
   }
 
   void run() {
-    std::vector<std::size_t> open;
-    for (std::size_t cell = 0; cell < sides_.size(); ++cell) open.push_back(cell);
+    std::vector<CellIndex> open;
+    for (const CellIndex cell : sides_.indices()) open.push_back(cell);
     while (!open.empty()) {
-      const std::size_t cell = open.back();
+      const CellIndex cell = open.back();
       open.pop_back();
       if (!sound(cell)) bend(cell, open);
     }
-    for (std::size_t e = 0; e < bent_.size(); ++e) {
+    for (const VoronoiEdgeIndex e : bent_.indices()) {
       if (!bent_[e]) diagram_.edges[e].via.clear();
     }
   }
 
  private:
-  const Vec2& start(std::size_t e) const {
-    return diagram_.vertices[static_cast<std::size_t>(diagram_.edges[e].from)].position;
-  }
+  const Vec2& start(VoronoiEdgeIndex e) const { return diagram_.vertices[diagram_.edges[e].from].position; }
 
   /// The edge as it is drawn now, both ends included.
-  Ring line(std::size_t e) const {
+  Ring line(VoronoiEdgeIndex e) const {
     Ring points{start(e)};
     const VoronoiEdge& edge = diagram_.edges[e];
     if (bent_[e]) points.insert(points.end(), edge.via.begin(), edge.via.end());
-    points.push_back(diagram_.vertices[static_cast<std::size_t>(edge.to)].position);
+    points.push_back(diagram_.vertices[edge.to].position);
     return points;
   }
 
-  /// A simple polygon that runs counter-clockwise. When all cells are, the drawing is plane: the winding
-  /// numbers of all cells about a point add up to one.
-  bool sound(std::size_t cell) const {
+  /// Whether the cell is a simple polygon that runs counter-clockwise. If all cells are, the drawing is
+  /// plane: the winding numbers of all cells about a point add up to one.
+  bool sound(CellIndex cell) const {
     if (sides_[cell].empty()) return true;  // two needles in one place share the other's cell
     std::vector<std::array<Vec2, 2>> pieces;
     const Vec2 about = start(sides_[cell].front());
     double twice = 0;
-    for (const std::size_t e : sides_[cell]) {
+    for (const VoronoiEdgeIndex e : sides_[cell]) {
       const Ring points = line(e);
-      const double sign = diagram_.edges[e].left == static_cast<int>(cell) ? 1 : -1;
+      const double sign = diagram_.edges[e].left == cell ? 1 : -1;
       for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         pieces.push_back({points[k], points[k + 1]});
         twice += sign * cross(points[k] - about, points[k + 1] - about);
@@ -162,25 +164,25 @@ class Straightener {
     return twice > 0;
   }
 
-  /// Draws all sides of the cell with their bends; it and its neighbours must then be looked at again.
-  void bend(std::size_t cell, std::vector<std::size_t>& open) {
-    for (const std::size_t e : sides_[cell]) {
+  /// Draws all sides of the cell with their bends; the cell and its neighbours must then be checked again.
+  void bend(CellIndex cell, std::vector<CellIndex>& open) {
+    for (const VoronoiEdgeIndex e : sides_[cell]) {
       if (bent_[e] || diagram_.edges[e].via.empty()) continue;
       bent_[e] = true;
-      for (const int side : {diagram_.edges[e].left, diagram_.edges[e].right}) {
-        if (static_cast<std::size_t>(side) < sides_.size()) open.push_back(static_cast<std::size_t>(side));
+      for (const CellIndex side : {diagram_.edges[e].left, diagram_.edges[e].right}) {
+        if (side.number() < sides_.size()) open.push_back(side);
       }
     }
   }
 
   Voronoi& diagram_;
-  std::vector<std::vector<std::size_t>> sides_;  ///< per cell its edges
-  std::vector<bool> bent_;                       ///< per edge, drawn with its bends
+  Per<CellIndex, std::vector<VoronoiEdgeIndex>> sides_;  ///< the edges of a cell
+  Per<VoronoiEdgeIndex, bool> bent_;                     ///< the edge is drawn with its bends
 };
 
 }  // namespace
 
-std::optional<Voronoi> merged(const Voronoi& diagram, const std::vector<int>& group) {
+std::optional<Voronoi> merged(const Voronoi& diagram, const Per<CellIndex, CellIndex>& group) {
   return Merger(diagram, group).run();
 }
 
@@ -190,13 +192,13 @@ void straighten(Voronoi& diagram, std::size_t cells) {
 
 std::optional<Voronoi> needle_diagram(const std::vector<Segment>& needles, const Box& box) {
   std::vector<Vec2> points;
-  std::vector<int> needle;
+  Per<CellIndex, CellIndex> needle;
   for (std::size_t i = 0; i < needles.size(); ++i) {
     const auto& [a, b] = needles[i];
     const int count = a == b ? 1 : points_per_needle;
     for (int k = 0; k < count; ++k) {
       points.push_back(count == 1 ? a : Vec2(a + k / (count - 1.0) * (b - a)));
-      needle.push_back(static_cast<int>(i));
+      needle.push_back(CellIndex(i));
     }
   }
   std::optional<Voronoi> diagram = merged(voronoi(points, box), needle);

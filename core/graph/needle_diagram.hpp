@@ -1,9 +1,9 @@
 // The Voronoi diagram of needles, that is, of short segments that do not meet (paper §3.2, Figure 4). mm.
 //
-// Departure from the paper: only which cells meet where matters here, not the parabolic arcs. So every needle
-// is taken as a row of points, and what the point diagram draws between points of one needle is left
-// out. With five points to a needle of half a seed distance the nodes are within 0.01 seed distances of the
-// exact ones. Edges are drawn straight from node to node wherever the drawing stays plane.
+// Departure from the paper: the parabolic arcs do not matter here, only which cells meet where. So every
+// needle is replaced by a row of points, and the edges of the point diagram between points of one needle are
+// left out. With five points on a needle of half a seed distance the nodes are within 0.01 seed distances of
+// the exact ones. Edges are drawn straight from node to node wherever the drawing stays plane.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,17 @@
 
 namespace unicursal::core {
 
-/// Cell i is that of needle i; needles of no length are points. Nothing when a cell surrounds another, which
-/// needles that keep to the Voronoi cells of their middles hardly do.
+/// Cell i belongs to needle i; a needle may be a point. Returns nullopt if a cell surrounds another, which
+/// hardly happens if every needle stays within the Voronoi cell of its middle.
 std::optional<Voronoi> needle_diagram(const std::vector<Segment>& needles, const Box& box);
 
-/// Joins cells of one group: edges within a group go, and what remains of a vertex with two edges is a bend.
-/// `group` holds a number for every site, from 0 without gaps. Nothing when a ring without vertices is left.
-std::optional<Voronoi> merged(const Voronoi& diagram, const std::vector<int>& group);
+/// Joins the cells of each group to one cell: edges within a group are removed, and a vertex that keeps two
+/// edges becomes a bend. `group` maps every site's cell to its cell in the result; these are numbered from 0
+/// without gaps. Returns nullopt if a ring without vertices is left.
+std::optional<Voronoi> merged(const Voronoi& diagram, const Per<CellIndex, CellIndex>& group);
 
-/// Takes out the bends of all edges but those where straight lines would meet or turn a cell inside out.
-/// Cells from `cells` on (the far ones) are not looked at.
+/// Removes the bends of all edges, except where straight lines would meet or turn a cell inside out. Cells
+/// from number `cells` on (those of far sites) are not checked.
 void straighten(Voronoi& diagram, std::size_t cells);
 
 }  // namespace unicursal::core

@@ -10,16 +10,16 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double samples_per_distance = 8;    ///< lattice squares per d; with 5 seeds stick to the lattice
-constexpr double most_of_the_way = 0.9;       ///< to the cell's border, a needle's half length at most
-constexpr double least_needle = 0.02;         ///< of d; what is shorter is a point
-constexpr double longest_step = 0.3;          ///< of d, that a seed moves in one iteration
+constexpr double samples_per_distance = 8;  ///< lattice squares per d; at 5, seeds stick to the lattice
+constexpr double most_of_the_way = 0.9;  ///< longest half needle, as a share of the way to the cell's border
+constexpr double least_needle = 0.02;    ///< a shorter needle, as a share of d, becomes a point
+constexpr double longest_step = 0.3;     ///< of a seed in one iteration, as a share of d
 constexpr double sufficient_decrease = 1e-4;  ///< Armijo
 constexpr int most_halvings = 5;
 constexpr int renewal = 5;  ///< iterations between new needles
 
-/// How far the line through `seed` along `u` (unit) can be followed both ways within the seed's cell: up to
-/// the bisectors with other seeds and up to the domain's border; `most` when that is farther.
+/// How far the line through `seed` along the unit vector `u` can be followed in both directions within the
+/// seed's cell: up to the bisectors with other seeds and to the domain's border, at most `most`.
 double way_in_cell(const Vec2& seed, const Vec2& u, double most, const std::vector<Vec2>& seeds,
                    const SegmentGrid& grid, const BorderIndex& border) {
   double way = most;
@@ -63,7 +63,7 @@ std::vector<Segment> NeedleTessellation::needles(const std::vector<Vec2>& seeds)
   std::vector<double> cell_area(seeds.size(), 0);
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     if (owners_.owner(k) < 0) continue;
-    const auto owner = static_cast<std::size_t>(owners_.owner(k));
+    const std::int32_t owner = owners_.owner(k);
     asked[owner] += asked_[k].cast<double>();
     cell_area[owner] += lattice_.weight(k);
   }
@@ -89,14 +89,14 @@ double NeedleTessellation::coverage(const std::vector<Segment>& needles, std::ve
   return owners_.second_moment();
 }
 
-/// One accepted step along a descent direction, all needles moving without turning; false when none was
-/// found.
+/// Takes one step along a descent direction; all needles move without turning. Returns false if no acceptable
+/// step was found.
 bool NeedleTessellation::step(Descent& state) {
   const std::vector<Vec2> direction = state.newton.direction(state.gradient);
   double longest = 0;
   for (const Vec2& v : direction) longest = std::max(longest, v.norm());
   if (!(longest > 0)) return false;
-  // The first step is Lloyd's, as if every cell had the mean area.
+  // The first step is that of Lloyd's method, as if every cell had the mean area.
   const double first = static_cast<double>(direction.size()) / (2 * area_);
   double scale = std::min(state.newton.empty() ? first : 1.0, longest_step * d_ / longest);
   std::vector<Vec2> gradient;

@@ -7,8 +7,10 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double least_kernel = 1e-4;  ///< of the cell's area; a smaller kernel would pinch the curve
-constexpr double least_sight = 1e-3;   ///< a centre's distance from the lines of the outline, in cell sizes
+// A smaller kernel, as a share of the cell's area, would pinch the curve.
+constexpr double least_kernel = 1e-4;
+// Least distance of a centre from the lines of the outline, as a share of the cell's size.
+constexpr double least_sight = 1e-3;
 
 Vec2 centroid(const Ring& ring) {
   const Vec2 about = ring.front();
@@ -30,7 +32,7 @@ bool sees_all(const Ring& ring, const Vec2& point, double margin) {
   return true;
 }
 
-/// The points that see the whole ring: the intersection of the half-planes left of its edges.
+/// The points from which the whole ring is visible: the intersection of the half-planes left of its edges.
 Ring kernel(const Ring& ring) {
   const Box box = bounds(ring);
   Ring region{box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}};
@@ -61,38 +63,28 @@ std::optional<Vec2> centre_of(const Ring& cell) {
   return candidate;
 }
 
-/// Joins the centre to every node of the cell and makes a triangle of each side.
+/// Joins the centre to every node of the cell, which makes a triangle of each side.
 void split_cell(RefinedGraph& graph, FaceIndex cell, const Vec2& centre) {
-  const auto node = static_cast<NodeIndex>(graph.position.size());
-  graph.position.push_back(centre);
-  graph.centre[static_cast<std::size_t>(cell)] = node;
+  const NodeIndex node = graph.position.push_back(centre);
+  graph.centre[cell] = node;
   std::vector<HalfEdgeIndex> sides;
-  const HalfEdgeIndex start = graph.face_start[static_cast<std::size_t>(cell)];
+  const HalfEdgeIndex start = graph.face_start[cell];
   HalfEdgeIndex h = start;
   do {
     sides.push_back(h);
     h = graph.next(h);
   } while (h != start);
   // Spoke i leads from the centre to the origin of side i.
-  const auto first_spoke = static_cast<HalfEdgeIndex>(graph.half_edges.size());
-  const auto count = static_cast<HalfEdgeIndex>(sides.size());
-  for (HalfEdgeIndex i = 0; i < count; ++i) {
-    graph.half_edges.push_back({node, -1, outside});
-    graph.half_edges.push_back({graph.origin(sides[static_cast<std::size_t>(i)]), -1, outside});
-    graph.via.emplace_back();
-  }
-  for (HalfEdgeIndex i = 0; i < count; ++i) {
-    const HalfEdgeIndex side = sides[static_cast<std::size_t>(i)];
-    const HalfEdgeIndex out = first_spoke + 2 * i;
-    const HalfEdgeIndex back = first_spoke + 2 * ((i + 1) % count) + 1;
-    FaceIndex face = cell;
-    if (i > 0) {
-      face = static_cast<FaceIndex>(graph.face_start.size());
-      graph.face_start.push_back(side);
-    }
+  std::vector<HalfEdgeIndex> spokes;
+  for (const HalfEdgeIndex side : sides) spokes.push_back(graph.add_edge(node, graph.origin(side)));
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const HalfEdgeIndex side = sides[i];
+    const HalfEdgeIndex out = spokes[i];
+    const HalfEdgeIndex back = PlanarGraph::twin(spokes[(i + 1) % spokes.size()]);
+    const FaceIndex face = i == 0 ? cell : graph.face_start.push_back(side);
     const HalfEdgeIndex triangle[3] = {side, back, out};
     for (int k = 0; k < 3; ++k) {
-      HalfEdge& half = graph.half_edges[static_cast<std::size_t>(triangle[k])];
+      HalfEdge& half = graph.half_edges[triangle[k]];
       half.next = triangle[(k + 1) % 3];
       half.face = face;
     }
@@ -103,8 +95,8 @@ void split_cell(RefinedGraph& graph, FaceIndex cell, const Vec2& centre) {
 
 RefinedGraph refine(const CellGraph& cells) {
   RefinedGraph graph{cells, cells.node_count(), cells.edge_count(), {}};
-  graph.centre.assign(cells.face_count(), -1);
-  for (FaceIndex cell = 0; cell < static_cast<FaceIndex>(cells.face_count()); ++cell) {
+  graph.centre.resize(cells.face_count());
+  for (const FaceIndex cell : cells.face_start.indices()) {
     if (const std::optional<Vec2> centre = centre_of(cells.outline(cell))) split_cell(graph, cell, *centre);
   }
   return graph;

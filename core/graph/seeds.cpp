@@ -12,7 +12,7 @@ namespace unicursal::core {
 namespace {
 
 constexpr double samples_per_distance = 5;      ///< lattice squares per d
-constexpr double farthest_without_seed = 0.75;  ///< of d
+constexpr double farthest_without_seed = 0.75;  ///< share of d
 constexpr int relaxation_steps = 12;
 
 std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& options, Random& random) {
@@ -38,7 +38,7 @@ std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& op
   return seeds;
 }
 
-/// Of those inside; of all when none is.
+/// The heaviest sample inside the domain; the heaviest of all if none is inside.
 Vec2 heaviest_sample(const Lattice& lattice, const BorderIndex& border) {
   std::size_t best = 0;
   bool best_inside = false;
@@ -52,8 +52,8 @@ Vec2 heaviest_sample(const Lattice& lattice, const BorderIndex& border) {
   return lattice.position(best);
 }
 
-/// Seeds for what is too far from all others, by visiting the far samples in order of distance. A sample that
-/// stands for the surroundings of a small hole may lie in it, and then makes no seed.
+/// Adds seeds where all seeds are too far away: visits the far samples in order of distance. A sample that
+/// stands for the surroundings of a small hole may lie in the hole; it does not become a seed.
 void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners,
                const BorderIndex& border, double d) {
   if (seeds.empty()) seeds.push_back(heaviest_sample(lattice, border));
@@ -76,7 +76,7 @@ void fill_gaps(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& 
   }
 }
 
-/// One step of Lloyd's method: every seed to the centroid of its samples.
+/// One step of Lloyd's method: moves every seed to the centroid of its samples.
 void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owners,
            const BorderIndex& border) {
   owners.assign(as_points(seeds));
@@ -84,7 +84,7 @@ void relax(std::vector<Vec2>& seeds, const Lattice& lattice, LatticeOwners& owne
   std::vector<Vec2> moment(seeds.size(), Vec2(0, 0));
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     if (owners.owner(k) < 0) continue;
-    const auto s = static_cast<std::size_t>(owners.owner(k));
+    const std::int32_t s = owners.owner(k);
     mass[s] += lattice.weight(k);
     moment[s] += lattice.weight(k) * lattice.position(k);
   }

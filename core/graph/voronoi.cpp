@@ -14,8 +14,8 @@ namespace unicursal::core {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using Face = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<CellIndex, Kernel>;
+using Face = CGAL::Triangulation_face_base_with_info_2<VoronoiVertexIndex, Kernel>;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
 
 constexpr int far_sites = 16;
@@ -24,10 +24,10 @@ constexpr double far_away = 5;  ///< box diagonals from the centre
 }  // namespace
 
 Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
-  std::vector<std::pair<Kernel::Point_2, int>> points;
+  std::vector<std::pair<Kernel::Point_2, CellIndex>> points;
   points.reserve(sites.size() + far_sites);
   const auto add = [&](double x, double y) {
-    points.emplace_back(Kernel::Point_2(x, y), static_cast<int>(points.size()));
+    points.emplace_back(Kernel::Point_2(x, y), CellIndex(points.size()));
   };
   for (const Vec2& site : sites) add(site.x(), site.y());
   const double radius = far_away * (box.size().norm() + 1);
@@ -35,27 +35,25 @@ Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
     const double turn = 2 * std::numbers::pi * (k + 0.3) / far_sites;
     add(box.center().x() + radius * std::cos(turn), box.center().y() + radius * std::sin(turn));
   }
-  // CGAL shuffles what it inserts; the order must not depend on what was done before.
+  // CGAL shuffles what it inserts; the order must not depend on earlier work.
   CGAL::get_default_random() = CGAL::Random(0);
   const Delaunay triangulation(points.begin(), points.end());
 
   Voronoi result;
-  for (const auto face : triangulation.all_face_handles()) face->info() = -1;
+  for (const auto face : triangulation.all_face_handles()) face->info() = {};
   for (const auto face : triangulation.finite_face_handles()) {
-    face->info() = static_cast<int>(result.vertices.size());
     const Kernel::Point_2 c = triangulation.circumcenter(face);
-    result.vertices.push_back({Vec2(c.x(), c.y()), {-1, -1, -1}});
+    face->info() = result.vertices.push_back({Vec2(c.x(), c.y()), {}});
   }
   for (const auto face : triangulation.finite_face_handles()) {
     for (int i = 0; i < 3; ++i) {
       const auto other = face->neighbor(i);
       if (other->info() < face->info()) continue;
-      const int edge = static_cast<int>(result.edges.size());
-      const int left = face->vertex(Delaunay::cw(i))->info(), right = face->vertex(Delaunay::ccw(i))->info();
-      result.edges.push_back({face->info(), other->info(), left, right, {}});
-      result.vertices[static_cast<std::size_t>(face->info())].edges[static_cast<std::size_t>(i)] = edge;
-      const auto back = static_cast<std::size_t>(other->index(face));
-      result.vertices[static_cast<std::size_t>(other->info())].edges[back] = edge;
+      const CellIndex left = face->vertex(Delaunay::cw(i))->info();
+      const CellIndex right = face->vertex(Delaunay::ccw(i))->info();
+      const VoronoiEdgeIndex edge = result.edges.push_back({face->info(), other->info(), left, right, {}});
+      result.vertices[face->info()].edges[i] = edge;
+      result.vertices[other->info()].edges[other->index(face)] = edge;
     }
   }
   return result;

@@ -6,27 +6,32 @@
 #include <vector>
 
 #include "core/geometry/polygon.hpp"
+#include "core/graph/index.hpp"
 
 namespace unicursal::core {
 
+using VoronoiVertexIndex = Index<struct VoronoiVertexTag>;
+using VoronoiEdgeIndex = Index<struct VoronoiEdgeTag>;
+using CellIndex = Index<struct CellTag>;  ///< cell i belongs to site i; the cells of far sites follow
+
 struct VoronoiEdge {
-  int from = 0, to = 0;     ///< Voronoi vertices
-  int left = 0, right = 0;  ///< the cells on its two sides; numbers beyond the sites' are of far sites
-  Ring via;                 ///< bends on the way; none in a diagram of points
+  VoronoiVertexIndex from, to;
+  CellIndex left, right;  ///< the cells on its two sides
+  Ring via;               ///< bends on the way; always empty in a diagram of points
 };
 
-/// A vertex where three cells meet; its edges in counter-clockwise order, −1 for one that runs to infinity.
+/// A vertex where three cells meet.
 struct VoronoiVertex {
   Vec2 position{0, 0};
-  std::array<int, 3> edges{-1, -1, -1};
+  std::array<VoronoiEdgeIndex, 3> edges;  ///< counter-clockwise; an edge that runs to infinity is invalid
 };
 
 struct Voronoi {
-  std::vector<VoronoiVertex> vertices;
-  std::vector<VoronoiEdge> edges;
+  Per<VoronoiVertexIndex, VoronoiVertex> vertices;
+  Per<VoronoiEdgeIndex, VoronoiEdge> edges;
 };
 
-/// Cells within `box` are complete: far sites are added so that nothing near it runs to infinity.
+/// Cells within `box` are complete: far sites are added so that no edge near the box runs to infinity.
 Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box);
 
 }  // namespace unicursal::core

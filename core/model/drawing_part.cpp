@@ -112,7 +112,7 @@ void refuse_unclaimed(const std::filesystem::path& file, const std::vector<Uncla
   const Unclaimed& worst = unclaimed.front();
   const std::string more =
       unclaimed.size() > 1 ? fmt::format(" (and {} more places)", unclaimed.size() - 1) : "";
-  throw ModelError(file.string(), "near " + at_point(worst.place),
+  throw ModelError(file.string(), fmt::format("near ({:.4g}, {:.4g}) mm", worst.place.x(), worst.place.y()),
                    fmt::format("{:.3g} mm² of {} belong to no zone{}", worst.area, worst.label, more),
                    "add a zone that selects it, or delete it from the drawing");
 }

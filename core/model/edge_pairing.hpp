@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/model/closed_mesh.hpp"
+#include "core/model/half_edge_mesh.hpp"
 
 namespace unicursal::core {
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/model/closed_mesh.hpp"
 #include "core/model/layer_stack.hpp"
 #include "core/model/slicer.hpp"
 #include "core/model/zoning.hpp"

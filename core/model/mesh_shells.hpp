@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "core/model/closed_mesh.hpp"
+#include "core/model/half_edge_mesh.hpp"
 
 namespace unicursal::core {
 

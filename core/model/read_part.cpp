@@ -1,20 +1,17 @@
 #include "core/model/read_part.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/error.hpp"
 #include "core/model/drawing_part.hpp"
 #include "core/model/mesh_part.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 namespace {
 
 bool has_ending(const std::filesystem::path& file, const std::string& ending) {
-  std::string own = file.extension().string();
-  std::transform(own.begin(), own.end(), own.begin(),
-                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-  return own == ending;
+  return lower(file.extension().string()) == ending;
 }
 
 }  // namespace

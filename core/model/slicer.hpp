@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.hpp"
-#include "core/model/closed_mesh.hpp"
+#include "core/model/half_edge_mesh.hpp"
 #include "core/model/height_index.hpp"
 
 namespace unicursal::core {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
 #include <cctype>
 #include <charconv>
@@ -84,11 +83,9 @@ class AsciiReader {
   /// The next word in lower case; empty at the end.
   std::string next() {
     while (at_ < text_.size() && is_space(text_[at_])) line_ += text_[at_++] == '\n';
-    std::string word;
-    for (; at_ < text_.size() && !is_space(text_[at_]); ++at_) {
-      word += static_cast<char>(std::tolower(static_cast<unsigned char>(text_[at_])));
-    }
-    return word;
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+    return lower(text_.substr(begin, at_ - begin));
   }
 
   void skip_line() {
@@ -142,10 +139,7 @@ class AsciiReader {
 bool begins_with_solid(std::string_view bytes) {
   const auto first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return false;
-  std::string word(bytes.substr(first, 5));
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-  return word == "solid";
+  return lower(bytes.substr(first, 5)) == "solid";
 }
 
 /// Neither size nor text fits: say which of the two it seems to be.

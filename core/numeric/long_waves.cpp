@@ -9,15 +9,6 @@ namespace {
 
 constexpr std::size_t range = 4096;  ///< points that one worker takes at a time
 
-Box box_of(const std::vector<Vec2>& points) {
-  Box box{points.front(), points.front()};
-  for (const Vec2& p : points) {
-    box.min = box.min.cwiseMin(p);
-    box.max = box.max.cwiseMax(p);
-  }
-  return box;
-}
-
 /// Calls visit(coarse node, share) for the nodes of a grid of meshes twice as wide that a node lies between.
 template <typename Visit>
 void for_parents(std::size_t column, std::size_t row, std::size_t columns, Visit visit) {
@@ -34,12 +25,16 @@ void for_parents(std::size_t column, std::size_t row, std::size_t columns, Visit
 
 LongWaves::LongWaves(const std::vector<Vec2>& points, double finest, double strength) : strength_(strength) {
   if (points.empty()) return;
-  const Box box = box_of(points);
-  const Vec2 meshes = box.size() / finest;
+  Vec2 low = points.front(), high = low;
+  for (const Vec2& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const Vec2 meshes = (high - low) / finest;
   Grid grid{static_cast<std::size_t>(meshes.x()) + 2, static_cast<std::size_t>(meshes.y()) + 2};
   places_.reserve(points.size());
   for (const Vec2& point : points) {
-    const Vec2 at = (point - box.min) / finest;
+    const Vec2 at = (point - low) / finest;
     const auto column = static_cast<std::size_t>(at.x()), row = static_cast<std::size_t>(at.y());
     places_.push_back({static_cast<std::uint32_t>(row * grid.columns + column),
                        static_cast<float>(at.x() - std::floor(at.x())),

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry/polygon.hpp"
 #include "core/numeric/parallel.hpp"
+#include "core/numeric/vec2.hpp"
 
 namespace unicursal::core {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/polygon.hpp"
 #include "core/numeric/long_waves.hpp"
 #include "core/numeric/parallel.hpp"
+#include "core/numeric/vec2.hpp"
 
 namespace unicursal::core {
 

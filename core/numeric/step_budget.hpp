@@ -1,6 +1,6 @@
-// How long the optimisers may go on. core knows no clock: whoever asks for a plan says, between two steps,
-// whether it is enough, and how many steps were taken is written down. The same number of steps gives the
-// same bytes again, on any number of threads.
+// How many steps the optimisers may take. core knows no clock: between two steps the caller of a plan is
+// asked whether the budget is spent, and the number of steps taken is recorded. The same number of steps
+// gives the same bytes again, on any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -10,41 +10,43 @@
 
 namespace unicursal::core {
 
-/// Asked before every step of a stage; false ends the stage. Empty: always true.
+/// Asked before every step of a stage; false ends the stage. An empty function means always true.
 using MayContinue = std::function<bool()>;
 
 class StepBudget {
  public:
-  /// `enough` is asked between steps and may be empty. With a recorded effort it is not asked: stages take
-  /// as many steps as they did then.
-  explicit StepBudget(std::function<bool()> enough = {}, const std::vector<int>* recorded = nullptr)
-      : enough_(std::move(enough)), recorded_(recorded) {}
+  /// `budget_spent` is asked between steps; if it is empty, stages end by themselves. If `recorded` is given,
+  /// `budget_spent` is not asked: every stage takes as many steps as recorded.
+  explicit StepBudget(std::function<bool()> budget_spent = {}, const std::vector<int>* recorded = nullptr)
+      : budget_spent_(std::move(budget_spent)), recorded_(recorded) {}
 
-  /// Begins the next stage. The result refers to this object and is used up before the next stage begins.
-  /// The first `kept` steps are granted even when it is enough: a stage that all before it were for.
+  /// Begins the next stage. The returned function refers to this object and is valid until the stage after it
+  /// begins. The first `kept` steps are always granted, even after the budget is spent, so that the final
+  /// stage can finish.
   MayContinue stage(int kept = 0) {
-    spent_.push_back(0);
-    return [this, kept] { return another(kept); };
+    steps_.push_back(0);
+    return [this, kept] { return may_continue(kept); };
   }
 
-  const std::vector<int>& spent() const { return spent_; }
+  /// The steps that each stage took, in the order in which the stages ran.
+  const std::vector<int>& steps() const { return steps_; }
 
  private:
-  bool another(int kept) {
-    const std::size_t stage = spent_.size() - 1;
+  bool may_continue(int kept) {
+    int& taken = steps_.back();
     if (recorded_ != nullptr) {
-      if (stage >= recorded_->size() || spent_[stage] >= (*recorded_)[stage]) return false;
-    } else if (spent_[stage] >= kept && enough_ && enough_()) {
+      const std::size_t stage = steps_.size() - 1;
+      if (stage >= recorded_->size() || taken >= (*recorded_)[stage]) return false;
+    } else if (taken >= kept && budget_spent_ && budget_spent_()) {
       return false;
     }
-    ++spent_[stage];
+    ++taken;
     return true;
   }
 
-  std::function<bool()> enough_;
+  std::function<bool()> budget_spent_;
   const std::vector<int>* recorded_;
-  /// Per stage, in the order in which they ran.
-  std::vector<int> spent_;
+  std::vector<int> steps_;
 };
 
 }  // namespace unicursal::core

@@ -12,13 +12,14 @@ namespace unicursal::core {
 namespace {
 
 constexpr double fields_per_width = 4;   ///< squares of the direction field per bead width
-constexpr double least_field = 0.1;      ///< ‖V‖ below which a place asks for no direction
-constexpr double rewarded_angle = 0.55;  ///< rad off the field up to which running there is rewarded
-constexpr double crossing_cost = 30;  ///< bead widths · rad², of a material's border (55): before all else
-constexpr double samples_across = 1000;       ///< of a piece, when its directions are summed up
-constexpr double one_direction_share = 0.95;  ///< ‖mean V‖ of a piece whose directions are all alike
+constexpr double least_field = 0.1;      ///< a smaller ‖V‖ asks for no direction
+constexpr double rewarded_angle = 0.55;  ///< angle to the field up to which a run is rewarded, rad
+constexpr double crossing_cost =
+    30;  ///< of a material's border (55), bead widths · rad²: more than all other costs
+constexpr double samples_across = 1000;       ///< a piece, when its directions are summed up
+constexpr double one_direction_share = 0.95;  ///< least ‖mean V‖ of a piece whose directions are all alike
 
-/// An anisotropic zone may choose its direction (52): the one with the fewest turns, along its longest way.
+/// An anisotropic zone may choose its direction (52): its principal axis, which needs the fewest turns.
 std::vector<Zone> with_directions(std::vector<Zone> zones, const Island& island) {
   for (const ZoneRegion& region : island.zones) {
     Pattern& pattern = zones[region.zone].pattern;
@@ -96,7 +97,7 @@ DemandAt Demands::at() const {
     Demand demand;
     if (!field_.empty()) demand.direction = field_.at(p);
     const std::size_t zone = map_.zone_at(p);
-    if (zones_[zone].pattern.kind == PatternKind::isotropic) demand.even_zone = static_cast<int>(zone);
+    if (zones_[zone].pattern.kind == PatternKind::isotropic) demand.even_zone = EvenZoneIndex(zone);
     return demand;
   };
 }
@@ -162,7 +163,7 @@ double principal_axis(const ZoneRegion& region) {
     const Vec2 r = point - center;
     doubled_axis += weight * Vec2(r.x() * r.x() - r.y() * r.y(), 2 * r.x() * r.y());
   }
-  // A square has none: then along x.
+  // A square has no principal axis; then along x.
   return doubled_axis.norm() > 1e-3 * total * total ? direction(doubled_axis) : 0.0;
 }
 

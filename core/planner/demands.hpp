@@ -1,4 +1,5 @@
-// What the zones of one island ask of its curve, in the form that each stage wants it.
+// What the zones of one island ask of its curve, in the form that each stage needs. V is the field of asked
+// directions, in doubled angle (core/README.md, "Notation").
 #pragma once
 
 #include <optional>
@@ -22,19 +23,19 @@ class Demands {
   const DirectionField& field() const { return field_; }
   const ZoneMap& map() const { return map_; }
 
-  /// For the first cycle: running along the field earns, running across it and over a material's border
-  /// costs.
+  /// For the first cycle: a run along the field earns, a run across it or over a material's border costs.
   RunCost first_run_cost() const;
-  /// For the combinatorial optimiser: the same with a cost that is zero along the field (33), (55).
+  /// For the combinatorial optimiser: the cost of an edge, which is zero along the field (33), (55). `weight`
+  /// applies to the field.
   RunCost edge_cost(double weight) const;
-  /// For the combinatorial optimiser: what a place asks.
+  /// For the combinatorial optimiser: what is asked at a point.
   DemandAt at() const;
   /// For fairing: the zones with an orientation objective.
   std::vector<OrientationZone> orientation_zones() const;
 
-  /// Most of the piece is to be aligned.
+  /// Whether most of the piece is to be aligned.
   bool mostly_aligned(const Polygon& piece) const;
-  /// The direction, rad, that nearly all of the piece is to follow; nothing when directions differ.
+  /// The direction, rad, that nearly all of the piece is to follow; nullopt if directions differ.
   std::optional<double> one_direction(const Polygon& piece) const;
 
  private:
@@ -48,7 +49,7 @@ class Demands {
   bool several_materials_ = false;
 };
 
-/// The direction, rad, in which a zone of an island reaches farthest: its principal axis.
+/// The direction, rad, in which a zone of an island extends farthest: its principal axis.
 double principal_axis(const ZoneRegion& region);
 
 }  // namespace unicursal::core

@@ -24,40 +24,42 @@ namespace {
 
 // All measured over the example jobs (tests/bench/run).
 constexpr double seed_distance_in_widths = 2.05;  ///< d ÷ bead width; more cells cost time and crowd strands
-constexpr double rows_of_nodes_above = 1.86;      ///< d ÷ bead width; below, zigzags of nodes fit better
-constexpr double needle_growth = 1.75;            ///< of the needles' length with d ÷ bead width
-// Of the asked length, what the chords of a tour may come to: a tour that is too long crowds its strands.
+constexpr double rows_of_nodes_above = 1.86;      ///< d ÷ bead width; below it, zigzags of nodes fit better
+constexpr double needle_growth = 1.75;            ///< of the needles' length per d ÷ bead width
+// Target length of a tour's chords as a share of the curve's target length: too long a tour crowds its
+// strands.
 constexpr double aligned_length = 0.95, free_length = 1.2;
 constexpr double longest_needle = 2;  ///< in the paper's lengths
-constexpr double fewest_cells = 2.5;  ///< an island of less gets a contour
-constexpr int tries = 8;              ///< with other seeds, before a contour is taken instead
-constexpr double least_half_width = 0.15, most_half_width = 0.3;  ///< bead widths, half of what can be passed
-constexpr std::size_t most_pieces = 50;  ///< of materials in one island, to be joined one by one
-constexpr double speck = 0.05;           ///< square bead widths; no curve of its own below that
-constexpr double most_thin = 0.002;      ///< of a piece of one material that its own curve may leave out
-constexpr double nearly_far = 1.0;       ///< bead widths; where fairing for direction gives up
-// Steps of fairing that a budget never takes away: unfaired E is .107 to .12 and the length 30 % short, after
-// these E is .090 to .095 and the length as asked.
+constexpr double fewest_cells = 2.5;  ///< a smaller island gets a contour
+constexpr int tries = 8;              ///< with other seeds, before a contour is used instead
+constexpr double least_half_width = 0.15,
+                 most_half_width = 0.3;  ///< bead widths; limits of half the least width
+constexpr std::size_t most_pieces = 50;  ///< material pieces of an island that are joined one by one
+constexpr double speck = 0.05;           ///< square bead widths; a smaller piece gets no curve of its own
+constexpr double most_thin = 0.002;      ///< share of a material piece that its own curve may leave out
+constexpr double nearly_far = 1.0;       ///< bead widths; with larger holes, fairing gives up directions
+// Steps of fairing that are always granted: an unfaired curve has a normalised coverage of 0.107 to 0.12 and
+// is 30 % too short; after these steps the coverage is 0.090 to 0.095, and the length is as asked.
 constexpr int kept_for_fairing = 12;
 
-/// What a piece of the island asks, as far as seeds and schedules depend on it.
-struct Wishes {
-  bool aligned = false;                 ///< most of it follows directions
-  std::optional<double> one_direction;  ///< rad, where they are all alike
+/// The directions that a piece of the island asks for, as far as seeds and schedules depend on them.
+struct DirectionDemand {
+  bool aligned = false;                 ///< most of the piece follows directions
+  std::optional<double> one_direction;  ///< rad, if they are all alike
 };
 
-/// Cells grow along the field as much as brings the strands to the asked spacing: with point seeds strands of
-/// zigzags lie d ÷ √3 apart, rows of nodes d ÷ 2, and needles bring them closer. Where the direction is the
-/// same everywhere, a tiling in that direction does better than needles.
-GraphOptions graph_options(const Wishes& wishes, double d, const IslandWork& work) {
+/// Needles or rows that bring the strands to the asked spacing. With point seeds, strands of zigzags lie d ÷
+/// √3 apart and rows of nodes d ÷ 2; needles bring them closer, since cells then grow along the field. If the
+/// direction is the same everywhere, a tiling in that direction is better than needles.
+GraphOptions graph_options(const DirectionDemand& asked, double d, const IslandWork& work) {
   GraphOptions options;
   options.seeds.d = d;
   const double ratio = d / work.width();
-  if (wishes.one_direction) {
+  if (asked.one_direction) {
     const bool rows_of_nodes = ratio > rows_of_nodes_above;
-    options.seeds.rows = *wishes.one_direction + (rows_of_nodes ? std::numbers::pi / 6 : 0.0);
+    options.seeds.rows = *asked.one_direction + (rows_of_nodes ? std::numbers::pi / 6 : 0.0);
     if (!rows_of_nodes) options.seeds.stretch = std::clamp(ratio / std::numbers::sqrt3, 0.85, 1.2);
-  } else if (wishes.aligned) {
+  } else if (asked.aligned) {
     const double length = 1 + needle_growth * (ratio - std::numbers::sqrt3);
     options.needle_length = std::clamp(length, 0.0, longest_needle);
     if (options.needle_length > 0) options.field = &work.demands.field();
@@ -65,15 +67,16 @@ GraphOptions graph_options(const Wishes& wishes, double d, const IslandWork& wor
   return options;
 }
 
-void optimise(Tour& tour, const FillableRegion& part, const Wishes& wishes, IslandWork& work) {
+void optimise(Tour& tour, const FillableRegion& part, const DirectionDemand& asked, IslandWork& work) {
   ShuffleOptions options = work.settings.shuffle;
-  options.weights.length = area(part.region) / work.width() * (wishes.aligned ? aligned_length : free_length);
-  if (wishes.aligned) {
+  options.weights.length = area(part.region) / work.width() * (asked.aligned ? aligned_length : free_length);
+  if (asked.aligned) {
     options.hot = work.settings.aligned_hot;
     options.cold = work.settings.aligned_cold;
   }
-  if (wishes.one_direction) options.sweeps *= work.settings.one_direction_sweeps;
-  options.another = work.pace.stage();
+  if (asked.one_direction) options.sweeps *= work.settings.one_direction_sweeps;
+  options.may_continue = work.budget.stage();
+  options.workers = &work.workers;
   const ShuffleReport report = shuffle(
       tour, work.demands.at(), work.demands.edge_cost(work.settings.edge_alignment), options, work.random);
   work.plan.operations.looks += report.looks;
@@ -81,46 +84,48 @@ void optimise(Tour& tour, const FillableRegion& part, const Wishes& wishes, Isla
   work.plan.operations.accepted += report.accepted;
 }
 
-std::optional<Draft> cycle_draft(const FillableRegion& part, double d, IslandWork& work) {
-  const Wishes wishes{work.demands.mostly_aligned(part.region), work.demands.one_direction(part.region)};
+std::optional<RegionCurve> curve_of_cycle(const FillableRegion& part, double d, IslandWork& work) {
+  const DirectionDemand asked{work.demands.mostly_aligned(part.region),
+                              work.demands.one_direction(part.region)};
   for (int attempt = 0; attempt < tries; ++attempt) {
     std::optional<CellGraph> graph;
     {
       const Stopwatch watch(work.plan.graph);
-      graph = make_cell_graph(part.domain, graph_options(wishes, d, work), work.random);
+      graph = make_cell_graph(part.domain, graph_options(asked, d, work), work.random);
     }
     if (!graph) continue;
     const Stopwatch watch(work.plan.cycle);
     std::optional<Cycle> cycle = first_cycle(*graph, work.demands.first_run_cost());
     if (!cycle) continue;
-    Draft draft;
+    RegionCurve filled;
     if (work.options.stages != nullptr) {
-      draft.cycles.push_back(drawn(*graph));
-      draft.cycles.back().first = drawn(cycle->tour).vertices;
+      filled.cycles.push_back(drawn(*graph));
+      filled.cycles.back().first = drawn(cycle->tour).vertices;
     }
-    optimise(cycle->tour, part, wishes, work);
-    draft.curve = drawn(cycle->tour);
-    draft.split_and_reconnect = cycle->split_and_reconnect;
-    draft.doubled_edges = cycle->doubled_edges;
-    for (CycleStages& stages : draft.cycles) stages.optimised = draft.curve.vertices;
-    if (sound(draft.curve, part.region, work.width())) return draft;
+    optimise(cycle->tour, part, asked, work);
+    filled.curve = drawn(cycle->tour);
+    filled.split_and_reconnect = cycle->split_and_reconnect;
+    filled.doubled_edges = cycle->doubled_edges;
+    for (CycleStages& stages : filled.cycles) stages.optimised = filled.curve.vertices;
+    if (sound(filled.curve, part.region, work.width())) return filled;
   }
   return std::nullopt;
 }
 
-std::optional<Draft> first_draft(const FillableRegion& part, IslandWork& work) {
+std::optional<RegionCurve> unfaired_curve(const FillableRegion& part, IslandWork& work) {
   const double d = work.options.seed_distance.value_or(seed_distance_in_widths * work.width());
   if (area(part.domain) > fewest_cells * std::sqrt(3) / 2 * d * d) {
-    if (std::optional<Draft> draft = cycle_draft(part, d, work)) return draft;
+    if (std::optional<RegionCurve> filled = curve_of_cycle(part, d, work)) return filled;
   }
   const Stopwatch watch(work.plan.graph);
-  if (std::optional<Curve> curve = contour(part.region, work.width())) return Draft{std::move(*curve)};
+  if (std::optional<Curve> curve = contour(part.region, work.width())) return RegionCurve{std::move(*curve)};
   return std::nullopt;
 }
 
-/// Fairing, unless it breaks something, which only rounding could make it do. Strands held straight may leave
-/// a hole where their number does not fit the width; coverage then goes before direction.
-void fair_draft(Draft& draft, const FillableRegion& part, IslandWork& work) {
+/// Fairs the curve. The result is discarded if it is not sound, which only rounding can cause. Strands that
+/// are held straight may leave a hole where their number does not fit the width; then the curve is faired
+/// again without directions.
+void fair_curve(RegionCurve& filled, const FillableRegion& part, IslandWork& work) {
   const Stopwatch watch(work.plan.fairing);
   const double w = work.width();
   FairingOptions fairing = work.settings.fairing;
@@ -130,26 +135,27 @@ void fair_draft(Draft& draft, const FillableRegion& part, IslandWork& work) {
   fairing.field = &work.demands.field();
   fairing.workers = &work.workers;
   fairing.zones = work.demands.orientation_zones();
-  fairing.another = work.pace.stage(kept_for_fairing);
-  Curve result = fair(smoothed(draft.curve, part.region, w, &work.workers), part.region, fairing).curve;
+  fairing.may_continue = work.budget.stage(kept_for_fairing);
+  Curve result = fair(smoothed(filled.curve, part.region, w, &work.workers), part.region, fairing).curve;
   if (!work.demands.field().empty() &&
       look_for_holes(result, part.region, w, &work.workers).farthest > nearly_far * w) {
     fairing.field = nullptr;
-    fairing.another = work.pace.stage();
+    fairing.may_continue = work.budget.stage();
     result = fair(result, part.region, fairing).curve;
   }
-  draft.faired = sound(result, part.region, w);
-  if (draft.faired) draft.curve = std::move(result);
+  filled.faired = sound(result, part.region, w);
+  if (filled.faired) filled.curve = std::move(result);
 }
 
-/// Adds what a part's making has to tell to that of the whole.
-void take_over(Draft& sum, Draft& part) {
+/// Adds the figures of a part to those of the whole.
+void add_figures(RegionCurve& sum, RegionCurve& part) {
   sum.split_and_reconnect += part.split_and_reconnect;
   sum.doubled_edges += part.doubled_edges;
   std::move(part.cycles.begin(), part.cycles.end(), std::back_inserter(sum.cycles));
 }
 
-/// The pieces of the island that hold one material each, specks aside: beads that pass over those take care.
+/// The pieces of the island that hold one material each. Specks are left out: beads of other materials cover
+/// them.
 std::vector<Polygon> material_pieces(const Island& island, const std::vector<Zone>& zones, double w) {
   std::map<std::size_t, Region> by_material;
   for (const ZoneRegion& region : island.zones) {
@@ -163,23 +169,23 @@ std::vector<Polygon> material_pieces(const Island& island, const std::vector<Zon
   return pieces;
 }
 
-/// One curve that crosses from material to material as rarely as can be, or nothing where a piece is too thin
-/// for a curve of its own or cannot be joined to the others.
-std::optional<Draft> draft_by_material(const FillableRegion& part, IslandWork& work) {
+/// One curve that crosses between materials as rarely as possible. Returns nullopt if a piece is too thin for
+/// a curve of its own or cannot be joined to the others.
+std::optional<RegionCurve> fill_by_material(const FillableRegion& part, IslandWork& work) {
   const double w = work.width();
   const std::vector<Polygon> pieces = material_pieces(work.island, work.zones, w);
   if (pieces.size() < 2 || pieces.size() > most_pieces) return std::nullopt;
-  Draft sum;
+  RegionCurve sum;
   std::vector<Curve> curves;
   for (const Polygon& piece : pieces) {
     const Fillable parts = fillable(piece, w, half_width(work.options));
     if (parts.too_thin > most_thin * area(piece) || parts.regions.size() != 1) return std::nullopt;
-    std::optional<Draft> draft = first_draft(parts.regions.front(), work);
-    if (!draft) return std::nullopt;
-    fair_draft(*draft, parts.regions.front(), work);
-    if (!draft->faired) return std::nullopt;
-    take_over(sum, *draft);
-    curves.push_back(std::move(draft->curve));
+    std::optional<RegionCurve> filled = unfaired_curve(parts.regions.front(), work);
+    if (!filled) return std::nullopt;
+    fair_curve(*filled, parts.regions.front(), work);
+    if (!filled->faired) return std::nullopt;
+    add_figures(sum, *filled);
+    curves.push_back(std::move(filled->curve));
   }
   const Stopwatch watch(work.plan.fairing);
   std::optional<Curve> one = joined(std::move(curves), part.region, w);
@@ -189,16 +195,18 @@ std::optional<Draft> draft_by_material(const FillableRegion& part, IslandWork& w
   return sum;
 }
 
-/// Contours and fill in one curve. `pieces` are the parts of one material each; a single one stands for all.
-std::optional<Draft> draft_with_perimeters(const FillableRegion& part, const std::vector<Polygon>& pieces,
-                                           int count, IslandWork& work) {
-  Draft sum;
-  const FillRegion fill = [&](const FillableRegion& region) -> std::optional<Curve> {
-    std::optional<Draft> draft = first_draft(region, work);
-    if (draft) fair_draft(*draft, region, work);
-    if (!draft || !draft->faired) return std::nullopt;
-    take_over(sum, *draft);
-    return std::move(draft->curve);
+/// Contours and fill in one curve. `pieces` are the parts of one material each; a single piece stands for the
+/// whole.
+std::optional<RegionCurve> fill_with_perimeters(const FillableRegion& part,
+                                                const std::vector<Polygon>& pieces, int count,
+                                                IslandWork& work) {
+  RegionCurve sum;
+  const FillFunction fill = [&](const FillableRegion& region) -> std::optional<Curve> {
+    std::optional<RegionCurve> filled = unfaired_curve(region, work);
+    if (filled) fair_curve(*filled, region, work);
+    if (!filled || !filled->faired) return std::nullopt;
+    add_figures(sum, *filled);
+    return std::move(filled->curve);
   };
   std::optional<Outlined> one =
       with_perimeters(part.region, pieces, {count, work.width(), half_width(work.options)}, fill);
@@ -209,15 +217,18 @@ std::optional<Draft> draft_with_perimeters(const FillableRegion& part, const std
   return sum;
 }
 
-/// As many contours as can be had: by material, else around all of them, else half as many, down to none.
-std::optional<Draft> draft_with_perimeters(const FillableRegion& part, bool by_material, IslandWork& work) {
+/// As many contours as possible: by material, else around all materials, else half as many, and so on.
+/// Returns nullopt if no contour fits.
+std::optional<RegionCurve> fill_with_perimeters(const FillableRegion& part, bool by_material,
+                                                IslandWork& work) {
   const std::vector<Polygon> pieces =
       by_material ? material_pieces(work.island, work.zones, work.width()) : std::vector<Polygon>{};
   for (int count = work.options.perimeters; count > 0; count /= 2) {
     if (pieces.size() > 1 && pieces.size() <= most_pieces) {
-      if (std::optional<Draft> found = draft_with_perimeters(part, pieces, count, work)) return found;
+      if (std::optional<RegionCurve> found = fill_with_perimeters(part, pieces, count, work)) return found;
     }
-    if (std::optional<Draft> found = draft_with_perimeters(part, {part.region}, count, work)) return found;
+    if (std::optional<RegionCurve> found = fill_with_perimeters(part, {part.region}, count, work))
+      return found;
   }
   return std::nullopt;
 }
@@ -234,14 +245,14 @@ bool sound(const Curve& curve, const Polygon& region, double bead_width) {
          segments_outside(curve, BorderIndex(region, bead_width)) == 0;
 }
 
-std::optional<Draft> draft(const FillableRegion& part, bool by_material, IslandWork& work) {
+std::optional<RegionCurve> fill_region(const FillableRegion& part, bool by_material, IslandWork& work) {
   by_material = by_material && work.island.zones.size() > 1;
-  if (std::optional<Draft> found = draft_with_perimeters(part, by_material, work)) return found;
+  if (std::optional<RegionCurve> found = fill_with_perimeters(part, by_material, work)) return found;
   if (by_material) {
-    if (std::optional<Draft> found = draft_by_material(part, work)) return found;
+    if (std::optional<RegionCurve> found = fill_by_material(part, work)) return found;
   }
-  std::optional<Draft> found = first_draft(part, work);
-  if (found) fair_draft(*found, part, work);
+  std::optional<RegionCurve> found = unfaired_curve(part, work);
+  if (found) fair_curve(*found, part, work);
   return found;
 }
 

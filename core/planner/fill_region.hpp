@@ -23,31 +23,31 @@ struct IslandWork {
   const Demands& demands;
   Settings settings;
   Random random;
-  StepBudget pace;
-  IslandPlan plan;  ///< times and figures gather here
+  StepBudget budget;
+  IslandPlan plan;  ///< receives times and figures
   Workers workers;
 
   double width() const { return options.bead_width; }
 };
 
-/// A closed curve on its way through the stages.
-struct Draft {
+/// A closed curve that fills a region, and how it was made.
+struct RegionCurve {
   Curve curve;
   std::size_t split_and_reconnect = 0, doubled_edges = 0;
   bool faired = false;
   int perimeters = 0;                    ///< contours laid
-  std::vector<CycleStages> cycles = {};  ///< what the curve was made from, if the options want it kept
+  std::vector<CycleStages> cycles = {};  ///< earlier stages of the curve, if the options ask for them
 };
 
-/// mm: half the least width that can be laid.
+/// Half the least width that can be laid, mm.
 double half_width(const PlanOptions& options);
 
-/// At least 5 vertices, simple, inside.
+/// Whether the curve has at least 5 vertices, is simple, and lies inside the region.
 bool sound(const Curve& curve, const Polygon& region, double bead_width);
 
-/// One closed curve through the region, with the contours that the options ask for. With `by_material` each
-/// material gets its own curve where there is room, and they are joined. Nothing when not even a contour
-/// fits.
-std::optional<Draft> draft(const FillableRegion& part, bool by_material, IslandWork& work);
+/// One closed curve through the region, with the contours that the options ask for. If `by_material` is true,
+/// each material gets its own curve where there is room, and the curves are joined. Returns nullopt if not
+/// even a contour fits.
+std::optional<RegionCurve> fill_region(const FillableRegion& part, bool by_material, IslandWork& work);
 
 }  // namespace unicursal::core

@@ -10,8 +10,8 @@ namespace {
 constexpr double arc_tolerance = 0.005;  ///< of rounded offsets
 constexpr double inner_margin = 0.06;    ///< between a region's border and its domain
 constexpr double corner_area = 0.25;     ///< a thin piece of no more than this is a corner, not a spike
-constexpr double thin_piece = 1.5;       ///< what is narrower than two beads counts as thin above this area
-constexpr double thin_share = 0.04;      ///< of the region's area: above it the region is thin
+constexpr double thin_piece = 1.5;       ///< a piece narrower than two beads counts as thin above this area
+constexpr double thin_share = 0.04;      ///< a region with a larger share of thin area is thin
 constexpr double least_domain = 1e-3;    ///< a smaller domain, or hole of one, is rounding dust
 
 Region without_thin_pieces(const Polygon& island, const Region& thin, double least_area) {
@@ -28,7 +28,8 @@ Region domains_of(const Region& region, double half_width, double w) {
                           arc_tolerance * w);
   const double least = least_domain * w * w;
   std::erase_if(domains, [&](const Polygon& domain) { return area(domain) < least; });
-  // Where growing back closes a gap; a hole round a real one has at least the margin's width.
+  // Removes holes that remain where growing back closes a gap; a hole around a real one has at least the
+  // margin's width.
   for (Polygon& domain : domains)
     std::erase_if(domain.holes, [&](const Ring& hole) { return std::abs(signed_area(hole)) < least; });
   return domains;
@@ -42,8 +43,8 @@ bool mostly_thin(const Polygon& region, double w) {
   return thin > thin_share * area(region);
 }
 
-/// Pairs regions with the domains inside them. A region with several domains is cut down to what surrounds
-/// each, so that their curves cannot meet.
+/// Pairs regions with the domains inside them. A region with several domains is reduced to the surroundings
+/// of each domain, so that their curves cannot meet.
 void pair_up(const Region& regions, double half_width, double w, std::vector<FillableRegion>& result) {
   for (const Polygon& region : regions) {
     const Region domains = domains_of({region}, half_width, w);

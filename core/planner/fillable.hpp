@@ -1,4 +1,4 @@
-// Which parts of an island a bead can fill at all, and where its curve may start.
+// Which parts of an island a bead can fill, and in which domain the curve is first laid out.
 #pragma once
 
 #include <vector>
@@ -7,20 +7,20 @@
 
 namespace unicursal::core {
 
-/// One closed curve's share of an island.
+/// The part of an island that one closed curve fills.
 struct FillableRegion {
-  Polygon region;     ///< what the curve fills: the island, or a piece of it between places too thin to pass
-  Polygon domain;     ///< strictly inside `region`, without spikes: the cell graph is built here (paper's P)
-  bool thin = false;  ///< much of it is narrower than two beads: there and back already fills it
+  Polygon region;  ///< the island, or a piece of it between places too thin to pass
+  Polygon domain;  ///< strictly inside `region`, without spikes: the cell graph is built here (the paper's P)
+  bool thin = false;  ///< much of it is narrower than two beads: a run there and back already fills it
 };
 
 struct Fillable {
   std::vector<FillableRegion> regions;
-  double too_thin = 0;  ///< mm², of the island that is left out
+  double too_thin = 0;  ///< part of the island that is left out, mm²
 };
 
 /// `half_width` mm: half the least width that can be laid; `bead_width` mm. Spikes and necks narrower than
-/// twice `half_width` are left out when they hold more than a corner's worth of area; the rounding of normal
+/// twice `half_width` are left out if their area is larger than that of a corner; the rounding of normal
 /// corners stays in.
 Fillable fillable(const Polygon& island, double bead_width, double half_width);
 

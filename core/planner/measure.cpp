@@ -16,10 +16,10 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double far = 1.2;        ///< bead widths; farther than that is a hole in the layer
-constexpr double far_samples = 8;  ///< lattice squares per bead width when looking for such
+constexpr double far = 1.2;        ///< bead widths; a point farther from the curve lies in a hole
+constexpr double far_samples = 8;  ///< lattice squares per bead width for the search for holes
 
-/// The segments within `reach` mm of a vertex along the curve, with the length of each that lies there.
+/// The segments within `reach` mm of a vertex along the curve, each with its length within reach.
 std::vector<std::pair<std::size_t, double>> around(const Curve& curve, std::size_t vertex, double reach) {
   const auto length = [&](std::size_t i) {
     return (curve.vertices[curve.after(i)] - curve.vertices[i]).norm();
@@ -88,10 +88,7 @@ void measure_path(const BeadPath& path, const std::vector<Zone>& zones, double b
 
 Holes look_for_holes(const Curve& curve, const Polygon& region, double bead_width, Workers* workers) {
   const double w = bead_width;
-  std::vector<Segment> segments(curve.size());
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    segments[i] = {curve.vertices[i], curve.vertices[curve.after(i)]};
-  }
+  const std::vector<Segment> segments = curve.segments();
   Holes holes;
   for (const Polygon& piece : opened({region}, w / 2, 0.005 * w)) {
     const double extent = bounds(piece).size().maxCoeff();

@@ -19,9 +19,9 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double strokes_every = 1.5;  ///< bead widths, in a picture of the asked directions
+constexpr double strokes_every = 1.5;  ///< bead widths between the samples of the asked directions
 
-void tell_widths(PlannedCurve& planned, const PlanOptions& options) {
+void measure_widths(PlannedCurve& planned, const PlanOptions& options) {
   const std::vector<double> widths = widths_around(planned.path, options.bead_width);
   for (std::size_t i = 0; i < widths.size(); ++i) {
     if (widths[i] < options.min_bead_width) planned.narrow_length += planned.path.length(i);
@@ -30,12 +30,12 @@ void tell_widths(PlannedCurve& planned, const PlanOptions& options) {
   }
 }
 
-/// Where a curve runs straight, as it does along straight borders and after a few steps of fairing only,
-/// every question to the exact diagram is a close call that takes rational numbers to decide: 60 s instead of
-/// 1 s for 30 000 vertices. So the vertices there leave the line by less than anybody could measure.
+/// Where a curve runs straight, as along straight borders or after few steps of fairing, the exact diagram
+/// has to decide every predicate with rational numbers: 60 s instead of 1 s for 30 000 vertices. So vertices
+/// on straight lines are moved by amounts too small to matter.
 void leave_straight_lines(Ring& ring, double bead_width, std::uint64_t seed) {
   constexpr double straight = 1e-3;  // sine of the turn
-  constexpr double most = 2e-4;      // bead widths, along each axis
+  constexpr double most = 2e-4;      // greatest move along each axis, bead widths
   Random random(seed);
   const Ring before = ring;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -46,25 +46,25 @@ void leave_straight_lines(Ring& ring, double bead_width, std::uint64_t seed) {
   }
 }
 
-PlannedCurve finish(Draft& draft, const FillableRegion& part, IslandWork& work) {
+PlannedCurve finish(RegionCurve& filled, const FillableRegion& part, IslandWork& work) {
   const Stopwatch watch(work.plan.widths);
   const double w = work.width();
-  leave_straight_lines(draft.curve.vertices, w, work.options.seed);
-  const SegmentDiagram diagram = segment_diagram(draft.curve.vertices, part.region, &work.workers);
+  leave_straight_lines(filled.curve.vertices, w, work.options.seed);
+  const SegmentDiagram diagram = segment_diagram(filled.curve.vertices, part.region, &work.workers);
   PlannedCurve planned;
   planned.area = area(part.region);
-  planned.path = along_zones(draft.curve, segment_areas(diagram, draft.curve, w), work.island);
-  planned.objectives = objectives(diagram, draft.curve, planned.area, w, work.demands.field());
+  planned.path = along_zones(filled.curve, segment_areas(diagram, filled.curve, w), work.island);
+  planned.objectives = objectives(diagram, filled.curve, planned.area, w, work.demands.field());
   measure_path(planned.path, work.zones, w, planned.objectives);
-  tell_widths(planned, work.options);
+  measure_widths(planned, work.options);
   planned.zone_crossings = material_changes(planned.path, work.zones);
-  planned.self_intersections = self_intersections(draft.curve);
-  planned.outside_segments = segments_outside(draft.curve, BorderIndex(part.region, w));
-  planned.faired = draft.faired;
-  planned.perimeters = draft.perimeters;
-  planned.split_and_reconnect = draft.split_and_reconnect;
-  planned.doubled_edges = draft.doubled_edges;
-  const Holes holes = look_for_holes(draft.curve, part.region, w, &work.workers);
+  planned.self_intersections = self_intersections(filled.curve);
+  planned.outside_segments = segments_outside(filled.curve, BorderIndex(part.region, w));
+  planned.faired = filled.faired;
+  planned.perimeters = filled.perimeters;
+  planned.split_and_reconnect = filled.split_and_reconnect;
+  planned.doubled_edges = filled.doubled_edges;
+  const Holes holes = look_for_holes(filled.curve, part.region, w, &work.workers);
   planned.farthest = holes.farthest;
   work.plan.far_area += holes.area;
   return planned;
@@ -97,7 +97,7 @@ IslandPlan IslandPlanner::plan(const Island& island, double z, const PlanOptions
                   *demands,
                   settings(options.preset, options.quality),
                   Random(options.seed),
-                  StepBudget(options.enough, recorded),
+                  StepBudget(options.budget_spent, recorded),
                   std::move(times),
                   Workers(options.threads)};
   work.plan.unfilled_area = parts.too_thin;
@@ -105,7 +105,7 @@ IslandPlan IslandPlanner::plan(const Island& island, double z, const PlanOptions
     *options.stages = {asked_directions(demands->field(), island.outline, strokes_every * options.bead_width),
                        {}};
   for (const FillableRegion& part : parts.regions) {
-    std::optional<Draft> curve = draft(part, parts.regions.size() == 1, work);
+    std::optional<RegionCurve> curve = fill_region(part, parts.regions.size() == 1, work);
     if (!curve) {
       work.plan.unfilled_area += area(part.region);
       continue;
@@ -114,7 +114,7 @@ IslandPlan IslandPlanner::plan(const Island& island, double z, const PlanOptions
     if (options.stages != nullptr)
       std::move(curve->cycles.begin(), curve->cycles.end(), std::back_inserter(options.stages->cycles));
   }
-  work.plan.effort = work.pace.spent();
+  work.plan.effort = work.budget.steps();
   return std::move(work.plan);
 }
 

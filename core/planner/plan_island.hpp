@@ -9,16 +9,17 @@
 
 namespace unicursal::core {
 
-/// Plans the islands of one part. Keeps what its zones ask for: direction files are read once.
+/// Plans the islands of one part. Direction files of its zones are read once.
 class IslandPlanner {
  public:
   /// Throws FileError or ModelError for a direction file that cannot be used.
   explicit IslandPlanner(std::vector<Zone> zones);
 
-  /// Never throws for a valid island, however small or odd; what cannot be filled is in `unfilled_area`.
-  /// `z` mm is the height of the cut. Deterministic for equal arguments; may be called from several threads.
+  /// Never throws for a valid island, however small or odd; `unfilled_area` holds the part that cannot be
+  /// filled. `z` mm is the height of the cut. Deterministic for equal arguments; may be called from several
+  /// threads.
   IslandPlan plan(const Island& island, double z, const PlanOptions& options) const;
-  /// Whether any of it is wide enough for a curve; much quicker than planning it.
+  /// Whether any part of the island is wide enough for a curve; much quicker than planning it.
   bool fits(const Island& island, const PlanOptions& options) const;
 
  private:
@@ -27,7 +28,7 @@ class IslandPlanner {
   std::shared_ptr<const Directions> directions_;
 };
 
-/// The same for a single island at z = 0.
+/// Plans a single island at z = 0.
 IslandPlan plan_island(const Island& island, const std::vector<Zone>& zones, const PlanOptions& options);
 
 }  // namespace unicursal::core

@@ -35,7 +35,7 @@ Settings paper() {
 Settings settings(Preset preset, double quality) {
   Settings s = preset == Preset::paper ? paper() : Settings{};
   s.shuffle.sweeps = scaled(s.shuffle.sweeps, quality);
-  // The curve hardly changes after these; more than twice as long is wasted.
+  // The curve hardly changes after these iterations; more than twice as many would be wasted.
   s.fairing.coarse_iterations = scaled(s.fairing.coarse_iterations, std::min(quality, 2.0));
   s.fairing.fine_iterations = scaled(s.fairing.fine_iterations, std::min(quality, 2.0));
   return s;

@@ -1,4 +1,4 @@
-// Weights and lengths of runs of the two optimisers, by name.
+// Weights and run lengths of the two optimisers, by name.
 #pragma once
 
 #include "core/curve/fairing.hpp"
@@ -9,11 +9,13 @@ namespace unicursal::core {
 
 struct Settings {
   ShuffleOptions shuffle;
-  FairingOptions fairing;       ///< without what depends on the island
-  double edge_alignment = 0.1;  ///< weight of the alignment of edges against that of chords
-  // Where directions are asked for, strands order themselves at one temperature and freeze below it.
+  FairingOptions fairing;       ///< without the fields that depend on the island
+  double edge_alignment = 0.1;  ///< weight of the alignment of edges, relative to that of chords
+  // First and last temperature where directions are asked for, mean edge lengths · rad²: strands order
+  // themselves in between and freeze below.
   double aligned_hot = 0.3, aligned_cold = 0.15;
-  int one_direction_sweeps = 10;  ///< times as many where there is one direction: order is far to go to
+  int one_direction_sweeps =
+      10;  ///< factor on the sweeps of islands with one direction, which take longer to order
 };
 
 /// `quality` scales how long the optimisers run; 1 is the default, more is better and slower.

@@ -6,7 +6,7 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double least_asked = 0.15;  ///< ‖V‖ below which a place asks for no direction
+constexpr double least_asked = 0.15;  ///< a smaller ‖V‖ asks for no direction
 
 }  // namespace
 
@@ -28,14 +28,8 @@ std::vector<AskedDirection> asked_directions(const DirectionField& field, const 
 
 CycleStages drawn(const CellGraph& graph) {
   CycleStages stages;
-  stages.nodes = graph.position;
-  for (std::size_t e = 0; e < graph.edge_count(); ++e) {
-    const auto half = static_cast<HalfEdgeIndex>(2 * e);
-    Polyline line{graph.position[static_cast<std::size_t>(graph.origin(half))]};
-    graph.append_bends(half, line);
-    line.push_back(graph.position[static_cast<std::size_t>(graph.target(half))]);
-    stages.edges.push_back(std::move(line));
-  }
+  stages.nodes = graph.position.values();
+  for (const EdgeIndex e : graph.edges()) stages.edges.push_back(graph.line(PlanarGraph::forward(e)));
   for (const Segment& needle : graph.needles) stages.needles.push_back({needle.a, needle.b});
   return stages;
 }

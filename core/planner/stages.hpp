@@ -1,4 +1,4 @@
-// What the stages of one island leave behind (paper, Figure 2), as points and lines to be drawn. mm, radians.
+// The results of the stages of one island (paper, Figure 2), as points and lines to be drawn. mm, radians.
 #pragma once
 
 #include <optional>
@@ -20,25 +20,25 @@ struct AskedDirection {
   std::optional<double> angle;
 };
 
-/// Of one curve before it is faired, and joined to others where there are several.
+/// The stages of one curve before it is faired (and joined to others if there are several).
 struct CycleStages {
-  std::vector<Vec2> nodes;        ///< of the cell graph; it has three edges at each
+  std::vector<Vec2> nodes;        ///< of the cell graph, with three edges each
   std::vector<Polyline> edges;    ///< between cells, and around them
-  std::vector<Polyline> needles;  ///< that the cells belong to; the two ends of a point seed are the same
+  std::vector<Polyline> needles;  ///< one per cell; both ends of a point seed are the same
   Ring first;                     ///< the first Hamiltonian cycle, through all nodes
-  Ring optimised;                 ///< the same after the local operations
+  Ring optimised;                 ///< the cycle after the local operations
 };
 
 struct Stages {
   std::vector<AskedDirection> field;
-  std::vector<CycleStages> cycles;  ///< none for an island that only a contour fits in
+  std::vector<CycleStages> cycles;  ///< empty for an island in which only a contour fits
 };
 
 /// Points `step` mm apart in the polygon.
 std::vector<AskedDirection> asked_directions(const DirectionField& field, const Polygon& polygon,
                                              double step);
 
-/// The graph's part of it.
+/// The nodes, edges and needles of a cell graph.
 CycleStages drawn(const CellGraph& graph);
 
 }  // namespace unicursal::core

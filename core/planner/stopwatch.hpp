@@ -20,7 +20,7 @@ class Stopwatch {
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
-  /// Of this thread, s.
+  /// Processor time of this thread, s.
   static double cpu() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

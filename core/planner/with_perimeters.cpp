@@ -11,11 +11,11 @@ namespace {
 
 // In bead widths, or their squares.
 constexpr double arc_tolerance = 0.005;  ///< of rounded offsets
-constexpr double least_inner = 0.8;      ///< width of what is filled behind a band
+constexpr double least_inner = 0.8;      ///< least width of the fill behind a band
 constexpr double hair = 0.02;            ///< half the width of differences that are rounding
 constexpr double dust = 0.02;            ///< smaller pieces are rounding
-constexpr double most_thin = 0.002;      ///< of a piece's area that may be left out
-// Prices of joints: the outermost contour is opened once if that will do, borders are crossed even more
+constexpr double most_thin = 0.002;      ///< share of a piece's area that may be left out
+// Prices of joints: the outermost contour is opened only once if possible, and borders are crossed even more
 // rarely.
 constexpr double price_of_outermost = 1, price_of_border = 10;
 
@@ -26,7 +26,7 @@ struct Strand {
   bool outermost = false;
 };
 
-/// Contours of a piece, and what they leave.
+/// The contours of a piece, and the area that they leave.
 struct Share {
   std::vector<Strand> strands;
   Region inside;
@@ -48,12 +48,14 @@ Share along_whole_border(const Polygon& island, const PerimeterOptions& options)
   return share;
 }
 
-/// Where a disc reaches; without the hairs that rounding leaves along edges, and which link what is apart.
+/// The part of a region that a disc reaches, without the hairs along edges that rounding leaves and that
+/// would connect separate areas.
 Region disc_reach(const Region& region, double radius, double w) {
   return offset(offset(region, -radius, arc_tolerance * w), radius, arc_tolerance * w);
 }
 
-/// Loops in the part of the piece that lies along the island's outline; where none fits it stays to the fill.
+/// Lays loops in the part of the piece along the island's outline; the fill gets the places where no loop
+/// fits.
 Share along_share_of_outline(const Polygon& piece, const Polygon& island, const PerimeterOptions& options) {
   const double w = options.bead_width;
   const int loops = (options.count + 1) / 2;
@@ -71,9 +73,9 @@ Share along_share_of_outline(const Polygon& piece, const Polygon& island, const 
   return share;
 }
 
-/// Adds the curves that fill what is inside. False where that fails.
+/// Adds the curves that fill the inside. Returns false if that fails.
 bool fill_inside(Share& share, double most_left_out, const PerimeterOptions& options,
-                 const FillRegion& fill) {
+                 const FillFunction& fill) {
   const double w = options.bead_width;
   double left_out = 0;
   for (const Polygon& region : share.inside) {
@@ -102,7 +104,7 @@ std::optional<Curve> joined_strands(std::vector<Strand> strands, const Polygon& 
 }  // namespace
 
 std::optional<Outlined> with_perimeters(const Polygon& island, const std::vector<Polygon>& pieces,
-                                        const PerimeterOptions& options, const FillRegion& fill) {
+                                        const PerimeterOptions& options, const FillFunction& fill) {
   std::vector<Strand> strands;
   int depth = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -8,7 +8,7 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double least_piece = 1e-3;  ///< mm; a shorter piece stays with its neighbour
+constexpr double least_piece = 1e-3;  ///< mm; a shorter piece is not cut off its neighbour
 
 }  // namespace
 

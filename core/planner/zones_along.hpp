@@ -1,4 +1,4 @@
-// Which zone each stretch of a curve runs through (paper (9): new vertices where it meets a zone's border).
+// Which zone each stretch of a curve runs through (paper (9): the curve gets new vertices at zone borders).
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace unicursal::core {
 
 /// Cuts the segments of `curve` at the borders of the island's zones. `areas` (mm², one per segment) are
-/// shared out in proportion to length, so that a bead keeps its width across the border.
+/// divided in proportion to length, so that a bead keeps its width across the border.
 BeadPath along_zones(const Curve& curve, const std::vector<double>& areas, const Island& island);
 
 /// How often the closed path passes from one material to another.

@@ -40,8 +40,12 @@ std::string listed(const std::vector<std::string>& items, std::size_t limit) {
   return result;
 }
 
-std::string at_point(const Vec2& point) {
-  return fmt::format("({:.4g}, {:.4g}) mm", point.x(), point.y());
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
 }
 
 void Warnings::add(std::string sentence) {

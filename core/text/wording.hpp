@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/geometry/polygon.hpp"
-
 namespace unicursal::core {
 
 /// Text from a file in quotes: at most 40 bytes of it, control characters shown as '?'.
@@ -16,8 +14,8 @@ std::string in_quotes(std::string_view text);
 /// "a, b and 3 more": at most `limit` items; "nothing" for none.
 std::string listed(const std::vector<std::string>& items, std::size_t limit = 12);
 
-/// "(12.3, 4.56) mm"
-std::string at_point(const Vec2& point);
+/// `text` with the letters A to Z in lower case; other bytes stay, and so does their number.
+std::string lower(std::string_view text);
 
 /// Keeps each sentence once and at most 20 of them, so that a hostile file cannot flood the terminal.
 class Warnings {

@@ -35,7 +35,4 @@ class Dialect {
   Mixture as_written(const Mixture& mixture) const { return mixture.quantised(limits().mixture_decimals); }
 };
 
-/// The dialect of a profile's `firmware` key. Throws core::DataError for one that is not spoken.
-const Dialect& dialect_named(const std::string& firmware);
-
 }  // namespace unicursal::gcode

@@ -2,9 +2,9 @@
 
 #include <cassert>
 
+#include "firmware_gcode/dialect/common_lines.hpp"
 #include "firmware_gcode/dialect/number.hpp"
 #include "firmware_gcode/interruption/aside.hpp"
-#include "firmware_gcode/toolpath/job_frame.hpp"
 
 namespace unicursal::gcode {
 namespace {

@@ -2,8 +2,8 @@
 
 namespace unicursal::gcode {
 
-WrittenTool calibrated(const Mixture& wanted, const std::array<double, max_feeders>& factors,
-                       const Dialect& dialect) {
+CalibratedMixture calibrated(const Mixture& wanted, const std::array<double, max_feeders>& factors,
+                             const Dialect& dialect) {
   std::array<double, max_feeders> shares = wanted.shares();
   for (std::size_t i = 0; i < max_feeders; ++i) shares[i] *= factors[i];
   const Mixture written = dialect.as_written(Mixture(shares));

@@ -9,15 +9,15 @@
 
 namespace unicursal::gcode {
 
-/// How a mixture is told to the firmware so that it comes out.
-struct WrittenTool {
-  Mixture written;    ///< what the firmware is told
-  Mixture delivered;  ///< what leaves the nozzle then
+/// A mixture as it is written to the firmware, and what comes of it.
+struct CalibratedMixture {
+  Mixture written;    ///< the shares in the firmware's lines
+  Mixture delivered;  ///< the shares that then leave the nozzle
   double scale = 1;   ///< E ÷ the filament that is to be fed
 };
 
 /// Precondition: the factors are positive.
-WrittenTool calibrated(const Mixture& wanted, const std::array<double, max_feeders>& factors,
-                       const Dialect& dialect);
+CalibratedMixture calibrated(const Mixture& wanted, const std::array<double, max_feeders>& factors,
+                             const Dialect& dialect);
 
 }  // namespace unicursal::gcode

@@ -36,7 +36,7 @@ double ChamberModel::tank_volume() const {
   return mixing_volume > 0 ? mixing_volume / tank_volumes_for(tanks, arrived) : 0;
 }
 
-double ChamberModel::response(double volume) const {
+double ChamberModel::step_response(double volume) const {
   if (volume < dead_volume) return 0;
   const double tank = tank_volume();
   return tank > 0 ? passed(tanks, (volume - dead_volume) / tank) : 1;

@@ -22,7 +22,7 @@ struct ChamberModel {
   /// The volume of one tank.
   double tank_volume() const;
   /// What has arrived of a new mixture, 0…1, when `volume` has passed since it was switched to.
-  double response(double volume) const;
+  double step_response(double volume) const;
   /// The inverse: the volume after which `share` (0…1, not 1) of the change has arrived; at least the dead
   /// volume.
   double delay(double share) const;

@@ -12,17 +12,17 @@ constexpr double room = 3;  ///< transitions: what a change needs on either side
 /// Of a single change with its half-way point on the border, or hurried on. A gradient counts with its
 /// middle.
 double cost_of(const Palette& palette, const ChamberModel& chamber, std::size_t from, std::size_t to,
-               const Overshoot* hurried_by, const Rivals& rivals) {
+               const Overshoot* overshoot, const LayerMaterials& layer_materials) {
   const double volume = room * (chamber.dead_volume + chamber.mixing_volume) + 1;
   Forecast forecast(palette, chamber);
-  forecast.add(WantedBead{volume, from, 0.5, 0, false, 0, rivals});  // fills the chamber
-  forecast.add(WantedBead{volume, from, 0.5, 1, false, 0, rivals});
-  forecast.add(WantedBead{volume, to, 0.5, 1, false, 0, rivals});
+  forecast.add(WantedBead{volume, from, 0.5, 0, false, 0, layer_materials});  // fills the chamber
+  forecast.add(WantedBead{volume, from, 0.5, 1, false, 0, layer_materials});
+  forecast.add(WantedBead{volume, to, 0.5, 1, false, 0, layer_materials});
   forecast.add(Switch{0, palette.shade(from, 0.5)});
-  double at = 2 * volume - (hurried_by ? chamber.dead_volume + hurried_by->lead : chamber.delay(0.5));
-  for (std::size_t i = 0; hurried_by && i < hurried_by->pulses.size(); ++i) {
-    forecast.add(Switch{at, hurried_by->pulses[i].shade});
-    at += hurried_by->pulses[i].volume;
+  double at = 2 * volume - (overshoot ? chamber.dead_volume + overshoot->lead : chamber.delay(0.5));
+  for (std::size_t i = 0; overshoot && i < overshoot->pulses.size(); ++i) {
+    forecast.add(Switch{at, overshoot->pulses[i].shade});
+    at += overshoot->pulses[i].volume;
   }
   forecast.add(Switch{at, palette.shade(to, 0.5)});
   const LayerMixing mixing = forecast.rest().back();
@@ -41,8 +41,8 @@ double ChangeCosts::of(std::size_t from, std::size_t to) const {
   if (!added) return cost->second;
   std::vector<std::size_t> all(palette_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(all));
-  return cost->second = cost_of(palette_, chamber_, from, to, overshoots_.between(from, to), rivals);
+  const auto layer_materials = std::make_shared<const std::vector<std::size_t>>(std::move(all));
+  return cost->second = cost_of(palette_, chamber_, from, to, overshoots_.between(from, to), layer_materials);
 }
 
 }  // namespace unicursal::gcode

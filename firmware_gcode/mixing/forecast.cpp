@@ -67,7 +67,7 @@ void Forecast::arrive(double to) {
     layer_.layer = run.layer;
   }
   const Tanks::Shares arrived = tanks_.pass(inflow_, volume);
-  const Misfit bad = misfit(palette_, run, wanted_.shares(run, (at_ + to) / 2), arrived);
+  const Mismatch bad = mismatch(palette_, run, wanted_.shares(run, (at_ + to) / 2), arrived);
   if (bad.wrong) run_wrong_ += volume;
   if (run.weight >= counts) {
     layer_.misplaced += bad.misplaced * volume;

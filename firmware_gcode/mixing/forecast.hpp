@@ -31,7 +31,7 @@ class Forecast {
 
   const Palette& palette_;
   ChamberModel chamber_;
-  Wanted wanted_;
+  WantedRuns wanted_;
   std::deque<Switch> coming_;
   Tanks::Shares inflow_{1.0 / 3, 1.0 / 3, 1.0 / 3};
   Tanks tanks_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace unicursal::gcode {
 namespace {
@@ -22,25 +23,25 @@ constexpr double blur =
 constexpr double least_gain = 1e-6;
 
 /// A nozzle that the printer may have instead of the one in its profile.
-struct Like {
+struct NozzleVariant {
   double volumes;  ///< factor
   int tanks;       ///< more
   double weight;
 };
-constexpr std::array<Like, 3> likely{{{1, 0, 2}, {0.85, -1, 1}, {1.15, 1, 1}}};
+constexpr std::array<NozzleVariant, 3> variants{{{1, 0, 2}, {0.85, -1, 1}, {1.15, 1, 1}}};
 
 /// What has arrived of a step in the middle of each cell, the dead volume of the profile left out.
 using Answer = std::vector<double>;
 
-Answer answer_of(const ChamberModel& profile, const Like& like, double step) {
+Answer answer_of(const ChamberModel& profile, const NozzleVariant& variant, double step) {
   ChamberModel model = profile;
-  model.dead_volume *= like.volumes;
-  model.mixing_volume *= like.volumes;
+  model.dead_volume *= variant.volumes;
+  model.mixing_volume *= variant.volumes;
   model.tanks = static_cast<std::size_t>(
-      std::clamp(static_cast<int>(profile.tanks) + like.tanks, 1, static_cast<int>(max_tanks)));
+      std::clamp(static_cast<int>(profile.tanks) + variant.tanks, 1, static_cast<int>(max_tanks)));
   Answer answer(static_cast<std::size_t>(std::ceil(reckoned * profile.mixing_volume / step)));
   for (std::size_t i = 0; i < answer.size(); ++i) {
-    answer[i] = model.response(profile.dead_volume + (static_cast<double>(i) + 0.5) * step);
+    answer[i] = model.step_response(profile.dead_volume + (static_cast<double>(i) + 0.5) * step);
   }
   return answer;
 }
@@ -53,12 +54,6 @@ using Pulses = std::vector<Pulse>;
 
 Shares full(const Pulse& pulse) {
   return {pulse.shares[0], pulse.shares[1], std::max(0.0, 1 - pulse.shares[0] - pulse.shares[1])};
-}
-
-double squared_distance(const Shares& a, const Shares& b) {
-  double sum = 0;
-  for (std::size_t f = 0; f < max_feeders; ++f) sum += (a[f] - b[f]) * (a[f] - b[f]);
-  return sum;
 }
 
 /// A change from one mixture to another, and what ways of making it cost.
@@ -82,8 +77,8 @@ class Change {
     for (std::size_t n = 0; n < answers_.size(); ++n) {
       for (std::size_t i = 0; i < count; ++i) {
         const Shares out = arrived(pulses, answers_[n], i);
-        const double behind = likely[n].weight * before_border_ * loss(to_, out);
-        more[i] += likely[n].weight * (1 - before_border_) * loss(from_, out) - behind;
+        const double behind = variants[n].weight * before_border_ * loss(to_, out);
+        more[i] += variants[n].weight * (1 - before_border_) * loss(from_, out) - behind;
         cost += behind;
       }
     }
@@ -228,16 +223,17 @@ class Search {
 
 }  // namespace
 
-Overshoots::Overshoots(Palette& palette, const OvershootOptions& options) {
+PaletteWithOvershoots with_overshoots(Palette palette, const OvershootOptions& options) {
   const std::size_t count = palette.size(), changes = count * (count - 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (palette.is_gradient(i)) return;
-  }
-  if (changes == 0 || options.chamber.mixing_volume <= 0 || count + changes > options.most_mixtures) return;
+  Overshoots overshoots;
+  bool possible =
+      changes > 0 && options.chamber.mixing_volume > 0 && count + changes <= options.most_mixtures;
+  for (std::size_t i = 0; i < count; ++i) possible = possible && !palette.is_gradient(i);
+  if (!possible) return {std::move(palette), std::move(overshoots)};
   const std::size_t most = std::min(most_pulses, (options.most_mixtures - count) / changes);
   const double step = cell * options.chamber.mixing_volume;
   std::vector<Answer> answers;
-  for (const Like& like : likely) answers.push_back(answer_of(options.chamber, like, step));
+  for (const NozzleVariant& variant : variants) answers.push_back(answer_of(options.chamber, variant, step));
   std::vector<Shares> materials;
   for (std::size_t i = 0; i < count; ++i) materials.push_back(palette.mixture(Shade{i, 0}).shares());
   for (std::size_t from = 0; from < count; ++from) {
@@ -246,13 +242,19 @@ Overshoots::Overshoots(Palette& palette, const OvershootOptions& options) {
       const Change change(materials, answers, from, to, options.before_border);
       const Found found = Search(change, options.floor_share).best(most);
       if (found.pulses.empty()) continue;
-      Overshoot& overshoot = known_[{from, to}];
+      Overshoot overshoot;
       overshoot.lead = static_cast<double>(found.cost.lead) * step;
       for (const Pulse& pulse : found.pulses) {
         overshoot.pulses.push_back({palette.add(Mixture(full(pulse))), pulse.cells * step});
       }
+      overshoots.add(from, to, std::move(overshoot));
     }
   }
+  return {std::move(palette), std::move(overshoots)};
+}
+
+void Overshoots::add(std::size_t from, std::size_t to, Overshoot overshoot) {
+  known_[{from, to}] = std::move(overshoot);
 }
 
 const Overshoot* Overshoots::between(std::size_t from, std::size_t to) const {

@@ -40,12 +40,10 @@ struct OvershootOptions {
   std::size_t most_mixtures = 15;
 };
 
+/// The overshoots of a print by change; empty unless found by with_overshoots().
 class Overshoots {
  public:
-  /// None.
-  Overshoots() = default;
-  /// For every change between two materials where it pays. The pulses' mixtures are added to the palette.
-  Overshoots(Palette& palette, const OvershootOptions& options);
+  void add(std::size_t from, std::size_t to, Overshoot overshoot);
 
   /// Null where the change is best left alone.
   const Overshoot* between(std::size_t from, std::size_t to) const;
@@ -53,5 +51,14 @@ class Overshoots {
  private:
   std::map<std::pair<std::size_t, std::size_t>, Overshoot> known_;
 };
+
+struct PaletteWithOvershoots {
+  Palette palette;  ///< with the mixtures of all pulses
+  Overshoots overshoots;
+};
+
+/// Finds the overshoots for all changes between two materials that gain by one, and adds the mixtures of
+/// their pulses to the palette.
+PaletteWithOvershoots with_overshoots(Palette palette, const OvershootOptions& options);
 
 }  // namespace unicursal::gcode

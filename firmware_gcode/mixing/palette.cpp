@@ -14,14 +14,12 @@ Mixture between(const Mixture& a, const Mixture& b, double part) {
 
 }  // namespace
 
-Palette::Palette(const std::vector<Material>& materials,
-                 const std::function<Mixture(const Mixture&)>& written)
-    : written_(written) {
+Palette::Palette(const std::vector<Material>& materials, const Calibrate& calibrate) : calibrate_(calibrate) {
   for (const Material& material : materials) {
-    std::vector<Mixture> shades{written(material.mixture)};
+    std::vector<CalibratedMixture> shades{calibrate(material.mixture)};
     for (std::size_t step = 1; material.gradient && step <= steps; ++step) {
       const double part = static_cast<double>(step) / static_cast<double>(steps);
-      shades.push_back(written(between(material.mixture, material.gradient->to, part)));
+      shades.push_back(calibrate(between(material.mixture, material.gradient->to, part)));
     }
     shades_.push_back(std::move(shades));
   }
@@ -33,8 +31,9 @@ Shade Palette::shade(std::size_t material, double part) const {
 }
 
 Shade Palette::add(const Mixture& mixture) {
-  const Mixture as_fed = written_(mixture);
-  const auto known = std::find(added_.begin(), added_.end(), as_fed);
+  const CalibratedMixture as_fed = calibrate_(mixture);
+  const auto known = std::find_if(added_.begin(), added_.end(),
+                                  [&](const auto& other) { return other.delivered == as_fed.delivered; });
   const auto index = static_cast<std::size_t>(known - added_.begin());
   if (known == added_.end()) added_.push_back(as_fed);
   return {size() + index, 0};
@@ -42,7 +41,8 @@ Shade Palette::add(const Mixture& mixture) {
 
 Mixture Palette::mixture(std::size_t material, double part) const {
   const auto& shades = shades_[material];
-  return shades.size() == 1 ? shades.front() : between(shades.front(), shades.back(), part);
+  return shades.size() == 1 ? shades.front().delivered
+                            : between(shades.front().delivered, shades.back().delivered, part);
 }
 
 }  // namespace unicursal::gcode

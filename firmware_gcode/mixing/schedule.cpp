@@ -27,19 +27,19 @@ constexpr double same_place = 1e-9;  ///< mm³
 struct Survivor {
   double cost = 0;
   Tanks tanks;
-  std::size_t serves = 0;  ///< the run whose material is fed
+  std::size_t run_fed = 0;  ///< the run whose material is fed
   Shade shade;
-  std::vector<Switch> switches;           ///< that are not certain yet
-  const Overshoot* hurried_by = nullptr;  ///< a pulse is fed, the shade follows behind the last one
-  std::size_t pulse = 0;                  ///< that is fed
-  double pulse_end = 0;                   ///< at the tanks' entry
+  std::vector<Switch> switches;          ///< that are not certain yet
+  const Overshoot* overshoot = nullptr;  ///< a pulse is fed, the shade follows behind the last one
+  std::size_t pulse = 0;                 ///< that is fed
+  double pulse_end = 0;                  ///< at the tanks' entry
 
-  const Shade& fed() const { return hurried_by ? hurried_by->pulses[pulse].shade : shade; }
+  const Shade& fed() const { return overshoot ? overshoot->pulses[pulse].shade : shade; }
 };
 
 bool feed_alike(const Survivor& a, const Survivor& b) {
-  return a.shade == b.shade && a.hurried_by == b.hurried_by &&
-         (!a.hurried_by || (a.pulse == b.pulse && a.pulse_end == b.pulse_end));
+  return a.shade == b.shade && a.overshoot == b.overshoot &&
+         (!a.overshoot || (a.pulse == b.pulse && a.pulse_end == b.pulse_end));
 }
 
 }  // namespace
@@ -64,12 +64,12 @@ struct Schedule::State {
   double border_of(std::size_t run) const;
   double next_place() const;
   double lead_into(std::size_t run) const;
-  const Overshoot* overshoot(const Shade& from, const Shade& to) const;
+  const Overshoot* overshoot_between(const Shade& from, const Shade& to) const;
   void branch();
-  void change(std::size_t survivor, std::size_t run, const Shade& shade, const Overshoot* hurried_by);
+  void change(std::size_t survivor, std::size_t run, const Shade& shade, const Overshoot* overshoot);
   Tanks::Shares pass(Survivor& survivor, double to) const;
   void follow_gradients();
-  double loss(const Misfit& bad) const;
+  double loss(const Mismatch& bad) const;
   void advance(double to);
   void prune();
   void settle();
@@ -78,7 +78,7 @@ struct Schedule::State {
 
   const Palette& palette;
   const ScheduleOptions options;
-  Wanted wanted;
+  WantedRuns wanted;
   const double step, long_step;
   const double lead;   ///< mm³ in the tanks between a switch and the share of it that is to reach the border
   const double reach;  ///< how far before a run switching to it is weighed
@@ -162,25 +162,25 @@ double Schedule::State::next_place() const {
 /// How far before its border the change into a run is best begun when it is hurried on.
 double Schedule::State::lead_into(std::size_t run) const {
   if (run >= wanted.past()) return lead;
-  const Overshoot* by = overshoot({wanted.run(run - 1).material, 0}, {wanted.run(run).material, 0});
+  const Overshoot* by = overshoot_between({wanted.run(run - 1).material, 0}, {wanted.run(run).material, 0});
   return by ? by->lead : lead;
 }
 
-const Overshoot* Schedule::State::overshoot(const Shade& from, const Shade& to) const {
+const Overshoot* Schedule::State::overshoot_between(const Shade& from, const Shade& to) const {
   return options.overshoots ? options.overshoots->between(from.material, to.material) : nullptr;
 }
 
 /// One more survivor, that makes the change.
 void Schedule::State::change(std::size_t survivor, std::size_t run, const Shade& shade,
-                             const Overshoot* hurried_by) {
+                             const Overshoot* overshoot) {
   Survivor changed = survivors[survivor];
-  const std::size_t switches = 1 + (hurried_by ? hurried_by->pulses.size() : 0);
+  const std::size_t switches = 1 + (overshoot ? overshoot->pulses.size() : 0);
   changed.cost += static_cast<double>(switches) * switch_cost * options.chamber.mixing_volume;
-  changed.serves = run;
+  changed.run_fed = run;
   changed.shade = shade;
-  changed.hurried_by = hurried_by;
+  changed.overshoot = overshoot;
   changed.pulse = 0;
-  if (hurried_by) changed.pulse_end = at + hurried_by->pulses.front().volume;
+  if (overshoot) changed.pulse_end = at + overshoot->pulses.front().volume;
   changed.switches.push_back({at - options.chamber.dead_volume, changed.fed()});
   survivors.push_back(std::move(changed));
 }
@@ -190,16 +190,16 @@ void Schedule::State::change(std::size_t survivor, std::size_t run, const Shade&
 void Schedule::State::branch() {
   const std::size_t count = survivors.size();
   for (std::size_t s = 0; s < count; ++s) {
-    if (survivors[s].serves < here && survivors[s].shade == shade_for(wanted.run(here)))
-      survivors[s].serves = here;
+    if (survivors[s].run_fed < here && survivors[s].shade == shade_for(wanted.run(here)))
+      survivors[s].run_fed = here;
   }
   for (std::size_t i = here; i < wanted.past() && wanted.run(i).begin <= at + reach; ++i) {
     if (i == here && here > 0 && at - wanted.run(i).begin >= after) continue;
     const Shade shade = shade_for(wanted.run(i));
     for (std::size_t s = 0; s < count; ++s) {
-      if (survivors[s].serves >= i || survivors[s].shade == shade) continue;
+      if (survivors[s].run_fed >= i || survivors[s].shade == shade) continue;
       change(s, i, shade, nullptr);
-      if (const Overshoot* by = overshoot(survivors[s].shade, shade)) change(s, i, shade, by);
+      if (const Overshoot* by = overshoot_between(survivors[s].shade, shade)) change(s, i, shade, by);
     }
   }
 }
@@ -208,8 +208,8 @@ void Schedule::State::follow_gradients() {
   if (at < next_gradient_step) return;
   next_gradient_step = at + std::max(gradient_step * options.chamber.mixing_volume, finest);
   for (Survivor& survivor : survivors) {
-    if (!palette.is_gradient(survivor.shade.material) || survivor.serves < wanted.first()) continue;
-    const Shade shade = shade_for(wanted.run(survivor.serves));
+    if (!palette.is_gradient(survivor.shade.material) || survivor.run_fed < wanted.first()) continue;
+    const Shade shade = shade_for(wanted.run(survivor.run_fed));
     if (shade == survivor.shade) continue;
     survivor.shade = shade;
     survivor.switches.push_back({at - options.chamber.dead_volume, shade});
@@ -218,7 +218,7 @@ void Schedule::State::follow_gradients() {
 
 /// Misplaced plastic, and once more what a person (and the report) takes for another material. The second
 /// term would draw every change to its half-way point, so that it keeps out where another share is asked for.
-double Schedule::State::loss(const Misfit& bad) const {
+double Schedule::State::loss(const Mismatch& bad) const {
   return bad.misplaced + (bad.wrong && options.before_border == 0.5 ? 1 : 0);
 }
 
@@ -226,17 +226,17 @@ double Schedule::State::loss(const Misfit& bad) const {
 Tanks::Shares Schedule::State::pass(Survivor& survivor, double to) const {
   Tanks::Shares mean{};
   for (double from = at; from < to;) {
-    const double end = survivor.hurried_by ? std::min(to, survivor.pulse_end) : to;
+    const double end = survivor.overshoot ? std::min(to, survivor.pulse_end) : to;
     if (end > from) {
       const Tanks::Shares out = survivor.tanks.pass(palette.mixture(survivor.fed()).shares(), end - from);
       for (std::size_t f = 0; f < max_feeders; ++f) mean[f] += out[f] * (end - from) / (to - at);
     }
     from = std::max(from, end);
-    if (!survivor.hurried_by || end < survivor.pulse_end) continue;
-    if (++survivor.pulse == survivor.hurried_by->pulses.size())
-      survivor.hurried_by = nullptr;
+    if (!survivor.overshoot || end < survivor.pulse_end) continue;
+    if (++survivor.pulse == survivor.overshoot->pulses.size())
+      survivor.overshoot = nullptr;
     else
-      survivor.pulse_end += survivor.hurried_by->pulses[survivor.pulse].volume;
+      survivor.pulse_end += survivor.overshoot->pulses[survivor.pulse].volume;
     survivor.switches.push_back({end - options.chamber.dead_volume, survivor.fed()});
   }
   return mean;
@@ -251,7 +251,7 @@ void Schedule::State::advance(double to) {
   const bool head = left < reach && left < middle - run.begin;
   const double weight = 2 * run.weight * volume * (head ? 1 - options.before_border : options.before_border);
   for (Survivor& survivor : survivors) {
-    survivor.cost += weight * loss(misfit(palette, run, want, pass(survivor, to)));
+    survivor.cost += weight * loss(mismatch(palette, run, want, pass(survivor, to)));
   }
   at = to;
   while (wanted.run(here).end <= at + same_place && here + 1 < wanted.past()) ++here;

@@ -3,7 +3,6 @@
 // tool of equal shares, for drawing back, keeps its place.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,28 +17,28 @@ namespace unicursal::gcode {
 
 class ToolTable {
  public:
-  /// `dialect` must outlive this object. `factors`: of feeders that slip (calibration.hpp).
-  ToolTable(const Dialect& dialect, const Palette& palette, const std::array<double, max_feeders>& factors);
+  /// `dialect` must outlive this object. `equal_shares`: for drawing back.
+  ToolTable(const Dialect& dialect, const Palette& palette, const CalibratedMixture& equal_shares);
 
   /// The lines that define what is known from the start.
   std::vector<std::string> define() const;
   /// The tool that holds the mixture, now in use; appends what it takes to define it, if need be.
-  std::size_t use(const Mixture& mixture, std::vector<std::string>& lines);
+  std::size_t use(const CalibratedMixture& mixture, std::vector<std::string>& lines);
   /// Of equal shares; none where the mixtures of the print leave no tool for it.
   std::optional<std::size_t> retraction_tool() const { return retraction_tool_; }
-  /// E ÷ the filament that is to be fed.
-  double scale(std::size_t tool) const;
+  /// What a tool holds now.
+  const CalibratedMixture& mixture(std::size_t tool) const;
+  /// Tools in use, the one for drawing back included.
+  std::size_t size() const { return tools_.size() + (retraction_tool_ ? 1 : 0); }
 
  private:
   struct Tool {
-    Mixture mixture;
+    CalibratedMixture mixture;
     std::uint64_t used = 0;  ///< the greater, the later
   };
 
-  WrittenTool written(const Mixture& mixture) const { return calibrated(mixture, factors_, dialect_); }
-
   const Dialect& dialect_;
-  std::array<double, max_feeders> factors_;
+  CalibratedMixture equal_shares_;
   std::vector<Tool> tools_;  ///< without the one for drawing back
   std::optional<std::size_t> retraction_tool_;
   std::uint64_t uses_ = 0;

@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace unicursal::gcode {
-namespace {
-
-double squared_distance(const Tanks::Shares& a, const Tanks::Shares& b) {
-  double sum = 0;
-  for (std::size_t f = 0; f < max_feeders; ++f) sum += (a[f] - b[f]) * (a[f] - b[f]);
-  return sum;
-}
-
-}  // namespace
 
 double WantedRun::part_at(double volume) const {
   if (parts.empty()) return 0;
@@ -20,13 +11,19 @@ double WantedRun::part_at(double volume) const {
   return found == parts.end() ? parts.back().second : found->second;
 }
 
-void Wanted::add(const WantedBead& piece) {
+void WantedRuns::add(const WantedBead& piece) {
   if (piece.volume <= 0) return;
   const bool same = !runs_.empty() && runs_.back().material == piece.material &&
                     runs_.back().weight == piece.weight && runs_.back().layer == piece.layer;
   if (!same) {
-    runs_.push_back(
-        {end_, end_, piece.material, piece.weight, piece.takes_changes, piece.layer, piece.rivals, {}});
+    runs_.push_back({end_,
+                     end_,
+                     piece.material,
+                     piece.weight,
+                     piece.takes_changes,
+                     piece.layer,
+                     piece.layer_materials,
+                     {}});
   }
   end_ += piece.volume;
   WantedRun& run = runs_.back();
@@ -34,24 +31,25 @@ void Wanted::add(const WantedBead& piece) {
   if (palette_.is_gradient(piece.material)) run.parts.push_back({end_, piece.part});
 }
 
-void Wanted::forget_before(std::size_t index) {
+void WantedRuns::forget_before(std::size_t index) {
   while (first_ < index && !runs_.empty()) runs_.pop_front(), ++first_;
 }
 
-Tanks::Shares Wanted::shares(const WantedRun& run, double volume) const {
+Tanks::Shares WantedRuns::shares(const WantedRun& run, double volume) const {
   if (!palette_.is_gradient(run.material)) return palette_.mixture(Shade{run.material, 0}).shares();
   return palette_.mixture(run.material, run.part_at(volume)).shares();
 }
 
-Misfit misfit(const Palette& palette, const WantedRun& run, const Tanks::Shares& wanted,
-              const Tanks::Shares& arrived) {
-  Misfit result{misplaced(arrived, wanted), false};
-  if (!run.rivals || palette.is_gradient(run.material)) return result;
+Mismatch mismatch(const Palette& palette, const WantedRun& run, const Tanks::Shares& wanted,
+                  const Tanks::Shares& arrived) {
+  Mismatch result{misplaced(arrived, wanted), false};
+  if (!run.layer_materials || palette.is_gradient(run.material)) return result;
   const double own = squared_distance(arrived, wanted);
-  result.wrong = std::any_of(run.rivals->begin(), run.rivals->end(), [&](std::size_t rival) {
-    return rival != run.material && !palette.is_gradient(rival) &&
-           squared_distance(arrived, palette.mixture(Shade{rival, 0}).shares()) < own;
-  });
+  result.wrong =
+      std::any_of(run.layer_materials->begin(), run.layer_materials->end(), [&](std::size_t rival) {
+        return rival != run.material && !palette.is_gradient(rival) &&
+               squared_distance(arrived, palette.mixture(Shade{rival, 0}).shares()) < own;
+      });
   return result;
 }
 

@@ -12,7 +12,7 @@
 namespace unicursal::gcode {
 
 /// The materials of a layer: what a place can be mistaken for.
-using Rivals = std::shared_ptr<const std::vector<std::size_t>>;
+using LayerMaterials = std::shared_ptr<const std::vector<std::size_t>>;
 
 /// A bead, as far as mixing is concerned.
 struct WantedBead {
@@ -22,7 +22,7 @@ struct WantedBead {
   double weight = 1;           ///< how much a wrong mixture matters here; little where nobody looks
   bool takes_changes = false;  ///< lies in a zone that is there for it
   std::size_t layer = 0;
-  Rivals rivals;
+  LayerMaterials layer_materials;
 };
 
 /// Consecutive pieces of one material, weight and layer.
@@ -32,7 +32,7 @@ struct WantedRun {
   double weight = 1;
   bool takes_changes = false;
   std::size_t layer = 0;
-  Rivals rivals;
+  LayerMaterials layer_materials;
   std::vector<std::pair<double, double>> parts;  ///< of a gradient: up to which volume, how far along
 
   double volume() const { return end - begin; }
@@ -40,9 +40,9 @@ struct WantedRun {
   double part_at(double volume) const;
 };
 
-class Wanted {
+class WantedRuns {
  public:
-  explicit Wanted(const Palette& palette) : palette_(palette) {}
+  explicit WantedRuns(const Palette& palette) : palette_(palette) {}
 
   void add(const WantedBead& piece);
   /// Up to where it is known.
@@ -64,12 +64,12 @@ class Wanted {
 };
 
 /// How what has arrived fits what is wanted.
-struct Misfit {
+struct Mismatch {
   double misplaced = 0;  ///< 0…1
   bool wrong = false;    ///< nearer to another material of the layer
 };
 
-Misfit misfit(const Palette& palette, const WantedRun& run, const Tanks::Shares& wanted,
-              const Tanks::Shares& arrived);
+Mismatch mismatch(const Palette& palette, const WantedRun& run, const Tanks::Shares& wanted,
+                  const Tanks::Shares& arrived);
 
 }  // namespace unicursal::gcode

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "firmware_gcode/motion/laying_speed.hpp"
+#include "firmware_gcode/motion/speeds.hpp"
 #include "firmware_gcode/motion/time_estimate.hpp"
 
 namespace unicursal::gcode {
@@ -40,14 +40,15 @@ class Seconds {
   double taken_ = 0, asked_ = 0, held_ = 0, all_ = 0;
 };
 
-void lay(const core::BeadPath& path, std::size_t count, double height, const LayingSpeed& pace,
-         const Printer& printer, TimeEstimate& estimate) {
+void lay(const core::BeadPath& path, std::size_t count, const PrintSettings& settings, const Printer& printer,
+         TimeEstimate& estimate) {
   const double filament = std::numbers::pi / 4 * printer.filament_diameter * printer.filament_diameter;
   for (std::size_t i = 0; i < count; ++i) {
     const core::Vec2 step = path.end(i) - path.start(i);
     if (step.squaredNorm() == 0) continue;
-    const double volume = path.beads[i].area * height;
-    const double speed = pace.speed(step, volume, regular_layer, height);
+    const double volume = path.beads[i].area * settings.layer_height;
+    const double speed =
+        bead_speed({step, volume, regular_layer, settings.layer_height}, settings.flow, settings, printer);
     estimate.move({step.x(), step.y(), 0, volume / filament}, speed, step.norm() / speed);
   }
   estimate.stop();
@@ -60,7 +61,6 @@ double share_held(const std::vector<PlacedLayer>& layers, PrintSettings settings
   settings.automatic_flow = false;
   settings.speed.reset();
   settings.flow = flow;
-  const LayingSpeed pace(printer, settings);
   Seconds seconds;
   TimeEstimate estimate(printer, [&](double taken, double asked) { seconds.add(taken, asked); });
   std::size_t beads = 0;
@@ -71,7 +71,7 @@ double share_held(const std::vector<PlacedLayer>& layers, PrintSettings settings
   for (const PlacedLayer& layer : layers) {
     for (const core::BeadPath& path : layer.paths) {
       const auto count = static_cast<std::size_t>(std::ceil(part * static_cast<double>(path.size())));
-      lay(path, count, settings.layer_height, pace, printer, estimate);
+      lay(path, count, settings, printer, estimate);
     }
   }
   return seconds.share();

@@ -29,15 +29,7 @@ double LayingSpeed::flow_of(const PlacedLayer& layer) const {
 
 double LayingSpeed::speed(const core::Vec2& displacement, double volume, std::size_t layer,
                           double layer_height) const {
-  const double factor = layer == 0 ? settings_.first_layer_speed : 1;
-  const double length = displacement.norm();
-  double speed = axis_limited_speed(displacement, printer_.max_speed);
-  if (settings_.speed) {
-    speed = std::min(speed, factor * *settings_.speed);
-    return volume > 0 ? std::min(speed, printer_.max_flow * length / volume) : speed;
-  }
-  const double thinnest = printer_.bead_width_range[0] * layer_height;  // mm², cross-section
-  return std::min(speed, factor * layer_flow_ / std::max(thinnest, volume / length));
+  return bead_speed({displacement, volume, layer, layer_height}, layer_flow_, settings_, printer_);
 }
 
 }  // namespace unicursal::gcode

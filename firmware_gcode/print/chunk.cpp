@@ -21,4 +21,14 @@ void keep_commands(std::vector<std::string>& lines) {
   std::erase_if(lines, [](const std::string& line) { return !is_command(line); });
 }
 
+void keep_commands(Chunk& chunk) {
+  auto next = chunk.mixtures.begin();
+  std::size_t commands = 0;
+  for (std::size_t line = 0; line < chunk.lines.size(); ++line) {
+    for (; next != chunk.mixtures.end() && next->line == line; ++next) next->line = commands;
+    commands += is_command(chunk.lines[line]) ? 1 : 0;
+  }
+  keep_commands(chunk.lines);
+}
+
 }  // namespace unicursal::gcode

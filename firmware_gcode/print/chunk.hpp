@@ -27,8 +27,18 @@ struct LayerShare {
   bool last = false;   ///< nothing of the layer is left for later chunks
 };
 
+/// From a line on, the feeders turn for another mixture.
+struct MixtureStart {
+  std::size_t line = 0;  ///< index of the line that selects the mixture
+  std::string name;      ///< of the job's material; else the shares, such as "0.02 : 0.74 : 0.24"
+
+  friend bool operator==(const MixtureStart&, const MixtureStart&) = default;
+};
+
 struct Chunk {
   std::vector<std::string> lines;
+  /// By line, rising; before the first one, the mixture of the chunk before stays in use.
+  std::vector<MixtureStart> mixtures;
   double seconds = 0;  ///< estimated printing time
   double volume = 0;   ///< mm³ extruded along beads, prime line included, retractions not
   /// The same by mixture that the feeders are told, each once.
@@ -42,7 +52,9 @@ struct Chunk {
 
 /// Whether the firmware gets this line; comments and blank lines belong in files.
 bool is_command(const std::string& line);
-/// Takes out the lines that belong in files only.
+/// Removes the lines that belong in files only.
 void keep_commands(std::vector<std::string>& lines);
+/// The same for a whole chunk: the lines that its mixtures start at are counted again.
+void keep_commands(Chunk& chunk);
 
 }  // namespace unicursal::gcode

@@ -1,5 +1,7 @@
 #include "firmware_gcode/print/mixture.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -70,6 +72,14 @@ Mixture Mixture::quantised(int decimals) const {
     ++units[most];
   }
   return Mixture(units);
+}
+
+std::string shares_text(const Mixture& mixture) {
+  constexpr double unit = 1e4;  // finer than any firmware keeps shares: noise decides no rounding
+  std::string text;
+  for (const double share : mixture.shares())
+    text += fmt::format("{}{:.2f}", text.empty() ? "" : " : ", std::round(share * unit) / unit);
+  return text;
 }
 
 }  // namespace unicursal::gcode

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace unicursal::gcode {
 
@@ -29,5 +30,16 @@ class Mixture {
  private:
   std::array<double, max_feeders> shares_;
 };
+
+/// The squared distance of two mixtures' shares.
+inline double squared_distance(const std::array<double, max_feeders>& a,
+                               const std::array<double, max_feeders>& b) {
+  double sum = 0;
+  for (std::size_t f = 0; f < max_feeders; ++f) sum += (a[f] - b[f]) * (a[f] - b[f]);
+  return sum;
+}
+
+/// For people: "0.02 : 0.74 : 0.24".
+std::string shares_text(const Mixture& mixture);
 
 }  // namespace unicursal::gcode

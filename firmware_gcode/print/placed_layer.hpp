@@ -27,6 +27,8 @@ enum class Seam {
   nearest     ///< wherever it costs the least way
 };
 
+inline constexpr double travel_widths = 1.5;  ///< bead widths; a longer move without extruding is a travel
+
 /// Layers that the route is chosen over together.
 inline constexpr std::size_t default_horizon = 4;
 

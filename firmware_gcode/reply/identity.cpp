@@ -5,6 +5,7 @@
 #include <charconv>
 #include <utility>
 
+#include "core/text/printable.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 
 namespace unicursal::gcode {
@@ -90,7 +91,7 @@ void Identity::learn(const std::string& capability, bool on) {
 }
 
 Identity identify(std::string_view line) {
-  auto fields = fields_of(printable(line, longest_answer));
+  auto fields = fields_of(core::printable(line, longest_answer));
   Identity identity;
   identity.firmware = fields["FIRMWARE_NAME"];
   identity.machine = fields["MACHINE_TYPE"];

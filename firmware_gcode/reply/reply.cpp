@@ -1,9 +1,9 @@
 #include "firmware_gcode/reply/reply.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
+
+#include "core/text/printable.hpp"
 
 namespace unicursal::gcode {
 namespace {
@@ -116,7 +116,7 @@ Reply capability_with(std::string_view rest, std::string_view whole) {
   const std::string_view value = colon == std::string_view::npos ? "" : rest.substr(colon + 1);
   if (colon == 0 || colon > longest || (value != "0" && value != "1"))
     return reply::Unknown{std::string(whole)};
-  return reply::Capability{printable(rest.substr(0, colon)), value == "1"};
+  return reply::Capability{core::printable(rest.substr(0, colon)), value == "1"};
 }
 
 bool ends_word(std::string_view rest) {
@@ -158,18 +158,6 @@ Reply parse_reply(std::string_view line) {
     }
   }
   return reply::Unknown{std::string(whole)};
-}
-
-std::string printable(std::string_view text, std::size_t limit) {
-  std::string result;
-  for (char c : text.substr(0, limit)) {
-    if (c >= ' ' && c <= '~')
-      result += c;
-    else
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-  }
-  if (text.size() > limit) result += "...";
-  return result;
 }
 
 }  // namespace unicursal::gcode

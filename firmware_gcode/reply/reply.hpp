@@ -94,8 +94,4 @@ using Reply = std::variant<reply::Ok, reply::Resend, reply::Error, reply::Start,
 /// One line without its newline; spaces and carriage returns around it do not matter. Never throws.
 Reply parse_reply(std::string_view line);
 
-/// Safe to show and to log: bytes that are no printable ASCII become \xNN, and the text ends after `limit`
-/// bytes of input with an ellipsis.
-std::string printable(std::string_view text, std::size_t limit = 200);
-
 }  // namespace unicursal::gcode

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "firmware_gcode/dialect/common_lines.hpp"
 #include "firmware_gcode/print/bounds.hpp"
-#include "firmware_gcode/toolpath/job_frame.hpp"
 
 namespace unicursal::gcode {
 namespace {

@@ -1,10 +1,9 @@
 #include "firmware_gcode/route/island_order.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
-
-#include "firmware_gcode/route/route.hpp"
 
 namespace unicursal::gcode {
 namespace {

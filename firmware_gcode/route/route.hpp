@@ -20,8 +20,6 @@
 
 namespace unicursal::gcode {
 
-inline constexpr double travel_widths = 1.5;  ///< bead widths; a longer move without extruding is a travel
-
 struct RouteOptions {
   std::size_t horizon = default_horizon;
   /// The first layer is decided as soon as it comes, the two after it on sight of two, and so on up to the

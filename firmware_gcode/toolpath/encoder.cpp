@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/dialect/number.hpp"
 #include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/mixing/change_cost.hpp"
@@ -97,14 +98,52 @@ bool prints_anything(const PlacedLayer& layer) {
   return std::any_of(layer.paths.begin(), layer.paths.end(), is_printable);
 }
 
+/// The mixtures of a print, and the tools that hold them at its start.
+struct Mixtures {
+  Palette palette;
+  Overshoots overshoots;
+  ToolTable tools;
+};
+
+Mixtures mixtures_of(const Printer& printer, const PrintSettings& settings, const Dialect& dialect) {
+  const Palette::Calibrate calibrate = [floor = printer.floor_share, factors = printer.flow_factors,
+                                        &dialect](const Mixture& mixture) {
+    return calibrated(mixture.with_floor(floor), factors, dialect);
+  };
+  PaletteWithOvershoots all{Palette(settings.materials, calibrate), {}};
+  if (settings.look_ahead && printer.overshoot) {
+    const std::size_t most = dialect.limits().virtual_tools - 1;  // one tool is for drawing back
+    all = with_overshoots(std::move(all.palette),
+                          {chamber_of(printer), settings.change_before_border, printer.floor_share, most});
+  }
+  ToolTable tools(dialect, all.palette, calibrate(Mixture({1, 1, 1})));
+  return {std::move(all.palette), std::move(all.overshoots), std::move(tools)};
+}
+
+/// By material: false for those that take up changes.
+std::vector<bool> matters(const PrintSettings& settings) {
+  std::vector<bool> result;
+  for (const Material& material : settings.materials) result.push_back(!material.transition);
+  return result;
+}
+
+RouteOptions route_options(const PrintSettings& settings, const ChangeCosts& costs) {
+  RouteOptions options;
+  options.horizon = settings.horizon;
+  options.growing = !settings.automatic_flow;  // an automatic flow is chosen over the whole window
+  options.seam = settings.seam;
+  options.change_cost = [costs, zones = settings.zone_materials](std::size_t from, std::size_t to) {
+    return costs.of(zones.at(from), zones.at(to));
+  };
+  return options;
+}
+
 }  // namespace
 
 struct Encoder::State {
-  State(const Printer& of, const PrintSettings& with);
+  /// Precondition: printer and settings are checked.
+  State(const Printer& of, const PrintSettings& with, const Dialect& speaks, Mixtures mixtures);
 
-  Overshoots usable_overshoots();
-  ScheduleOptions schedule_options() const;
-  RouteOptions route_options() const;
   std::size_t material_at(const core::BeadPath& path, std::size_t bead) const;
 
   void plan_decided();
@@ -112,7 +151,7 @@ struct Encoder::State {
   double flow_for(const RoutedLayer& routed);
   void plan_prime(const RoutedLayer& routed);
   void plan_skirt(const RoutedLayer& routed);
-  void plan_path(const PlacedLayer& layer, const core::BeadPath& path, const Rivals& rivals);
+  void plan_path(const PlacedLayer& layer, const core::BeadPath& path, const LayerMaterials& layer_materials);
   void warn(const std::string& reason, const std::string& consequence);
   void want(const WantedBead& piece);
 
@@ -126,6 +165,8 @@ struct Encoder::State {
   void write(Chunk& chunk, const Warning& step);
   void write(Chunk& chunk, const Approach& step);
   void write(Chunk& chunk, const Lay& step);
+  std::string name_of(const Mixture& delivered) const;
+  void define_tool(std::size_t tool);
   void switch_mixture(Chunk& chunk);
   void draw_back(Chunk& chunk);
   void push_forward(Chunk& chunk);
@@ -146,7 +187,8 @@ struct Encoder::State {
   Forecast forecast;
   std::deque<Step> steps;  ///< planned and not yet written
   std::deque<Switch> switches;
-  std::optional<Mixture> mixture;        ///< that the feeders are told
+  std::optional<Shade> shade;            ///< in use
+  std::size_t shade_tool = 0;            ///< the virtual tool that holds it
   std::optional<core::Vec2> planned_to;  ///< where the last path that is planned ends
   double laid = 0;                       ///< mm³ along beads, written
   bool ended = false;
@@ -162,55 +204,35 @@ struct Encoder::State {
   double told_width = 0;  ///< mm, of the last ;WIDTH: comment
 };
 
-Encoder::State::State(const Printer& of, const PrintSettings& with)
-    : printer((check_printer(of), of)),
-      settings((check_settings(with, of), with)),
-      dialect(dialect_named(of.firmware)),
-      palette(with.materials,
-              [this](const Mixture& m) {
-                return calibrated(m.with_floor(printer.floor_share), printer.flow_factors, dialect).delivered;
-              }),
-      overshoots(usable_overshoots()),
-      tools(dialect, palette, printer.flow_factors),
-      writer(printer, dialect),
-      pace(printer, settings),
-      review(printer, dialect),
-      route(route_options()),
-      schedule(palette, schedule_options()),
-      forecast(palette, chamber_of(printer)) {
-  start_lines = script_lines(printer.start_gcode, "gcode.start", printer, settings);
-  end_lines = script_lines(printer.end_gcode, "gcode.end", printer, settings);
-  if (const auto tool = tools.retraction_tool()) writer.calibrate(*tool, tools.scale(*tool));
+Encoder::State::State(const Printer& of, const PrintSettings& with, const Dialect& speaks, Mixtures mixtures)
+    : printer(of),
+      settings(with),
+      dialect(speaks),
+      palette(std::move(mixtures.palette)),
+      overshoots(std::move(mixtures.overshoots)),
+      start_lines(script_lines(of.start_gcode, "gcode.start", of, with)),
+      end_lines(script_lines(of.end_gcode, "gcode.end", of, with)),
+      tools(std::move(mixtures.tools)),
+      writer(printer, speaks),
+      pace(of, with),
+      review(of, speaks),
+      route(route_options(with, ChangeCosts(palette, chamber_of(of), matters(with), overshoots))),
+      schedule(palette, {chamber_of(of), with.change_before_border, with.look_ahead, &overshoots}),
+      forecast(palette, chamber_of(of)) {
+  for (std::size_t i = 0; i < tools.size(); ++i) define_tool(i);
 }
 
-/// One tool is for drawing back.
-Overshoots Encoder::State::usable_overshoots() {
-  if (!settings.look_ahead || !printer.overshoot) return {};
-  return Overshoots(palette, {chamber_of(printer), settings.change_before_border, printer.floor_share,
-                              dialect.limits().virtual_tools - 1});
+/// Of a material, where a gradient begins included; else the shares.
+std::string Encoder::State::name_of(const Mixture& delivered) const {
+  for (std::size_t i = 0; i < settings.materials.size(); ++i) {
+    if (palette.mixture(Shade{i, 0}) == delivered) return settings.materials[i].name;
+  }
+  return shares_text(delivered);
 }
 
-ScheduleOptions Encoder::State::schedule_options() const {
-  return {chamber_of(printer), settings.change_before_border, settings.look_ahead, &overshoots};
-}
-
-RouteOptions Encoder::State::route_options() const {
-  const ChangeCosts costs(
-      palette, chamber_of(printer),
-      [&] {
-        std::vector<bool> matters;
-        for (const Material& material : settings.materials) matters.push_back(!material.transition);
-        return matters;
-      }(),
-      overshoots);
-  RouteOptions options;
-  options.horizon = settings.horizon;
-  options.growing = !settings.automatic_flow;  // which is chosen over the whole window
-  options.seam = settings.seam;
-  options.change_cost = [costs, zones = settings.zone_materials](std::size_t from, std::size_t to) {
-    return costs.of(zones.at(from), zones.at(to));
-  };
-  return options;
+void Encoder::State::define_tool(std::size_t which) {
+  const CalibratedMixture& mixture = tools.mixture(which);
+  writer.define_tool(which, name_of(mixture.delivered), mixture.scale);
 }
 
 std::size_t Encoder::State::material_at(const core::BeadPath& path, std::size_t bead) const {
@@ -240,7 +262,7 @@ void Encoder::State::plan(const RoutedLayer& routed) {
   }
   std::sort(materials.begin(), materials.end());
   materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
-  const auto rivals = std::make_shared<const std::vector<std::size_t>>(std::move(materials));
+  const auto layer_materials = std::make_shared<const std::vector<std::size_t>>(std::move(materials));
   if (!routed.traversals.empty()) {
     if (!std::exchange(primed, true)) {
       plan_prime(routed);
@@ -248,7 +270,8 @@ void Encoder::State::plan(const RoutedLayer& routed) {
     }
     steps.push_back(Remark{";TYPE:Solid infill"});
   }
-  for (const Traversal& leg : routed.traversals) plan_path(of, turned(of.paths[leg.path], leg), rivals);
+  for (const Traversal& leg : routed.traversals)
+    plan_path(of, turned(of.paths[leg.path], leg), layer_materials);
   steps.push_back(EndLayer{});
 }
 
@@ -311,7 +334,8 @@ void Encoder::State::plan_skirt(const RoutedLayer& routed) {
   }
 }
 
-void Encoder::State::plan_path(const PlacedLayer& of, const core::BeadPath& whole, const Rivals& rivals) {
+void Encoder::State::plan_path(const PlacedLayer& of, const core::BeadPath& whole,
+                               const LayerMaterials& layer_materials) {
   const double width = whole.total_area() / whole.total_length();
   std::vector<core::Vec2> via;
   if (planned_to && (whole.start(0) - *planned_to).norm() > travel_widths * width) {
@@ -331,7 +355,7 @@ void Encoder::State::plan_path(const PlacedLayer& of, const core::BeadPath& whol
       const core::Vec2 middle = from + (to - from) * ((i + 0.5) / pieces);
       const double part = material.gradient ? material.gradient->part_at(middle, of.top - of.height / 2) : 0;
       want({volume / pieces, index, part, material.transition ? unseen : 1, material.transition, of.index,
-            rivals});
+            layer_materials});
     }
     steps.push_back(Lay{from, to, volume});
   }
@@ -382,6 +406,8 @@ void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
   if (part.lines.empty() && !layer_ends) return;
   review(part, fmt::format("layer {}", layer));
   chunk.layers.push_back({layer, part.volume, part.seconds, std::exchange(layer_ends, false)});
+  for (MixtureStart& start : part.mixtures)
+    chunk.mixtures.push_back({chunk.lines.size() + start.line, std::move(start.name)});
   append(chunk.lines, std::move(part.lines));
   append(chunk.warnings, std::move(part.warnings));
   for (const auto& [what, volume] : part.mixture_volumes) add(chunk.mixture_volumes, what, volume);
@@ -436,14 +462,18 @@ void Encoder::State::write(Chunk& chunk, const Approach& step) {
 
 /// Every switch that is due, of which the last one counts; and the tool, in case it has drawn filament back.
 void Encoder::State::switch_mixture(Chunk& chunk) {
+  std::optional<Shade> next;
   while (!switches.empty() && switches.front().at <= laid + least_piece) {
-    mixture = palette.mixture(switches.front().shade);
+    next = switches.front().shade;
     switches.pop_front();
   }
-  assert(mixture);  // the first switch is at 0
-  const std::size_t tool = tools.use(*mixture, chunk.lines);
-  writer.calibrate(tool, tools.scale(tool));
-  writer.select_tool(chunk, tool);
+  if (next) {
+    shade = next;
+    shade_tool = tools.use(palette.calibrated(*next), chunk.lines);
+    define_tool(shade_tool);
+  }
+  assert(shade);  // the first switch is at 0
+  writer.select_tool(chunk, shade_tool);
 }
 
 /// Cut where a switch falls within.
@@ -461,7 +491,7 @@ void Encoder::State::write(Chunk& chunk, const Lay& bead) {
     done += volume;
     const core::Vec2 end = cut ? core::Vec2(bead.from + way * (done / bead.volume)) : bead.to;
     writer.bead(chunk, end, volume, speed);
-    add(chunk.mixture_volumes, *mixture, volume);
+    add(chunk.mixture_volumes, palette.mixture(*shade), volume);
     if (bead.prime) chunk.prime_volume += volume;
     laid += volume;
     if (!cut) return;
@@ -474,8 +504,12 @@ void Encoder::State::tell_width(Chunk& chunk, double width) {
   chunk.lines.push_back(";WIDTH:" + short_number(width, 3));
 }
 
-Encoder::Encoder(const Printer& printer, const PrintSettings& settings)
-    : state_(std::make_unique<State>(printer, settings)) {}
+Encoder::Encoder(const Printer& printer, const PrintSettings& settings) {
+  check_printer(printer);
+  check_settings(settings, printer);
+  const Dialect& dialect = dialect_named(printer.firmware);
+  state_ = std::make_unique<State>(printer, settings, dialect, mixtures_of(printer, settings, dialect));
+}
 Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
 

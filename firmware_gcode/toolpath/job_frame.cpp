@@ -3,19 +3,12 @@
 #include <fmt/format.h>
 
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/print/heat_targets.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
 
 namespace unicursal::gcode {
 namespace {
-
-/// s without a command until the firmware turns the heaters off by itself: when the host dies, only the
-/// firmware can cool them.
-constexpr int inactivity_shutdown = 1800;
-
-std::string shut_down_after(int seconds) {
-  return fmt::format("M85 S{}", seconds);
-}
 
 std::string degrees(double temperature) {
   return short_number(temperature, 1);
@@ -30,14 +23,6 @@ std::string pace_words(const PrintSettings& settings) {
 }
 
 }  // namespace
-
-std::string comment(const std::string& text) {
-  std::string line = ";" + text;
-  for (char& c : line) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return line;
-}
 
 std::vector<std::string> job_comments(const Printer& printer, const PrintSettings& settings,
                                       const Dialect& dialect) {
@@ -58,39 +43,16 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
   return lines;
 }
 
-HeatTargets first_temperatures(const Printer& printer, const PrintSettings& settings) {
-  HeatTargets first{printer.nozzle_temperature, printer.bed_temperature};
-  for (const LayerTemperature& change : settings.temperatures) {
-    if (change.layer > 0) break;
-    first = {change.nozzle.value_or(first.nozzle), change.bed.value_or(first.bed)};
-  }
-  return first;
-}
-
 std::vector<std::string> warm_up(const Printer& printer, const PrintSettings& settings) {
   const HeatTargets first = first_temperatures(printer, settings);
   const std::string nozzle = degrees(first.nozzle), bed = degrees(first.bed);
-  return {shut_down_after(inactivity_shutdown),
-          "M220 S100",
-          "M221 S100",
-          "M140 S" + bed,
-          "M104 S" + nozzle,
-          "G28",
-          "M190 S" + bed,
-          "M109 S" + nozzle};
-}
-
-std::string stay_watchful() {
-  return shut_down_after(inactivity_shutdown);
-}
-
-std::vector<std::string> modes() {
-  return {"G21", "G90", "M83", "G92 E0"};
+  return {stay_watchful(),   "M220 S100", "M221 S100",    "M140 S" + bed,
+          "M104 S" + nozzle, "G28",       "M190 S" + bed, "M109 S" + nozzle};
 }
 
 std::vector<std::string> after_user_start() {
   std::vector<std::string> lines = modes();
-  lines.insert(lines.begin(), shut_down_after(inactivity_shutdown));
+  lines.insert(lines.begin(), stay_watchful());
   return lines;
 }
 
@@ -105,11 +67,6 @@ std::vector<std::string> framed(const std::vector<std::string>& user_lines) {
   lines.insert(lines.end(), user_lines.begin(), user_lines.end());
   lines.push_back(user_lines_end);
   return lines;
-}
-
-std::vector<std::string> calibration(const Printer& printer) {
-  if (!printer.extruder_steps) return {};
-  return {"M92 E" + short_number(*printer.extruder_steps, 3)};
 }
 
 std::vector<std::string> layer_events(std::size_t layer, const PrintSettings& settings) {

@@ -4,28 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "firmware_gcode/dialect/common_lines.hpp"
 #include "firmware_gcode/dialect/dialect.hpp"
 #include "firmware_gcode/print/print_settings.hpp"
 #include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 
-/// A comment that cannot become a command: control characters and bytes beyond ASCII are replaced.
-std::string comment(const std::string& text);
-
 /// For people and viewers: who made the file, for which printer, with which mixtures.
 std::vector<std::string> job_comments(const Printer& printer, const PrintSettings& settings,
                                       const Dialect& dialect);
-
-/// Between these comments stand the user's own lines.
-inline constexpr const char* user_lines_begin = ";BEGIN of your own lines";
-inline constexpr const char* user_lines_end = ";END of your own lines";
-
-struct HeatTargets {
-  double nozzle, bed;  ///< °C
-};
-/// What the print begins with.
-HeatTargets first_temperatures(const Printer& printer, const PrintSettings& settings);
 
 /// Inactivity shutdown, factors reset, heat, home. Bed and nozzle warm up while the axes home, which saves
 /// a minute; the waits come after, so that whatever has oozed meanwhile stays away from the bed.
@@ -39,17 +27,8 @@ std::vector<std::string> script_lines(const std::string& text, const std::string
 /// The user's lines between their comments, if there are any.
 std::vector<std::string> framed(const std::vector<std::string>& user_lines);
 
-/// Steps of the extruder's motor, where the profile has them.
-std::vector<std::string> calibration(const Printer& printer);
-
 /// The changes of fan and heaters that a layer begins with. Nothing waits for them.
 std::vector<std::string> layer_events(std::size_t layer, const PrintSettings& settings);
-
-/// The inactivity shutdown set, and its time begun anew: to be said again while a print is held.
-std::string stay_watchful();
-
-/// Millimetres, absolute positions, relative extrusion. M83 follows G90, which would override it.
-std::vector<std::string> modes();
 
 /// The inactivity shutdown and the modes once more: the user's own lines cannot turn off the one or change
 /// the others under the toolpath.

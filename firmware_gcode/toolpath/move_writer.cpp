@@ -62,18 +62,19 @@ void MoveWriter::forget() {
   owed_ = 0;
 }
 
-void MoveWriter::calibrate(std::size_t tool, double scale) {
-  if (scales_.size() <= tool) scales_.resize(tool + 1, 1.0);
-  scales_[tool] = scale;
+void MoveWriter::define_tool(std::size_t tool, std::string name, double scale) {
+  if (tools_.size() <= tool) tools_.resize(tool + 1);
+  tools_[tool] = {std::move(name), scale};
 }
 
 double MoveWriter::scale() const {
-  return tool_ && *tool_ < scales_.size() ? scales_[*tool_] : 1.0;
+  return tool_ && *tool_ < tools_.size() ? tools_[*tool_].scale : 1.0;
 }
 
 void MoveWriter::select_tool(Chunk& chunk, std::size_t tool) {
   if (tool_ == tool) return;
   tool_ = tool;
+  if (tool < tools_.size()) chunk.mixtures.push_back({chunk.lines.size(), tools_[tool].name});
   chunk.lines.push_back(dialect_.select_tool(tool));
 }
 

@@ -34,9 +34,11 @@ class MoveWriter {
   /// printer that may have stopped anywhere in what has been written.
   void forget();
 
-  /// From here on a tool's filament is written `scale` times as long as it is to be: its feeders slip.
-  void calibrate(std::size_t tool, double scale);
+  /// What a tool holds from here on: `name` for people, and E ÷ the filament that is to be fed
+  /// (mixing/calibration.hpp).
+  void define_tool(std::size_t tool, std::string name, double scale);
 
+  /// The chunk records the mixture that starts here.
   void select_tool(Chunk& chunk, std::size_t tool);
   void rise(Chunk& chunk, double z);
   void travel(Chunk& chunk, const core::Vec2& to);
@@ -62,9 +64,13 @@ class MoveWriter {
   std::optional<GridPoint> position_;
   std::optional<std::int64_t> height_;  ///< in 0.001 mm
   std::optional<std::size_t> tool_;
-  std::vector<double> scales_;  ///< by tool
-  double feed_ = 0;             ///< mm/min in force, 0: unknown
-  double owed_ = 0;             ///< mm of filament that rounding has kept back
+  struct Tool {
+    std::string name;
+    double scale = 1;
+  };
+  std::vector<Tool> tools_;
+  double feed_ = 0;  ///< mm/min in force, 0: unknown
+  double owed_ = 0;  ///< mm of filament that rounding has kept back
 };
 
 }  // namespace unicursal::gcode

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "firmware_gcode/dialect/number.hpp"
-#include "firmware_gcode/toolpath/job_frame.hpp"
+#include "firmware_gcode/print/heat_targets.hpp"
 
 namespace unicursal::gcode {
 namespace {

@@ -1,179 +1,216 @@
 #include "host/cli/arguments.hpp"
-#include "sim/simulator.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <limits>
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "sim/simulator.hpp"
 
 namespace unicursal::host {
-
-std::optional<std::filesystem::path> path_if(const std::string& text) {
-  return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
-}
-
-std::optional<std::string> text_if(const std::string& text) {
-  return text.empty() ? std::nullopt : std::optional(text);
-}
-
-CLI::Validator finite_number(double least, double most) {
-  const auto problem = [least, most](const std::string& text) {
-    double value = 0;
-    const bool sound = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-    if (sound) return std::string();
-    if (value < least || most == std::numeric_limits<double>::max())
-      return fmt::format("\"{}\" is no number from {:g} up", text, least);
-    return fmt::format("\"{}\" is no number from {:g} to {:g}", text, least, most);
-  };
-  return {problem, "NUMBER"};
-}
-
-void JobArguments::declare(CLI::App& app) {
-  app.add_option("job", job, "the job, a TOML file")->required()->type_name("JOB");
-  app.add_option("--profile", profile, "printer profile instead of the one that the job names")
-      ->type_name("FILE");
-  app.add_option("--layers", layers, "only these, first:last counted from 0, lowered onto the bed")
-      ->type_name("A:B");
-  app.add_option("--report", report, "write what was measured as JSON")->type_name("FILE");
-  app.add_option("--picture", pictures, "write a picture of each layer into this folder")->type_name("DIR");
-  app.add_flag("--no-look-ahead", no_look_ahead,
-               "switch mixtures where the border is, not ahead of it: for comparison");
-  app.add_option("--threads", threads,
-                 "that plan layers; one for each core by default, any number gives the same bytes")
-      ->check(finite_number(1, most_threads))
-      ->type_name("N");
-}
-
-void JobArguments::declare_full_quality(CLI::App& app) {
-  app.add_flag("--full-quality", full_quality,
-               "plan every layer as well as it can be, though the nozzle may have to wait; "
-               "otherwise quality steps down before it does");
-}
-
-JobOptions JobArguments::options() const {
-  JobOptions result{job,     path_if(profile), {},          {path_if(report), path_if(pictures)},
-                    threads, !no_look_ahead,   full_quality};
-  if (!layers.empty()) result.layers = parse_layers(layers);
-  return result;
-}
-
 namespace {
 
-void declare_tanks(CLI::App& app, std::size_t& tanks) {
-  app.add_option("--tanks", tanks,
-                 "stirred tanks in a row that the nozzle mixes in, 1 to 8; the profile's, or 2")
-      ->check(CLI::Range(1, 8))
-      ->type_name("NUMBER");
+std::size_t parse_index(std::string_view text, const std::string& whole) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  throw core::DataError("", "--layers", fmt::format("\"{}\" is not a range of layers", whole),
+                        "write first:last counted from 0, for example 0:4");
+}
+
+/// Validators without a name do not show in the help.
+CLI::Validator validator(std::function<std::string(std::string&)> problem) {
+  return {std::move(problem), ""};
 }
 
 }  // namespace
 
-void PrinterArguments::declare(CLI::App& app) {
-  app.add_option("--personality", personality,
-                 "its firmware: marlin, marlin-8bit, marlin-advanced-ok, repetier; "
-                 "that of the profile if left out")
-      ->type_name("NAME");
-  app.add_option("--usb", usb, "the chip in its cable: none, cdc (1 ms) or ftdi (16 ms)")->type_name("CHIP");
-  app.add_option("--fault", faults, "what shall go wrong, see below; may be given several times")
-      ->type_name("FAULT")
-      ->take_all()
-      ->expected(1);
-  app.add_option("--faults", fault_file, "a file with one fault on each line, and perhaps `seed NUMBER`")
-      ->type_name("FILE");
-  declare_tanks(app, tanks);
-  (seed_given[0] ? seed_given[1] : seed_given[0]) =
-      app.add_option("--seed", seed, "of the faults' chance; the same seed gives the same faults")
-          ->type_name("NUMBER");
+CLI::Validator number_between(double least, double most) {
+  return validator([least, most](const std::string& text) {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
+    if (most == any_number) return fmt::format("\"{}\" is not a number from {:g} up", text, least);
+    return fmt::format("\"{}\" is not a number from {:g} to {:g}", text, least, most);
+  });
 }
 
-void PrinterArguments::apply(sim::SimulatorOptions& options) const {
-  if (chosen()) options.personality = personality;
-  options.usb = usb;
-  options.faults = faults;
-  options.fault_file = path_if(fault_file);
-  if (tanks > 0) options.tanks = tanks;
-  for (const CLI::Option* given : seed_given) {
-    if (given && given->count() > 0) options.seed = seed;
+CLI::Validator integer_between(std::uint64_t least, std::uint64_t most) {
+  return validator([least, most](const std::string& text) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    if (whole && value >= least && value <= most) return std::string();
+    if (most == std::numeric_limits<std::uint64_t>::max())
+      return fmt::format("\"{}\" is not a whole number from {} up", text, least);
+    return fmt::format("\"{}\" is not a whole number from {} to {}", text, least, most);
+  });
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return validator([words](const std::string& text) {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+    return fmt::format("\"{}\" is not one of {}", text, fmt::join(words, ", "));
+  });
+}
+
+CLI::Validator not_empty() {
+  return validator([](const std::string& text) { return text.empty() ? "the value is empty" : ""; });
+}
+
+CLI::App& add_command(CLI::App& program, const std::string& name, const std::string& group,
+                      const std::string& summary, const std::string& example) {
+  CLI::App* app = program.add_subcommand(name, summary);
+  app->group(group);
+  app->footer("Example:\n  " + example);
+  return *app;
+}
+
+void add_note(CLI::App& app, const std::string& paragraph) {
+  app.footer(app.get_footer() + "\n\n" + paragraph);
+}
+
+LayerRange parse_layers(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::string_view view = text;
+  LayerRange range;
+  if (colon == std::string::npos) {
+    range.first = range.last = parse_index(view, text);
+    return range;
+  }
+  range.last = static_cast<std::size_t>(-1) / 2;
+  if (colon > 0) range.first = parse_index(view.substr(0, colon), text);
+  if (colon + 1 < text.size()) range.last = parse_index(view.substr(colon + 1), text);
+  return range;
+}
+
+void JobOptions::declare(CLI::App& app) {
+  add_value(app, "JOB", job, " ", "The job, a TOML file: see unicursal-job(5).").required();
+  add_value(app, "--profile", profile, "FILE",
+            "Use this printer profile instead of the one that the job names.")
+      .group("Job");
+  declare_layers(app, layers,
+                 "Print only the layers A to B, counted from 0 with both included. They are moved down onto "
+                 "the bed.");
+  add_value(app, "--report", outputs.report, "FILE", "Write all measurements to this file, as JSON.")
+      .group("Output");
+  add_value(app, "--picture", outputs.pictures, "DIR", "Write pictures of each layer to this folder.")
+      .group("Output");
+  app.add_flag_callback(
+         "--no-look-ahead", [this] { look_ahead = false; },
+         "Switch mixtures at the borders instead of ahead of them, for comparison.")
+      ->group("Planning");
+  add_value(app, "--threads", threads, "N",
+            "Number of planning threads; default: one for each core. The result does not depend on it.")
+      .check(integer_between(1, most_threads))
+      ->group("Planning");
+}
+
+void JobOptions::declare_full_quality(CLI::App& app) {
+  app.add_flag("--full-quality", full_quality,
+               "Plan each layer with full effort, even if the nozzle has to wait. Without this option the "
+               "effort is reduced before the nozzle would have to wait.")
+      ->group("Planning");
+}
+
+void SimulatedPrinter::declare(CLI::App& app) {
+  constexpr auto group = "Simulated printer";
+  add_value(app, "--personality", personality, "NAME",
+            "Firmware to simulate: marlin, marlin-8bit, marlin-advanced-ok or repetier. Default: the "
+            "firmware of the profile.")
+      .group(group);
+  add_value(app, "--usb", options.usb, "CHIP",
+            "USB chip of the cable: none, cdc (1 ms of delay) or ftdi (16 ms). Default: cdc.")
+      .group(group);
+  declare_tanks(app, options.tanks);
+  add_values(app, "--fault", options.faults, "FAULT", "Inject this fault (see below). May be repeated.")
+      .group(group);
+  add_value(app, "--faults", options.fault_file, "FILE",
+            "Inject the faults of this file: one on each line, and optionally a line `seed NUMBER`.")
+      .group(group);
+  add_value(app, "--seed", options.seed, "NUMBER",
+            "Seed of random faults. The same seed gives the same faults. Default: 1.")
+      .check(integer_between(0, std::numeric_limits<std::uint64_t>::max()))
+      ->group(group);
+  add_note(app,
+           "A fault is KIND[:VALUE][@MOMENT]. A CHANCE is the probability for each byte or line, as in "
+           "bitflip:1e-4. A MOMENT is t=SECONDS, line=NUMBER or command=WORD, as in stall:5@t=60. The "
+           "kinds are:\n" +
+               sim::fault_help());
+}
+
+void SimulatedPrinter::check() const {
+  constexpr auto remedy = "`unicursal simulate --help` lists the possible values";
+  try {
+    sim::check(options);
+  } catch (const std::invalid_argument& error) {
+    throw core::DataError("", "", error.what(), remedy);
+  } catch (const std::system_error& error) {
+    throw core::DataError("", "", error.what(), "check the file's name and permissions");
   }
 }
 
-std::string fault_footer() {
-  return "A fault is KIND[:VALUE][@MOMENT]. A CHANCE is for each byte or line that passes, as in "
-         "bitflip:1e-4;\n"
-         "a MOMENT is t=SECONDS, line=NUMBER or command=WORD, as in stall:5@t=60. The kinds:\n" +
-         sim::fault_help();
+void declare_layers(CLI::App& app, std::optional<LayerRange>& layers, const std::string& help) {
+  const auto parse = [&layers](const std::string& text) { layers = parse_layers(text); };
+  app.add_option_function<std::string>("--layers", parse, help)->option_text("A:B")->group("Job");
 }
 
-void TuneArguments::declare(CLI::App& parent) {
-  app = parent.add_subcommand("transition", "find dead and mixing volume, and write them into the profile");
-  declare_strip();
-  declare_ways();
-  declare_reading();
-  app->footer(
-      "Examples:\n  unicursal tune transition diamond.toml --port auto\n"
-      "  unicursal tune transition diamond.toml -o strip.gcode      print that, then:\n"
-      "  unicursal tune transition diamond.toml --began 31 --half 45 --stopped 73\n\n"
-      "The strip is one bead in which the mixture changes at tick 0. Three lines below it show how it "
-      "looks\n"
-      "when 5, 50 and 95 % of the change have come: the questions are where the bead looks like them. The\n"
-      "profile changes only when you say yes, and then only its two numbers. Two strong colours are read "
-      "best;\n"
-      "in a dark one a trace of a light one can hardly be seen.");
+CLI::Option& declare_port(CLI::App& app, std::optional<std::string>& port, const std::string& otherwise) {
+  return add_value(app, "--port", port, "PORT",
+                   "Serial port of the printer, or auto to search for it. Default: " + otherwise + ".");
 }
 
-void TuneArguments::declare_strip() {
-  app->add_option("profile", profile, "the printer's profile, a TOML file")->required()->type_name("PROFILE");
-  app->add_option("--from", from, "feeder of the first colour, counted from 1")->check(CLI::Range(1, 3));
-  app->add_option("--to", to, "feeder that it changes to")->check(CLI::Range(1, 3));
-  app->add_option("--range", command.range,
-                  "mm³ of transition that the strip can show; 60, or as much as the bed holds, if left out")
-      ->check(finite_number(1, 1000))
-      ->type_name("MM3");
+void declare_log(CLI::App& app, std::optional<std::filesystem::path>& log) {
+  add_value(app, "--log", log, "FILE",
+            "Write every byte of the serial line to this file. An older file is renamed to FILE.1 and so on.")
+      .group("Output");
 }
 
-void TuneArguments::declare_ways() {
-  CLI::Option* port_option =
-      app->add_option("--port", port, "print it: serial port, or auto")->type_name("PORT");
-  app->add_option("-o,--output", output, "write it as a G-code file")->type_name("FILE");
-  CLI::Option* simulate = app->add_flag("--simulate", command.simulate, "print it on the simulated printer");
-  simulate->excludes(port_option);
-  app->add_option("--machine", machine, "profile with the simulated printer's true volumes")
-      ->needs(simulate)
-      ->type_name("FILE");
-  declare_tanks(*app, command.tanks);
-  app->add_option("--picture", pictures,
-                  "folder for the picture of the simulated strip; transition-strip if left out")
-      ->needs(simulate)
-      ->type_name("DIR");
-  app->add_flag("--read-simulated", command.read_simulated, "read the simulated strip instead of asking")
-      ->needs(simulate);
+void declare_spool(CLI::App& app, std::optional<std::filesystem::path>& spool) {
+  add_value(app, "--spool", spool, "DIR",
+            "Folder in which prints are kept so that they can be resumed. Default: unicursal/prints in "
+            "$XDG_STATE_HOME or ~/.local/state.");
 }
 
-void TuneArguments::declare_reading() {
-  const auto tick = finite_number(0, 1e6);
-  CLI::Option* began = app->add_option("--began", command.began, "tick where the bead looks like the line 5")
-                           ->check(tick)
-                           ->type_name("TICK");
-  CLI::Option* stopped = app->add_option("--stopped", command.stopped, "tick where it looks like the line 95")
-                             ->check(tick)
-                             ->type_name("TICK");
-  app->add_option("--half", command.half, "tick where it looks like the line 50; makes the result finer")
-      ->check(tick)
-      ->needs(began)
-      ->type_name("TICK");
-  began->needs(stopped);
-  stopped->needs(began);
-  app->add_flag("--yes", command.yes, "write into the profile without asking");
+void declare_state(CLI::App& app, std::optional<std::filesystem::path>& state) {
+  add_value(app, "--state", state, "DIR",
+            "State folder of the daemon. Default: unicursal/daemon in $XDG_STATE_HOME or ~/.local/state.");
 }
 
-TuneCommand TuneArguments::finished() const {
-  TuneCommand result = command;
-  result.profile = profile;
-  result.feeders = {from - 1, to - 1};
-  result.output = path_if(output);
-  if (!port.empty()) result.port = port;
-  result.machine = path_if(machine);
-  result.pictures = path_if(pictures);
-  return result;
+void declare_events(CLI::App& app, DisplayOptions& display) {
+  app.add_flag("--json", display.json, "Write events to standard output, one JSON object on each line.")
+      ->group("Output");
+}
+
+void declare_pause_heat(CLI::App& app, PauseHeat& heat) {
+  const auto choose = [&heat](const std::string& word) {
+    heat = word == "lower" ? PauseHeat::lower : PauseHeat::keep;
+  };
+  app.add_option_function<std::string>(
+         "--pause-heat", choose,
+         "What to do with the nozzle's heat during a pause: lower it by 60 °C at once, or keep it and lower "
+         "it after 15 minutes. Default: keep.")
+      ->option_text("keep|lower")
+      ->check(one_of({"keep", "lower"}));
+}
+
+void declare_tanks(CLI::App& app, std::optional<std::size_t>& tanks) {
+  add_value(app, "--tanks", tanks, "N",
+            "Number of stirred tanks in series that model the nozzle's mixing chamber, 1 to 8. Default: the "
+            "profile's number, or 2.")
+      .check(integer_between(1, 8))
+      ->group("Simulated printer");
+}
+
+void add_steering_note(CLI::App& app) {
+  add_note(
+      app,
+      "While it prints in a terminal, type a word and Enter to steer it: pause, resume, cancel (park and "
+      "cool), stop (stop at once), speed 80 or flow 95 (per cent), nozzle 205 or bed 55 (°C). Ctrl-C "
+      "cancels; Ctrl-C again stops at once.");
 }
 
 }  // namespace unicursal::host

@@ -5,7 +5,7 @@
 namespace unicursal::host {
 namespace {
 
-constexpr auto help = "say pause, resume, cancel or stop; or speed, flow, nozzle or bed with a number";
+constexpr auto help = "type pause, resume, cancel or stop, or else speed, flow, nozzle or bed with a number";
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Steering a print from the terminal that it runs in: a word and Enter.
+// Steers a print from its own terminal, with words that are typed there.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace unicursal::host {
 
-/// Obeys "pause", "resume", "cancel", "stop", "speed 80", "flow 95", "nozzle 205", "bed 55"; returns what
-/// there is to say about it, empty when nothing is.
+/// Runs "pause", "resume", "cancel", "stop", "speed 80", "flow 95", "nozzle 205" or "bed 55". Returns an
+/// error sentence, or an empty text.
 std::string obey(Session& session, const std::string& words);
 
 }  // namespace unicursal::host

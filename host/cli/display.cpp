@@ -9,8 +9,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/text/printable.hpp"
 #include "firmware_gcode/reply/reply.hpp"
-#include "host/cli/show.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "host/engine/session_json.hpp"
 #include "host/report/summary.hpp"
 
@@ -29,7 +30,7 @@ std::size_t terminal_width() {
   return known ? size.ws_col : usual_width;
 }
 
-/// Temperatures and the like are no news; errors and what the printer does on its own are.
+/// Returns whether a person should see this event: errors, and what the printer does on its own.
 bool is_news(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::notice) return true;
   if (event.kind != SessionEvent::Kind::printer) return false;
@@ -45,7 +46,7 @@ std::string heat(const char* what, const std::optional<double>& actual, const st
   return fmt::format(", {} {:.0f}/{:.0f} °C", what, *actual, *target);
 }
 
-/// Letters, not bytes: a degree sign has two of these.
+/// Cuts the text to `width` characters, not bytes: a degree sign is two bytes.
 std::string cut(std::string text, std::size_t width) {
   std::size_t letters = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -84,12 +85,12 @@ void Display::show(const Session& session, const SessionEvent& event) {
     if (!often || is_due(event_interval)) write(event, session.status());
     return;
   }
-  if (is_news(event)) return say(gcode::printable(event.text));
+  if (is_news(event)) return say(core::printable(event.text));
   const bool changed = event.kind == SessionEvent::Kind::state;
   if (changed || !terminal_ || is_due(redraw_interval)) {
     const SessionStatus status = session.status();
     if (changed && !status.reason.empty() && !has_ended(status.state))
-      say(fmt::format("{}: {}", name(status.state), gcode::printable(status.reason)));
+      say(fmt::format("{}: {}", name(status.state), core::printable(status.reason)));
     draw(status);
   }
 }
@@ -101,7 +102,7 @@ bool Display::is_due(std::chrono::milliseconds interval) {
   return true;
 }
 
-/// On a terminal always; else when another tenth is done.
+/// Without a terminal, shows a line only when another tenth of the print is done.
 void Display::draw(const SessionStatus& status) {
   if (terminal_) {
     unicursal::host::show(stderr, "\r\x1b[K{}", status_line(status, terminal_width() - 1));

@@ -1,5 +1,5 @@
-// What a print shows while it runs: one line that is rewritten on a terminal, an occasional plain line
-// elsewhere, both on standard error; or events as JSON, one object on each line of standard output.
+// The progress of a print. On a terminal it is one line that is rewritten; elsewhere it is a line for each
+// tenth of the print; both go to standard error. Or it is JSON on standard output: one event on each line.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ enum class DisplayForm { words, json };
 class Display {
  public:
   explicit Display(DisplayForm form);
-  /// Takes the line away.
+  /// Erases the progress line.
   ~Display();
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
@@ -37,7 +37,8 @@ class Display {
   Clock::time_point last_{};
 };
 
-/// The line: state, layer, per cent, time left, temperatures, mixture, look-ahead, queue; cut to `width`.
+/// Returns the progress line, cut to `width` characters: state, layer, per cent, time left, temperatures,
+/// mixture, look-ahead, queue.
 std::string status_line(const SessionStatus& status, std::size_t width);
 
 }  // namespace unicursal::host

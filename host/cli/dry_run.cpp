@@ -1,168 +1,74 @@
-#include <fmt/format.h>
+#include "host/dry_run/dry_run.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include "host/cli/commands.hpp"
-#include "host/cli/common.hpp"
-#include "host/cli/show.hpp"
-#include "host/dry_run/lockstep_clock.hpp"
-#include "host/dry_run/simulator_process.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/foreground.hpp"
+#include "host/cli/preparation.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
 
-constexpr double unattended_pause = 60;  ///< s; then somebody has seen to the simulated printer
+class DryRun final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override;
 
-/// Real time is for watching how the host paces; virtual time needs no patience and repeats exactly.
-bool is_virtual(const DryRunCommand& command) {
-  return command.printer.speed == 0;
+ private:
+  JobOptions job_;
+  SimulatedPrinter simulated_;
+  double charge_ = 0;
+  std::optional<std::filesystem::path> log_;
+  DisplayOptions display_;
+};
+
+CLI::App& DryRun::declare(CLI::App& program) {
+  CLI::App& app = add_command(program, "dry-run", "Try without a printer",
+                              "Print a job on a simulated printer and show what would come out.",
+                              "unicursal dry-run leaf.toml --report leaf.json --picture pictures");
+  job_.declare(app);
+  job_.declare_full_quality(app);
+  declare_events(app, display_);
+  declare_log(app, log_);
+  add_value(app, "--charge-planning", charge_, "FACTOR",
+            "In virtual time, let planning take as long as on a computer that is this many times slower. "
+            "Default: 0, planning takes no time.")
+      .check(number_between(0, 1e6))
+      ->group("Planning");
+  add_value(app, "--speed", simulated_.options.speed, "FACTOR",
+            "Printer seconds per second: 1 is real time. Default: 0, virtual time, which runs as fast as "
+            "possible and gives the same report every time.")
+      .check(number_between(0, any_number))
+      ->group("Simulated printer");
+  simulated_.declare(app);
+  return app;
 }
 
-/// The firmware that the profile is written for, unless another one is asked for.
-std::string personality_of(const DryRunCommand& command, const PreparedJob& prepared) {
-  return command.personality_chosen ? command.printer.personality : prepared.job.profile.printer.firmware;
-}
-
-std::vector<std::string> simulator_arguments(const DryRunCommand& command, const PreparedJob& prepared) {
-  const sim::SimulatorOptions& printer = command.printer;
-  std::vector<std::string> arguments = {"--profile",     prepared.job.profile.file.string(),
-                                        "--speed",       fmt::format("{}", printer.speed),
-                                        "--baud",        fmt::format("{}", prepared.job.profile.baud),
-                                        "--personality", personality_of(command, prepared),
-                                        "--usb",         printer.usb};
-  for (const std::string& fault : printer.faults) arguments.insert(arguments.end(), {"--fault", fault});
-  if (printer.fault_file) arguments.insert(arguments.end(), {"--faults", printer.fault_file->string()});
-  if (printer.tanks) arguments.insert(arguments.end(), {"--tanks", fmt::format("{}", *printer.tanks)});
-  if (printer.seed) arguments.insert(arguments.end(), {"--seed", fmt::format("{}", *printer.seed)});
-  if (command.job.outputs.pictures) {
-    arguments.insert(arguments.end(), {"--picture", command.job.outputs.pictures->string()});
-  }
-  return arguments;
-}
-
-Comparison compare_with(const nlohmann::json& simulator, const Run& run, const StreamResult& result) {
-  Fed fed;
-  fed.filament_diameter = run.prepared().job.profile.printer.filament_diameter;
-  const gcode::Printer& printer = run.prepared().job.profile.printer;
-  fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
-  fed.flow_factors = printer.flow_factors;
-  fed.lines_sent = result.statistics.lines + result.statistics.queries;
-  return compare(run.fed(), simulator, fed);
-}
-
-StreamSettings settings_for(const DryRunCommand& command, const Profile& profile,
-                            const SimulatorProcess& simulator) {
-  StreamSettings settings;
-  settings.link = link_options(profile, command.log);
-  settings.profile = profile.file;
-  settings.longest_pause = unattended_pause;
-  if (is_virtual(command)) {
-    settings.clock = std::make_shared<LockstepClock>(simulator.control());
-  } else {
-    settings.clock = real_clock(command.printer.speed);
-  }
-  return settings;
-}
-
-/// In virtual time what planning takes is charged for; where it is free, there is no hurry.
-LookaheadOptions pace_for(const DryRunCommand& command, const PreparedJob& prepared,
-                          const StreamSettings& settings) {
-  LookaheadOptions options = paced(lookahead_options(prepared), settings.clock);
-  if (!is_virtual(command)) return options;
-  options.pace.reset();
-  if (command.charge > 0) options.pace = PlanningClock{{}, command.charge};
-  return options;
-}
-
-/// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.
-nlohmann::json planning_of(const DryRunCommand& command, const Lookahead& lookahead,
-                           const StreamResult& result) {
-  nlohmann::json planning =
-      is_virtual(command) ? nlohmann::json{{"charge", command.charge}} : planning_json(lookahead);
-  planning["waited_seconds"] = result.waited;
-  return planning;
-}
-
-RunOutputs outputs_of(const DryRunCommand& command) {
-  RunOutputs outputs = command.job.outputs;
-  outputs.repeatable = is_virtual(command);
-  return outputs;
-}
-
-/// Thousands of numbers that nobody reads, once they have been judged.
-void leave_out_histograms(nlohmann::json& simulator) {
-  const auto motion = simulator.find("motion");
-  if (motion == simulator.end() || !motion->is_object()) return;
-  motion->erase("flow_seconds");
-  motion->erase("flow_by_second");
-}
-
-/// A report of a failed print tells what the printer saw of it, if it still can.
-void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
-                     SimulatorProcess& simulator) {
-  try {
-    extra["simulator"] = simulator.finish();
-  } catch (const SimulatorError&) {
-    // What ended the print is told; what ended the simulator would only distract from it.
-  }
-  conclude(run, result, extra);
-}
-
-/// The simulator's own report; where it fails at its very end, that is how the dry run ended.
-nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult result, DepositCheck& check,
-                       const nlohmann::json& planning) {
-  try {
-    return simulator.finish();
-  } catch (const SimulatorError& error) {
-    check.finish();
-    result.ending = Ending::failed;
-    result.reason = error.what();
-    conclude(run, result, {{"planning", planning}, {"laid", check.to_json()}});
-    throw;
-  }
+Exit DryRun::run() {
+  if (simulated_.personality) simulated_.options.personality = *simulated_.personality;
+  simulated_.check();
+  const PreparedJob prepared = prepare_and_warn(job_, present({log_}));
+  check_outputs(present({simulated_.options.fault_file}), present({job_.outputs.report, log_}));
+  const DryRunOptions options{simulated_.options, simulated_.personality.has_value(), charge_, log_,
+                              job_.outputs};
+  const DryRunResult result =
+      dry_run(prepared, options, [&](int port, Source& source, const StreamSettings& settings) {
+        return stream_with_progress(port, source, display_, settings);
+      });
+  std::FILE* const messages = message_stream(display_);
+  show(messages, "{}", summary(result.totals, result.effort));
+  const Exit exit = show_ending(result.stream, display_);
+  if (exit != Exit::success) return exit;
+  show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
+  if (result.problem) show(stderr, "warning: {}\n", *result.problem);
+  return result.comparison.lines_whole() ? Exit::success : Exit::failed;
 }
 
 }  // namespace
 
-Exit dry_run(const DryRunCommand& command) {
-  check_simulator(command.printer);
-  const PreparedJob prepared = prepare_and_warn(command.job, present({command.log}));
-  check_beginning(prepared);
-  check_outputs(present({command.printer.fault_file}), present({command.job.outputs.report, command.log}));
-  Run run(prepared, "dry-run", outputs_of(command));
-  // Outlives the simulator, whose end is that of the stream it waits for.
-  DepositCheck check(intended_materials(prepared, run.encoder()), command.job.outputs.pictures);
-  SimulatorProcess simulator(simulator_arguments(command, prepared), is_virtual(command)
-                                                                         ? SimulatorProcess::Time::lockstep
-                                                                         : SimulatorProcess::Time::own);
-  run.tell(check);
-  check.watch(simulator.take_rasters());
-  StreamSettings settings = settings_for(command, prepared.job.profile, simulator);
-  Lookahead lookahead(*prepared.part, pace_for(command, prepared, settings));
-  const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  PlannedSource source(lookahead, run);
-  const StreamResult result = stream_with_progress(port, source, command.display, settings);
-  settings.clock.reset();  // hangs up, which the simulator waits for
-  const nlohmann::json planning = planning_of(command, lookahead, result);
-  if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
-  nlohmann::json seen = seen_by(simulator, run, result, check, planning);
-  check.finish();
-  const MotionFindings motion = motion_findings(seen, run.flow());
-  leave_out_histograms(seen);
-  const Comparison comparison = compare_with(seen, run, result);
-  conclude(run, result,
-           {{"planning", planning},
-            {"simulator", seen},
-            {"comparison", to_json(comparison)},
-            {"laid", check.to_json()},
-            {"motion", to_json(motion)}});
-  show(words_of(command.display), "{}", summary(run.totals(), lookahead.effort()));
-  const Exit exit = tell_ending(result, command.display);
-  if (exit != Exit::success) return exit;
-  show(words_of(command.display), "{}{}{}", summary(comparison), summary(motion), summary(check.total()));
-  if (check.problem()) show(stderr, "warning: {}\n", *check.problem());
-  return comparison.lines_whole() ? Exit::success : Exit::failed;
+std::unique_ptr<Command> make_dry_run() {
+  return std::make_unique<DryRun>();
 }
 
 }  // namespace unicursal::host

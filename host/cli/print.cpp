@@ -1,48 +1,57 @@
-#include <fmt/format.h>
+#include "host/engine/print.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "host/cli/commands.hpp"
-#include "host/cli/common.hpp"
-#include "host/cli/show.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/foreground.hpp"
+#include "host/cli/preparation.hpp"
+#include "host/cli/terminal_output.hpp"
+#include "host/report/print_report.hpp"
 #include "host/report/summary.hpp"
-#include "host/spool/spool.hpp"
 
 namespace unicursal::host {
 namespace {
 
-PrintOrder order_of(const PrintCommand& command, const PreparedJob& prepared) {
-  PrintOrder order;
-  order.job_name = prepared.job.file.stem().string();
-  order.port = command.port.value_or(prepared.job.profile.port);
-  order.layer_count = prepared.count;
-  if (command.job.layers) order.layers = std::pair(command.job.layers->first, command.job.layers->last);
-  return order;
+class PrintCommand final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override;
+
+ private:
+  JobOptions job_;
+  PrintOptions options_;
+  DisplayOptions display_;
+};
+
+CLI::App& PrintCommand::declare(CLI::App& program) {
+  CLI::App& app = add_command(program, "print", "Print", "Print a job on a printer, over USB.",
+                              "unicursal print leaf.toml --port /dev/ttyUSB0");
+  job_.declare(app);
+  job_.declare_full_quality(app);
+  declare_port(app, options_.port, "the profile's port");
+  declare_pause_heat(app, options_.pause_heat);
+  declare_spool(app, options_.spool);
+  declare_events(app, display_);
+  declare_log(app, options_.log);
+  add_steering_note(app);
+  return app;
+}
+
+Exit PrintCommand::run() {
+  Print print(prepare_and_warn(job_, present({options_.log})), "print", options_, job_.outputs);
+  const StreamResult result = stream_with_progress(print, display_);
+  show_how_to_resume(print.spool(), result);
+  conclude(print.run(), result, {{"planning", planning_json(print.lookahead())}});
+  if (result.ending == Ending::completed)
+    show(message_stream(display_), "{}", summary(print.run().totals(), print.lookahead().effort()));
+  return show_ending(result, display_);
 }
 
 }  // namespace
 
-Exit print(const PrintCommand& command) {
-  const PreparedJob prepared = prepare_and_warn(command.job, present({command.log}));
-  Run run(prepared, "print", command.job.outputs);
-  PrintOrder order = order_of(command, prepared);
-  check_beginning(prepared);
-  StreamSettings settings;
-  settings.pause_heat = command.pause_heat;
-  settings.profile = prepared.job.profile.file;
-  Lookahead lookahead(*prepared.part, paced(lookahead_options(prepared), settings.clock));
-  settings.link = link_options(prepared.job.profile, command.log);
-  const int port = open_port(order.port, prepared.job.profile.baud, settings.link);
-  order.device = device_of(port);
-  Spool spool = Spool::create(command.spool ? *command.spool : default_spool_root(), prepared.job, order);
-  settings.spool = &spool;
-  PlannedSource source(lookahead, run);
-  const StreamResult result = stream_with_progress(port, source, command.display, settings);
-  tell_about_spool(spool, result);
-  conclude(run, result, {{"planning", planning_json(lookahead)}});
-  if (result.ending == Ending::completed)
-    show(words_of(command.display), "{}", summary(run.totals(), lookahead.effort()));
-  return tell_ending(result, command.display);
+std::unique_ptr<Command> make_print() {
+  return std::make_unique<PrintCommand>();
 }
 
 }  // namespace unicursal::host

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "host/cli/show.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
@@ -44,11 +44,6 @@ void Progress::update(std::size_t begun, double fraction) {
   shown_ = true;
   show(stderr, "\r\x1b[K{}", line(begun, share));
   std::fflush(stderr);
-}
-
-void Progress::say(const std::string& message) {
-  clear();
-  show(stderr, "{}\n", message);
 }
 
 void Progress::clear() {

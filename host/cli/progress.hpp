@@ -1,4 +1,5 @@
-// A progress line that is rewritten on a terminal, and an occasional plain line elsewhere. On standard error.
+// The progress of planning, on standard error: on a terminal one line that is rewritten, elsewhere a line for
+// each tenth.
 #pragma once
 
 #include <chrono>
@@ -9,17 +10,16 @@ namespace unicursal::host {
 
 class Progress {
  public:
-  /// `what` says what is being done: "planning", "printing". `layers`: how many there are.
+  /// `what` names the activity, for example "planning". `layers` is the number of layers.
   Progress(std::string what, std::size_t layers);
-  /// Takes the line away.
+  /// Erases the progress line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `begun` layers before the present one, and the part of it that is done, 0…1.
+  /// `begun`: number of layers before the current one. `fraction`: the finished part of the current layer, 0
+  /// to 1.
   void update(std::size_t begun, double fraction);
-  /// A message of its own line, above the progress.
-  void say(const std::string& message);
 
  private:
   using Clock = std::chrono::steady_clock;

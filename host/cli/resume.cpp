@@ -1,15 +1,17 @@
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/commands.hpp"
-#include "host/cli/common.hpp"
-#include "host/cli/show.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/daemon_access.hpp"
+#include "host/cli/foreground.hpp"
+#include "host/cli/terminal_output.hpp"
+#include "host/engine/print.hpp"
 #include "host/engine/restart.hpp"
-#include "host/report/summary.hpp"
+#include "host/report/print_report.hpp"
 #include "host/spool/spool.hpp"
 #include "host/spool/spool_error.hpp"
 
@@ -18,8 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path root_of(const ResumeCommand& command) {
-  return command.spool ? *command.spool : default_spool_root();
+struct ResumeOptions {
+  std::optional<std::string> print;  ///< its name or the beginning of it; absent: the newest
+  PrintOptions on;
+  bool yes = false;   ///< do not ask
+  bool list = false;  ///< only list the prints
+  DisplayOptions display;
+};
+
+fs::path root_of(const ResumeOptions& options) {
+  return options.on.spool ? *options.on.spool : default_spool_root();
 }
 
 Exit list(const fs::path& root) {
@@ -35,153 +45,110 @@ Exit list(const fs::path& root) {
   return Exit::success;
 }
 
-fs::path chosen_print(const ResumeCommand& command) {
-  const fs::path root = root_of(command);
+fs::path chosen_print(const ResumeOptions& options) {
+  const fs::path root = root_of(options);
   const std::vector<fs::path> prints = kept_prints(root);
   if (prints.empty()) {
-    throw SpoolError(root.string(), "", "holds no print", "name the folder of the prints with --spool");
+    throw SpoolError(root.string(), "", "there is no print in this folder",
+                     "name the folder of the prints with --spool");
   }
-  if (!command.print) return prints.front();
+  if (!options.print) return prints.front();
   const auto found = [&](const auto& fits) {
     return std::find_if(prints.begin(), prints.end(),
                         [&](const fs::path& folder) { return fits(folder.filename().string()); });
   };
-  // A whole name is meant as such, even where another begins with it.
-  auto print = found([&](const std::string& name) { return name == *command.print; });
+  // A complete name takes precedence, even if other names begin with it.
+  auto print = found([&](const std::string& name) { return name == *options.print; });
   if (print == prints.end())
-    print = found([&](const std::string& name) { return name.starts_with(*command.print); });
+    print = found([&](const std::string& name) { return name.starts_with(*options.print); });
   if (print != prints.end()) return *print;
-  throw SpoolError(root.string(), "", "holds no print whose name begins with \"" + *command.print + "\"",
+  throw SpoolError(root.string(), "", "there is no print whose name begins with \"" + *options.print + "\"",
                    "see `unicursal resume --list`");
 }
 
-PreparedJob prepare_again(const Spool& spool) {
-  std::optional<LayerRange> layers;
-  if (const auto& asked = spool.order().layers) layers = LayerRange{asked->first, asked->second};
-  return prepare(spool.job(), layers);
-}
-
-LookaheadOptions behind(const PreparedJob& prepared, const SpoolExtent& extent) {
-  LookaheadOptions options = lookahead_options(prepared);
-  const std::size_t done = std::min(options.count, extent.layers);
-  options.first += done;
-  options.count -= done;
-  return options;
-}
-
-void tell(const Restart& restart, const Lost& lost, const Spool& spool) {
-  show(stdout, "The printer cannot simply go on: {}.\n", lost.why);
+void show_restart(const Restart& restart, const Lost& lost, const Spool& spool) {
+  show(stdout, "The printer cannot continue with the next line: {}.\n", lost.why);
   if (restart.from_start()) {
-    show(stdout, "Nothing had been laid yet: the print begins anew.\n");
+    show(stdout, "Nothing had been printed yet, so the print starts from the beginning.\n");
     return;
   }
   if (restart.layer) {
-    show(stdout, "The print goes on in layer {} of {}, at z = {:.2f} mm.\n", restart.layer->index + 1,
+    show(stdout, "The print continues in layer {} of {}, at z = {:.2f} mm.\n", restart.layer->index + 1,
          spool.order().layer_count, restart.layer->top);
   }
   if (restart.repeated > 0) {
     show(stdout,
-         "Up to there everything is certain; of the next {} lines some may have been run and are run "
-         "again.\n",
+         "Everything before that place was printed. Of the next {} lines some may have been printed; they "
+         "are printed again.\n",
          restart.repeated);
   }
   show(stdout,
-       "The nozzle heats where it stands, rises, homes x and y (not z, where the part is), squeezes out "
-       "plastic "
-       "beside the\npart, and goes on. Its height is taken to be {:.2f} mm: do not go on if z was moved by "
-       "hand or has sunk.\n",
+       "The nozzle heats where it stands, rises, homes x and y (not z, because of the part), purges plastic "
+       "beside the\npart, and continues. Its height is taken to be {:.2f} mm: do not continue if the z axis "
+       "was moved or has sunk.\n",
        restart.lowest);
   if (restart.highest > restart.lowest) {
     show(stdout,
-         "It was on its way up: it may be as high as {:.2f} mm, and the rest then lies that much too high.\n",
+         "The nozzle was rising: it may be as high as {:.2f} mm, and then the rest of the print is that much "
+         "too high.\n",
          restart.highest);
   }
-  show(stdout, "Speed, flow and heat that were set by hand while it printed are the job's again.\n");
+  show(stdout, "Manual changes of speed, flow and temperature are reset to the job's values.\n");
   for (const std::string& warning : restart.warnings) show(stdout, "note: {}\n", warning);
 }
 
-bool agreed(const ResumeCommand& command, const Restart& restart) {
+bool agreed(const ResumeOptions& options, const Restart& restart) {
   const bool sure = restart.highest <= restart.lowest;
-  if (command.yes && sure) return true;
+  if (options.yes && sure) return true;
   if (isatty(STDIN_FILENO) == 0) {
-    throw SpoolError("", "",
-                     sure ? "nobody is there to be asked" : "nobody is there to see how high the nozzle is",
-                     sure ? "say --yes if the print shall go on like that"
-                          : "resume at a terminal, without --yes or with it");
+    throw SpoolError(
+        "", "",
+        sure ? "this must be confirmed, but standard input is not a terminal"
+             : "a person must check the height of the nozzle, but standard input is not a terminal",
+        sure ? "give --yes to confirm it" : "resume at a terminal");
   }
-  show(stdout, "Go on? [y/N] ");
+  show(stdout, "Continue? [y/N] ");
   std::fflush(stdout);
   std::string answer;
   std::getline(std::cin, answer);
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 
-/// A resumed print on its way.
-class Resumption {
- public:
-  Resumption(const ResumeCommand& command, Spool& spool)
-      : command_(command),
-        spool_(spool),
-        prepared_(prepare_again(spool)),
-        run_(prepared_, "resume", {}),
-        lookahead_(*prepared_.part, paced(behind(prepared_, spool.extent()), clock_)) {}
+StreamResult stream_from(Print& print, std::optional<Leg> leg, const ResumeOptions& options) {
+  print.connect(std::move(leg));
+  return stream_with_progress(print, options.display);
+}
 
-  Exit operator()() {
-    const JournalState& before = spool_.before();
-    const bool nothing_sent = before.anchors.empty();
-    if (!before.parking.empty()) {
-      return restart(
-          {before.aside ? "its nozzle was moved aside" : "it was parked and cooled", std::nullopt});
-    }
-    const StreamResult result = stream(nothing_sent ? std::optional(before.leg) : std::nullopt);
-    return result.lost ? restart(*result.lost) : end(result);
+Exit end(Print& print, const StreamResult& result, const ResumeOptions& options) {
+  show_how_to_resume(print.spool(), result);
+  conclude(print.run(), result, nlohmann::json::object());
+  return show_ending(result, options.display);
+}
+
+Exit restart(Print& print, const Lost& lost, const ResumeOptions& options) {
+  const Restart restart = restart_after(print.prepared(), print.spool(), lost);
+  show_restart(restart, lost, print.spool());
+  if (!agreed(options, restart)) {
+    show(stdout, "The print was not resumed. If the printer's heaters are on, they stay on: check them.\n");
+    return Exit::failed;
   }
+  return end(print, stream_from(print, restart.leg, options), options);
+}
 
- private:
-  StreamResult stream(std::optional<Leg> leg) {
-    StreamSettings settings;
-    settings.clock = clock_;
-    settings.pause_heat = command_.pause_heat;
-    settings.spool = &spool_;
-    settings.link = link_options(prepared_.job.profile, command_.log);
-    settings.continuation = Continuation{std::move(leg), [this] { catch_up(run_, spool_); }};
-    const int port =
-        open_port(command_.port.value_or(spool_.order().port), prepared_.job.profile.baud, settings.link);
-    PlannedSource source(lookahead_, run_, spool_.extent().rest);
-    return stream_with_progress(port, source, command_.display, settings);
+Exit resume_print(Print& print, const ResumeOptions& options) {
+  const JournalState& before = print.spool().before();
+  if (!before.parking.empty()) {
+    const char* const why = before.aside ? "its nozzle was moved aside" : "it was parked and cooled";
+    return restart(print, {why, std::nullopt}, options);
   }
+  const bool nothing_sent = before.anchors.empty();
+  const StreamResult result =
+      stream_from(print, nothing_sent ? std::optional(before.leg) : std::nullopt, options);
+  return result.lost ? restart(print, *result.lost, options) : end(print, result, options);
+}
 
-  Exit restart(const Lost& lost) {
-    const Restart restart = restart_after(prepared_, spool_, lost);
-    tell(restart, lost, spool_);
-    if (!agreed(command_, restart)) {
-      show(stdout,
-           "The print was not gone on with. If the printer's heaters are on, they stay on: look after "
-           "them.\n");
-      return Exit::failed;
-    }
-    return end(stream(restart.leg));
-  }
-
-  Exit end(const StreamResult& result) {
-    tell_about_spool(spool_, result);
-    conclude(run_, result, nlohmann::json::object());
-    return tell_ending(result, command_.display);
-  }
-
-  const ResumeCommand& command_;
-  Spool& spool_;
-  const PreparedJob prepared_;
-  Run run_;
-  const std::shared_ptr<Clock> clock_ = real_clock();
-  Lookahead lookahead_;
-};
-
-}  // namespace
-
-Exit resume(const ResumeCommand& command) {
-  if (command.list) return list(root_of(command));
-  const fs::path folder = chosen_print(command);
+Exit resume_kept(const ResumeOptions& options) {
+  const fs::path folder = chosen_print(options);
   Spool spool = Spool::open(folder);
   const JournalState& before = spool.before();
   if (before.ended && before.ended->outcome == Outcome::completed) {
@@ -189,10 +156,67 @@ Exit resume(const ResumeCommand& command) {
     return Exit::success;
   }
   if (before.superseded) {
-    throw SpoolError(folder.string(), "", "cannot go on: another print was begun on its printer since",
-                     "print the job anew");
+    throw SpoolError(folder.string(), "",
+                     "this print cannot be resumed, because another print has begun on its printer since",
+                     "print the job again from the beginning");
   }
-  return Resumption(command, spool)();
+  Print print(std::move(spool), "resume", options.on);
+  return resume_print(print, options);
+}
+
+class Resume final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override;
+
+ private:
+  /// Naming a kept print, or the folder of the prints, means one of those and not the daemon's.
+  bool may_concern_daemon() const { return !options_.print && (!options_.on.spool || daemon_.state); }
+
+  ResumeOptions options_;
+  DaemonAccess daemon_;
+};
+
+CLI::App& Resume::declare(CLI::App& program) {
+  CLI::App& app =
+      add_command(program, "resume", "Print", "Resume an interrupted print, or the daemon's paused print.",
+                  "unicursal resume");
+  add_note(
+      app,
+      "If a daemon (`unicursal serve`) is printing, its print is resumed. Otherwise an interrupted print "
+      "is resumed. If the printer is still on and hot, the print continues with the next line: no line "
+      "is lost or run twice. If the printer was reset or has cooled, the program reports where the print "
+      "stopped and asks. Then the nozzle heats where it stands, rises, homes x and y, purges plastic "
+      "beside the part, and continues at the last place that is certain. z cannot be homed on a part, so "
+      "the z axis must not have been moved. The start lines of the profile are not run again.");
+  add_value(app, "PRINT", options_.print, " ",
+            "The print to resume: its name or the beginning of it. Default: the newest print.");
+  app.add_flag("--list", options_.list, "List the prints that are kept, and do nothing else.");
+  app.add_flag("--yes", options_.yes, "Do not ask before continuing after a reset or a power cut.");
+  declare_port(app, options_.on.port, "the port on which the print began");
+  declare_pause_heat(app, options_.on.pause_heat);
+  declare_spool(app, options_.on.spool);
+  declare_state(app, daemon_.state);
+  declare_events(app, options_.display);
+  declare_log(app, options_.on.log);
+  add_steering_note(app);
+  return app;
+}
+
+Exit Resume::run() {
+  if (options_.list) return list(root_of(options_));
+  daemon_.json = options_.display.json;
+  if (may_concern_daemon() && daemon_.is_printing()) {
+    steer(daemon_, "resume");
+    return Exit::success;
+  }
+  return resume_kept(options_);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_resume() {
+  return std::make_unique<Resume>();
 }
 
 }  // namespace unicursal::host

@@ -1,18 +1,60 @@
 #include "host/daemon/serve.hpp"
 
-#include "host/cli/commands.hpp"
-#include "host/cli/show.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/terminal_output.hpp"
+#include "host/daemon/state_folder.hpp"
 
 namespace unicursal::host {
+namespace {
 
-Exit serve(const ServeOptions& options) {
-  serve(options, [&](const std::string& address) {
-    show(stdout, "listening on http://{}{}\n", address,
-         options.no_token ? ", without a token"
-                          : "; the token is in " + options.daemon.state.string() + "/token");
-    std::fflush(stdout);
-  });
-  return Exit::success;
+class Serve final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override {
+    DaemonOptions& daemon = options_.daemon;
+    CLI::App& app = add_command(program, "serve", "Daemon",
+                                "Own the printer, keep a queue of jobs, and be controlled over HTTP.",
+                                "unicursal serve --port /dev/ttyUSB0 --profile diamond.toml --jobs ~/jobs");
+    declare_port(app, daemon.port, "the profile's port");
+    add_value(app, "--profile", daemon.profile, "FILE",
+              "Use this printer profile for all jobs instead of the profiles that they name.");
+    add_values(app, "--jobs", daemon.jobs, "DIR", "Folder of jobs that clients may queue. May be repeated.");
+    add_value(app, "--listen", options_.listen, "ADDRESS", "Address and port. Default: 127.0.0.1:8377.");
+    add_values(app, "--name", options_.names, "HOST",
+               "Additional host name to accept in requests. May be repeated.");
+    app.add_flag("--no-token", options_.no_token,
+                 "Let every user of this computer control the printer. Only with a loopback address.");
+    declare_state(app, state_);
+    declare_spool(app, daemon.spool);
+    declare_pause_heat(app, daemon.pause_heat);
+    add_note(
+        app,
+        "A print never starts by itself, because the last part may still lie on the bed: "
+        "`unicursal start` starts it. SIGTERM or Ctrl-C parks and cools the current print, then ends the "
+        "daemon; a second one stops the printer at once. API.md describes the HTTP interface.");
+    return app;
+  }
+
+  Exit run() override {
+    options_.daemon.state = state_ ? *state_ : default_state_folder();
+    serve(options_, [&](const std::string& address) {
+      show(stdout, "listening on http://{}{}\n", address,
+           options_.no_token ? ", without a token"
+                             : "; the token is in " + options_.daemon.state.string() + "/token");
+      std::fflush(stdout);
+    });
+    return Exit::success;
+  }
+
+ private:
+  ServeOptions options_;
+  std::optional<std::filesystem::path> state_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_serve() {
+  return std::make_unique<Serve>();
 }
 
 }  // namespace unicursal::host

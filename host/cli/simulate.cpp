@@ -2,19 +2,17 @@
 
 #include <cstdio>
 
-#include <stdexcept>
-#include <system_error>
-
-#include "core/error.hpp"
-#include "host/cli/commands.hpp"
-#include "host/cli/common.hpp"
-#include "host/cli/show.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/preparation.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "host/job/profile.hpp"
 #include "sim/simulator.hpp"
 
 namespace unicursal::host {
 namespace {
 
+/// Makes the simulated printer the one that the profile describes.
 void follow(const Profile& profile, sim::SimulatorOptions& options) {
   const gcode::Printer& printer = profile.printer;
   options.baud = profile.baud;
@@ -35,35 +33,77 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.feeders = static_cast<std::size_t>(printer.feeders);
 }
 
-}  // namespace
+class Simulate final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override;
 
-void check_simulator(const sim::SimulatorOptions& options) {
-  constexpr auto remedy = "unicursal simulate --help tells what there is";
-  try {
-    sim::check(options);
-  } catch (const std::invalid_argument& error) {
-    throw core::DataError("", "", error.what(), remedy);
-  } catch (const std::system_error& error) {
-    throw core::DataError("", "", error.what(), "check its name and its permissions");
-  }
+ private:
+  SimulatedPrinter printer_;
+  std::optional<std::filesystem::path> profile_;
+  std::optional<double> baud_;
+};
+
+CLI::App& Simulate::declare(CLI::App& program) {
+  CLI::App& app = add_command(program, "simulate", "Try without a printer",
+                              "Run a simulated printer that any host program can connect to.",
+                              "unicursal simulate --link printer --speed 10 --report seen.json");
+  add_note(app,
+           "The program prints the path of a pseudo-terminal. Pronterface, OctoPrint or `unicursal print` "
+           "connect to that path, or to the link ./printer of the example, like to a serial port.");
+  sim::SimulatorOptions& options = printer_.options;
+  add_value(app, "--link", options.link, "PATH", "Make a symbolic link to the pseudo-terminal.");
+  add_value(app, "--speed", options.speed, "FACTOR",
+            "Printer seconds per second: 1 is real time. Default: 0, which executes every line at once.")
+      .check(number_between(0, any_number));
+  add_value(app, "--baud", baud_, "RATE",
+            "Bits per second of the simulated line. Default: the profile's rate, or 250000.")
+      .check(number_between(300, 1e8));
+  app.add_flag("--once", options.once, "End after the first host has used the line and closed it.");
+  add_value(app, "--control", options.control, "PATH",
+            "Make a Unix socket through which the host advances printer time (sim/lockstep.hpp).");
+  add_value(app, "--report", options.report, "FILE", "Write the printer's own report, as JSON, at the end.")
+      .group("Output");
+  add_value(app, "--picture", options.pictures, "DIR",
+            "Write pictures of each layer, of the part and of the motion to this folder.")
+      .group("Output");
+  add_value(app, "--pixel", options.pixel, "MM", "Size of a pixel in these pictures. Default: 0.05.")
+      .check(number_between(0.01, 10))
+      ->group("Output");
+  add_value(app, "--rasters", options.rasters, "FILE",
+            "Write every deposited layer to this file or pipe (sim/bed/raster.hpp).")
+      .group("Output");
+  add_value(app, "--transcript", options.transcript, "FILE", "Write each command when it is executed.")
+      .group("Output");
+  add_value(app, "--profile", profile_, "FILE", "Simulate the printer that this profile describes.")
+      .group("Simulated printer");
+  printer_.declare(app);
+  return app;
 }
 
-Exit simulate(SimulateCommand command) {
-  if (command.profile) {
-    const Profile profile = load_profile(*command.profile);
-    follow(profile, command.options);
-    if (!command.personality_chosen) command.options.personality = profile.printer.firmware;
+Exit Simulate::run() {
+  sim::SimulatorOptions& options = printer_.options;
+  if (printer_.personality) options.personality = *printer_.personality;
+  if (profile_) {
+    const Profile profile = load_profile(*profile_);
+    follow(profile, options);
+    if (!printer_.personality) options.personality = profile.printer.firmware;
   }
-  if (command.baud) command.options.baud = *command.baud;
-  check_simulator(command.options);
-  const sim::SimulatorOptions& options = command.options;
-  check_outputs(present({command.profile, options.fault_file}),
+  if (baud_) options.baud = *baud_;
+  printer_.check();
+  check_outputs(present({profile_, options.fault_file}),
                 present({options.report, options.transcript, options.rasters}));
-  const int code = sim::run_simulator(command.options, [](const std::string& port) {
+  const int code = sim::run_simulator(options, [](const std::string& port) {
     show(stdout, "{}\n", port);
     std::fflush(stdout);
   });
   return code == 0 ? Exit::success : Exit::failed;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_simulate() {
+  return std::make_unique<Simulate>();
 }
 
 }  // namespace unicursal::host

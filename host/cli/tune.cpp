@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "host/cli/commands.hpp"
-#include "host/cli/common.hpp"
-#include "host/cli/show.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/foreground.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "host/dry_run/lockstep_clock.hpp"
 #include "host/dry_run/simulator_process.hpp"
 #include "host/files/whole_file.hpp"
@@ -21,10 +22,27 @@ namespace {
 
 constexpr const char* usual_pictures = "transition-strip";
 
-/// What the command line says.
+struct TuneOptions {
+  std::filesystem::path profile;
+  std::size_t from = 1, to = 2;                 ///< feeders, counted from 1
+  std::optional<double> range;                  ///< mm³ of transition that the strip has room for
+  std::optional<std::filesystem::path> output;  ///< G-code
+  std::optional<std::string> port;
+  bool simulate = false;
+  std::optional<std::filesystem::path> machine;   ///< profile with the true volumes of the simulated printer
+  std::optional<std::size_t> tanks;               ///< of the simulated nozzle
+  std::optional<std::filesystem::path> pictures;  ///< folder
+  bool read_simulated = false;                    ///< read the raster instead of asking
+  std::optional<double> began, half, stopped;     ///< ticks
+  bool yes = false;                               ///< write without asking
+
+  StripFeeders feeders() const { return {from - 1, to - 1}; }
+};
+
+/// Returns the ticks that were given on the command line.
 class GivenReader final : public StripReader {
  public:
-  explicit GivenReader(const TuneCommand& command) : command_(command) {}
+  explicit GivenReader(const TuneOptions& command) : command_(command) {}
 
   StripReading read(const Strip& strip) override {
     StripReading reading{*command_.began * strip.tick, *command_.stopped * strip.tick, {}};
@@ -33,22 +51,23 @@ class GivenReader final : public StripReader {
   }
 
  private:
-  const TuneCommand& command_;
+  const TuneOptions& command_;
 };
 
-void check_feeders(const TuneCommand& command, const Profile& profile) {
+void check_feeders(const TuneOptions& command, const Profile& profile) {
   const auto feeders = static_cast<std::size_t>(profile.printer.feeders);
   for (const auto& [option, feeder] :
-       {std::pair{"--from", command.feeders.from}, std::pair{"--to", command.feeders.to}}) {
+       {std::pair{"--from", command.feeders().from}, std::pair{"--to", command.feeders().to}}) {
     if (feeder < feeders) continue;
     throw core::DataError("", option, fmt::format("this printer has no feeder {}", feeder + 1),
                           fmt::format("choose one of 1 to {}", feeders));
   }
-  if (command.feeders.from != command.feeders.to) return;
-  throw core::DataError("", "--to", "is the same feeder as --from", "choose two of different colours");
+  if (command.feeders().from != command.feeders().to) return;
+  throw core::DataError("", "--to", "is the same feeder as --from",
+                        "choose two feeders of different colours");
 }
 
-void check_output(const TuneCommand& command) {
+void check_output(const TuneOptions& command) {
   if (!command.output) return;
   for (const auto& input : {std::optional(command.profile), command.machine}) {
     std::error_code none;
@@ -70,7 +89,7 @@ void write_gcode(const FinishedPrint& print, const std::filesystem::path& file) 
   show(stdout, "written:   {}\n", file.string());
 }
 
-/// Throws PrintError when the print failed, TuningCancelled when it was stopped.
+/// Throws PrintError if the print has failed, TuningCancelled if the user has stopped it.
 void expect_whole(const StreamResult& result) {
   if (result.unfit) throw PrinterUnfit(result.reason);
   if (result.ending == Ending::failed) throw PrintError(result.reason);
@@ -86,22 +105,22 @@ void print_on(const std::string& port, const Profile& profile, const FinishedPri
   expect_whole(stream_with_progress(open, source, {}, settings));
 }
 
-std::vector<std::string> simulator_arguments(const TuneCommand& command, const Profile& profile,
+std::vector<std::string> simulator_arguments(const TuneOptions& command, const Profile& profile,
                                              const std::optional<std::filesystem::path>& pictures) {
   std::vector<std::string> arguments = {"--profile", command.machine.value_or(command.profile).string(),
-                                        "--baud",    fmt::format("{}", profile.baud),
-                                        "--tanks",   fmt::format("{}", command.tanks)};
+                                        "--baud", fmt::format("{}", profile.baud)};
+  if (command.tanks) arguments.insert(arguments.end(), {"--tanks", fmt::format("{}", *command.tanks)});
   if (pictures) arguments.insert(arguments.end(), {"--picture", pictures->string()});
   return arguments;
 }
 
-/// Pictures are for who reads them.
-std::optional<std::filesystem::path> pictures_of(const TuneCommand& command) {
+/// Pictures are made by default only if a person will read them.
+std::optional<std::filesystem::path> pictures_of(const TuneOptions& command) {
   if (command.pictures || command.read_simulated || command.began) return command.pictures;
   return usual_pictures;
 }
 
-/// The simulator ends only when nothing holds its clock any more.
+/// The simulator ends when the last copy of this clock is gone.
 StreamSettings in_lockstep(const SimulatorProcess& simulator, const Profile& profile) {
   StreamSettings settings;
   settings.profile = profile.file;
@@ -109,10 +128,10 @@ StreamSettings in_lockstep(const SimulatorProcess& simulator, const Profile& pro
   return settings;
 }
 
-std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const Profile& profile,
+std::unique_ptr<StripOnRaster> print_simulated(const TuneOptions& command, const Profile& profile,
                                                const Strip& strip, const FinishedPrint& print) {
   if (command.machine) load_profile(*command.machine);
-  auto seen = std::make_unique<StripOnRaster>(strip, strip_mixtures(profile.printer, command.feeders));
+  auto seen = std::make_unique<StripOnRaster>(strip, strip_mixtures(profile.printer, command.feeders()));
   const auto pictures = pictures_of(command);
   std::future<void> watching;  // outlives the simulator, whose end is that of the stream it waits for
   SimulatorProcess simulator(simulator_arguments(command, profile, pictures),
@@ -130,13 +149,13 @@ std::unique_ptr<StripOnRaster> print_simulated(const TuneCommand& command, const
   return seen;
 }
 
-std::unique_ptr<StripReader> reader_for(const TuneCommand& command, std::unique_ptr<StripReader> simulated) {
+std::unique_ptr<StripReader> reader_for(const TuneOptions& command, std::unique_ptr<StripReader> simulated) {
   if (command.began) return std::make_unique<GivenReader>(command);
   if (command.read_simulated) return simulated;
   return std::make_unique<TerminalReader>(std::cin, std::cout);
 }
 
-void tell(const Strip& strip, const FinishedPrint& print) {
+void report(const Strip& strip, const FinishedPrint& print) {
   double seconds = 0, volume = 0;
   for (const gcode::Chunk& chunk : print.body) seconds += chunk.seconds, volume += chunk.volume;
   show(stdout,
@@ -146,13 +165,13 @@ void tell(const Strip& strip, const FinishedPrint& print) {
        duration_words(seconds));
 }
 
-void tell(const Strip& strip, const StripReading& reading) {
+void report(const Strip& strip, const StripReading& reading) {
   const auto tick = [&](double along) { return along / strip.tick; };
   show(stdout, "read:      began at tick {:g},{} stopped at tick {:g}\n", tick(reading.began),
        reading.half ? fmt::format(" half changed at {:g},", tick(*reading.half)) : "", tick(reading.stopped));
 }
 
-void tell(const Transition& found, const gcode::Printer& printer) {
+void report(const Transition& found, const gcode::Printer& printer) {
   const auto line = [](const char* name, const Estimate& estimate, double before) {
     show(stdout, "{}{:.2f} mm³, give or take {:.2f} (the profile says {:g})\n", name, estimate.value,
          estimate.uncertainty, before);
@@ -160,32 +179,32 @@ void tell(const Transition& found, const gcode::Printer& printer) {
   line("dead:      ", found.dead, printer.dead_volume);
   line("mixing:    ", found.mixing, printer.mixing_volume);
   if (found.widened > 1) {
-    show(stdout, "The readings fit no nozzle to the tick; looking once more may give better numbers.\n");
+    show(stdout,
+         "No nozzle fits these readings to the tick. Reading the strip again may give better numbers.\n");
   }
 }
 
-void settle(const TuneCommand& command, const ProfileText& text, const Profile& profile, const Strip& strip,
+void settle(const TuneOptions& command, const ProfileText& text, const Profile& profile, const Strip& strip,
             StripReader& reader) {
   const StripReading reading = reader.read(strip);
-  tell(strip, reading);
+  report(strip, reading);
   const Transition found = fit_transition(volumes_of(strip, reading));
-  tell(found, profile.printer);
+  report(found, profile.printer);
   const std::string question = fmt::format("Write both into {}?", command.profile.string());
-  if (!command.yes && !confirmed(std::cin, std::cout, question)) throw TuningCancelled("as you wished");
+  if (!command.yes && !confirmed(std::cin, std::cout, question))
+    throw TuningCancelled("the result was not accepted");
   text.set_transition(found.dead.value, found.mixing.value);
   show(stdout, "written:   {}\n", command.profile.string());
 }
 
-}  // namespace
-
-Exit tune(const TuneCommand& command) {
+Exit tune_transition(const TuneOptions& command) {
   const Profile profile = load_profile(command.profile);
   const ProfileText text(command.profile);
   check_feeders(command, profile);
   check_output(command);
   const Strip strip = make_strip(profile.printer, command.range);
-  const FinishedPrint print = strip_print(strip, profile.printer, command.feeders);
-  tell(strip, print);
+  const FinishedPrint print = strip_print(strip, profile.printer, command.feeders());
+  report(strip, print);
   try {
     if (command.output) write_gcode(print, *command.output);
     std::unique_ptr<StripReader> simulated;
@@ -193,15 +212,116 @@ Exit tune(const TuneCommand& command) {
     if (command.port) print_on(*command.port, profile, print);
     const bool printed = command.simulate || command.port;
     if (command.output && !printed && !command.began) {
-      show(stdout, "Print it, then call this again without -o to be asked what it shows.\n");
+      show(stdout, "Print this file, then run the command again without -o to enter what the strip shows.\n");
       return Exit::success;
     }
     settle(command, text, profile, strip, *reader_for(command, std::move(simulated)));
     return Exit::success;
   } catch (const TuningCancelled& cancelled) {
-    show(stdout, "{}; the profile is as it was\n", cancelled.what());
+    show(stdout, "{}; the profile was not changed\n", cancelled.what());
     return Exit::failed;
   }
+}
+
+class Tune final : public Command {
+ public:
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override { return tune_transition(options_); }
+
+ private:
+  void declare_strip(CLI::App& app);
+  void declare_printing(CLI::App& app);
+  void declare_reading(CLI::App& app);
+
+  TuneOptions options_;
+};
+
+CLI::App& Tune::declare(CLI::App& program) {
+  CLI::App& tune = add_command(program, "tune", "Print", "Calibrate a profile with a test print.",
+                               "unicursal tune transition diamond.toml --port auto");
+  tune.require_subcommand(1);
+  CLI::App* app = tune.add_subcommand(
+      "transition", "Measure dead and mixing volume with a test strip and write them to the profile.");
+  app->footer(
+      "Examples:\n  unicursal tune transition diamond.toml --port auto\n"
+      "  unicursal tune transition diamond.toml -o strip.gcode      print this file, then:\n"
+      "  unicursal tune transition diamond.toml --began 31 --half 45 --stopped 73");
+  add_note(
+      *app,
+      "The strip is one bead whose mixture changes at tick 0. Three lines below it show the colour after "
+      "5, 50 and 95 % of the change. The program asks at which ticks the bead looks like these lines. "
+      "It changes only these two numbers of the profile, and only after you confirm. Use two strong "
+      "colours: a trace of a light colour can hardly be seen in a dark one.");
+  declare_strip(*app);
+  declare_printing(*app);
+  declare_reading(*app);
+  return tune;
+}
+
+void Tune::declare_strip(CLI::App& app) {
+  constexpr auto group = "Strip";
+  add_value(app, "PROFILE", options_.profile, " ", "The printer's profile: see unicursal-profile(5).")
+      .required();
+  add_value(app, "--from", options_.from, "FEEDER", "Feeder of the first colour, counted from 1. Default: 1.")
+      .check(integer_between(1, 3))
+      ->group(group);
+  add_value(app, "--to", options_.to, "FEEDER", "Feeder of the second colour. Default: 2.")
+      .check(integer_between(1, 3))
+      ->group(group);
+  add_value(app, "--range", options_.range, "MM3",
+            "Volume of transition that the strip has room for, mm³. Default: 60, or less on a small bed.")
+      .check(number_between(1, 1000))
+      ->group(group);
+}
+
+void Tune::declare_printing(CLI::App& app) {
+  constexpr auto group = "Printing";
+  CLI::Option& port = add_value(app, "--port", options_.port, "PORT",
+                                "Print the strip on this serial port, or auto to search for the printer.");
+  port.group(group);
+  add_value(app, "-o,--output", options_.output, "FILE", "Write the strip to this file, as G-code.")
+      .group(group);
+  CLI::Option* simulate =
+      app.add_flag("--simulate", options_.simulate, "Print the strip on the simulated printer.")
+          ->excludes(&port);
+  simulate->option_text(" ")->group(group);
+  add_value(app, "--machine", options_.machine, "FILE",
+            "Profile with the true volumes of the simulated printer. Needs --simulate.")
+      .needs(simulate)
+      ->group("Simulated printer");
+  declare_tanks(app, options_.tanks);
+  add_value(app, "--picture", options_.pictures, "DIR",
+            "Folder for the picture of the simulated strip. Default: transition-strip. Needs --simulate.")
+      .needs(simulate)
+      ->group("Simulated printer");
+}
+
+void Tune::declare_reading(CLI::App& app) {
+  constexpr auto group = "Reading";
+  const auto tick = [&](const char* name, std::optional<double>& value, const char* help) {
+    CLI::Option* option = add_value(app, name, value, "TICK", help).check(number_between(0, 1e6));
+    return option->group(group);
+  };
+  CLI::Option* began =
+      tick("--began", options_.began, "Tick where the bead looks like line 5. Needs --stopped.");
+  CLI::Option* stopped =
+      tick("--stopped", options_.stopped, "Tick where the bead looks like line 95. Needs --began.");
+  tick("--half", options_.half, "Tick where the bead looks like line 50, for a finer result. Needs --began.")
+      ->needs(began);
+  began->needs(stopped);
+  stopped->needs(began);
+  app.add_flag("--read-simulated", options_.read_simulated,
+               "Measure the simulated strip instead of asking. Needs --simulate.")
+      ->needs(app.get_option("--simulate"))
+      ->option_text(" ")
+      ->group(group);
+  app.add_flag("--yes", options_.yes, "Write to the profile without asking.")->group(group);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_tune() {
+  return std::make_unique<Tune>();
 }
 
 }  // namespace unicursal::host

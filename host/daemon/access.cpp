@@ -7,6 +7,8 @@
 #include <array>
 #include <system_error>
 
+#include "core/text/wording.hpp"
+
 namespace unicursal::host {
 namespace {
 
@@ -20,13 +22,6 @@ bool same(const std::string& a, const std::string& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
     different |= static_cast<unsigned>(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
   return different == 0;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
 }
 
 /// A page's script cannot set headers of a WebSocket, but it can offer protocols.
@@ -47,7 +42,7 @@ std::optional<std::string> token_of(const RequestHead& head) {
 void check_host(const RequestHead& head, const AccessRules& rules) {
   const auto host = head.header("host");
   if (!host) throw HttpError(400, "the request does not say which host it is for");
-  if (std::find(rules.hosts.begin(), rules.hosts.end(), lower(*host)) == rules.hosts.end())
+  if (std::find(rules.hosts.begin(), rules.hosts.end(), core::lower(*host)) == rules.hosts.end())
     throw HttpError(421, "this computer does not go by that name; allow it with --name");
 }
 
@@ -56,7 +51,7 @@ void check_origin(const RequestHead& head, const AccessRules& rules) {
   const bool own_site = site == "none" || site == "same-origin";
   const auto origin = head.header("origin");
   const auto own = [&](const std::string& host) {
-    return lower(*origin) == "http://" + host || lower(*origin) == "https://" + host;
+    return core::lower(*origin) == "http://" + host || core::lower(*origin) == "https://" + host;
   };
   if (!own_site || (origin && std::none_of(rules.hosts.begin(), rules.hosts.end(), own)))
     throw HttpError(403, "requests of other sites' pages are not obeyed");
@@ -78,7 +73,7 @@ std::vector<std::string> hosts_for(const std::string& address, unsigned port,
                                    const std::vector<std::string>& names) {
   std::vector<std::string> hosts = {"localhost", "127.0.0.1", "[::1]",
                                     address.find(':') == std::string::npos ? address : "[" + address + "]"};
-  for (const std::string& name : names) hosts.push_back(lower(name));
+  for (const std::string& name : names) hosts.push_back(core::lower(name));
   std::vector<std::string> all;
   for (const std::string& host : hosts) {
     all.push_back(fmt::format("{}:{}", host, port));

@@ -8,7 +8,7 @@
 #include <asio/use_awaitable.hpp>
 #include <utility>
 
-#include "firmware_gcode/reply/reply.hpp"
+#include "core/text/printable.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/engine/session_json.hpp"
@@ -96,7 +96,7 @@ json Daemon::status() const {
 json Daemon::printer() const {
   json printer = {{"version", 1}, {"busy", busy()}};
   if (options_.port) printer["port"] = *options_.port;
-  if (!firmware_.empty()) printer["firmware"] = gcode::printable(firmware_);
+  if (!firmware_.empty()) printer["firmware"] = core::printable(firmware_);
   const Profile* profile = profile_ ? &*profile_ : nullptr;
   if (current_ && current_->print) profile = &current_->print->prepared().job.profile;
   if (!profile) return printer;
@@ -210,17 +210,16 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id) {
   return chosen;
 }
 
-PrintPlan Daemon::plan_of(const QueuedJob& job) const {
-  PrintPlan plan;
-  plan.job = files_.find(job.name);
-  plan.profile = options_.profile;
-  plan.layers = job.layers;
-  plan.port = options_.port;
-  if (!plan.port && profile_) plan.port = profile_->port;
-  plan.own_port = JobFiles::is_upload(job.name);
-  plan.spool = options_.spool;
-  plan.pause_heat = options_.pause_heat;
-  return plan;
+/// Reads files and opens the port; blocks.
+std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
+  PrintOptions options;
+  options.port = options_.port;
+  if (!options.port && profile_) options.port = profile_->port;
+  if (!options.port && JobFiles::is_upload(job.name)) options.port = "auto";  // an upload may name any port
+  options.spool = options_.spool;
+  options.pause_heat = options_.pause_heat;
+  PreparedJob prepared = prepare(load_job(files_.find(job.name), options_.profile), job.layers);
+  return std::make_unique<Print>(std::move(prepared), "serve", options);
 }
 
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {
@@ -265,17 +264,17 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
 asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob::State& ending) {
   co_await enter(id, QueuedJob::State::preparing, {});
   const QueuedJob job = *queue_.find(id);
-  const auto prepare = [this, job] { return std::make_unique<Print>(plan_of(job)); };
-  std::unique_ptr<Print> prepared = co_await elsewhere(preparing_, prepare);
+  const auto prepare = [this, job] { return prepared(job); };
+  std::unique_ptr<Print> print = co_await elsewhere(preparing_, prepare);
   if (current_->cancelled) {
     ending = QueuedJob::State::stopped;
     co_return *current_->cancelled;
   }
-  current_->print = std::move(prepared);
+  current_->print = std::move(print);
   Session& session = current_->print->begin(loop_.get_executor());
   session.on_event([this](const SessionEvent& event) { told(event); });
   co_await enter(id, QueuedJob::State::printing, {});
-  notify_service("STATUS=printing " + gcode::printable(job.name));
+  notify_service("STATUS=printing " + core::printable(job.name));
   const StreamResult result = co_await session.run();
   firmware_ = result.firmware;
   ending = state_after(result.ending);
@@ -341,7 +340,7 @@ void Daemon::told(const SessionEvent& event) {
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
   if (!session || clients_.empty()) return;
   SessionEvent shown = event;
-  shown.text = event.kind == SessionEvent::Kind::printer ? gcode::printable(event.text) : event.text;
+  shown.text = event.kind == SessionEvent::Kind::printer ? core::printable(event.text) : event.text;
   broadcast(to_json(shown, session->status()));
 }
 

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "host/daemon/job_files.hpp"
-#include "host/daemon/print.hpp"
 #include "host/daemon/queue.hpp"
+#include "host/engine/print.hpp"
 #include "host/http/event_stream.hpp"
 
 namespace unicursal::host {
@@ -77,7 +77,7 @@ class Daemon {
 
   asio::awaitable<void> print(std::uint64_t id);
   asio::awaitable<std::string> print_prepared(std::uint64_t id, QueuedJob::State& ending);
-  PrintPlan plan_of(const QueuedJob& job) const;
+  std::unique_ptr<Print> prepared(const QueuedJob& job) const;
   void check_not_needed(const std::string& upload) const;
   std::string way_on() const;
   asio::awaitable<void> save();

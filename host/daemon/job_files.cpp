@@ -5,7 +5,7 @@
 #include <toml++/toml.h>
 #include <algorithm>
 
-#include "firmware_gcode/reply/reply.hpp"
+#include "core/text/printable.hpp"
 #include "host/daemon/state_folder.hpp"
 
 namespace unicursal::host {
@@ -19,7 +19,7 @@ constexpr int deepest_folder = 4;
 constexpr std::uintmax_t largest_job = 1024 * 1024;  ///< bytes of a job's own text
 
 HttpError no_such(const std::string& name) {
-  return {404, "there is no job \"" + gcode::printable(name) + "\"; see `unicursal queue --jobs`"};
+  return {404, "there is no job \"" + core::printable(name) + "\"; see `unicursal queue --jobs`"};
 }
 
 bool is_job(const fs::path& path) {
@@ -44,7 +44,7 @@ void check_name(const std::string& name) {
 void check_texts(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     if (text->get().find_first_of("/\\") != std::string::npos || text->get() == "..")
-      throw HttpError(422, "in an uploaded job no text may hold a slash: \"" + gcode::printable(text->get()) +
+      throw HttpError(422, "in an uploaded job no text may hold a slash: \"" + core::printable(text->get()) +
                                "\"; upload the file and name it alone");
   } else if (const auto* list = node.as_array()) {
     for (const toml::node& item : *list) check_texts(item);

@@ -12,11 +12,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int questions = 11;            ///< for the time of an answer; odd, for the median
-constexpr auto late_answers = 500ms;     ///< after an ok, of firmwares that answer behind it
-constexpr std::size_t most_lines = 500;  ///< kept of what a printer says; M503 has some forty
+constexpr int questions = 11;            ///< Questions to measure the answer time; odd, for the median.
+constexpr auto late_answers = 500ms;     ///< Wait after the ok of firmwares whose answer follows it.
+constexpr std::size_t most_lines = 500;  ///< Lines of an answer that are kept; M503 has about forty.
 
-/// The number behind a letter that begins a word.
+/// The number after a letter that begins a word.
 std::optional<double> word_value(std::string_view line, char letter) {
   for (auto at = line.find(letter); at != std::string_view::npos; at = line.find(letter, at + 1)) {
     if (at == 0 || line[at - 1] != ' ') continue;
@@ -44,7 +44,7 @@ bool has_word(std::string_view line, std::string_view word) {
   return at + word.size() == line.size() || line[at + word.size()] == ' ';
 }
 
-/// One question after the other, each with what came in the meantime.
+/// Asks one question after the other, and collects the lines of each answer.
 class Interview {
  public:
   Interview(Link& link, asio::any_io_executor executor, std::shared_ptr<Clock> clock)
@@ -71,7 +71,7 @@ class Interview {
     co_return std::move(heard_);
   }
 
-  /// Whether it says nothing against the command.
+  /// Returns whether the printer knows the command.
   asio::awaitable<bool> knows(std::string line) {
     const std::vector<std::string> answer = co_await ask(std::move(line));
     co_return std::none_of(answer.begin(), answer.end(), [](const std::string& said) {
@@ -113,7 +113,7 @@ MachineSettings settings_in(const std::vector<std::string>& lines) {
     if (has_word(line, "M203")) settings.max_speed = axes_in(line);
     if (has_word(line, "M201")) settings.max_acceleration = axes_in(line);
     if (has_word(line, "M200")) {
-      // Older ones have no S: D0 is off.
+      // Older firmwares have no S: D0 means off.
       const auto on = word_value(line, 'S'), diameter = word_value(line, 'D');
       settings.volumetric = on ? *on != 0 : diameter.value_or(0) != 0;
     }

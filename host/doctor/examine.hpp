@@ -1,7 +1,7 @@
-// What a printer is and can do, found by asking it. Nothing that is sent moves, heats or keeps a change:
-// M115, M503, M105, and forms of M163 and M85 that firmwares which know them carry out without effect (M163
-// for a feeder that does not exist; M85 S0, which is how every firmware starts and every job ends). mm, mm/s,
-// mm/s², °C, s.
+// Finds out a printer's firmware and abilities by asking it. The questions move nothing, heat nothing and
+// change no setting: M115, M503, M105, and forms of M163 and M85 without effect (M163 for a feeder that does
+// not exist; M85 S0, which is the default of every firmware and the end of every job). mm, mm/s, mm/s², °C,
+// s.
 #pragma once
 
 #include <array>
@@ -15,28 +15,28 @@
 
 namespace unicursal::host {
 
-/// What M503 lists, as far as it matters here; x y z e.
+/// The settings of M503 that matter here; x y z e.
 struct MachineSettings {
   std::optional<std::array<double, 4>> steps_per_mm, max_speed, max_acceleration;
-  std::optional<bool> volumetric;  ///< E is taken for mm³
+  std::optional<bool> volumetric;  ///< Whether the firmware takes E as mm³.
 };
 
-/// From the lines of M503, of any Marlin: "echo:  M92 X80.00 Y80.00 Z400.00 E93.00".
+/// Parses the lines of M503 of any Marlin: "echo:  M92 X80.00 Y80.00 Z400.00 E93.00".
 MachineSettings settings_in(const std::vector<std::string>& lines);
 
 struct Examination {
   gcode::Identity identity;
   gcode::Temperatures temperatures;
-  std::optional<PrinterQueues> queues;  ///< with ADVANCED_OK
-  bool reset_by_opening = false;        ///< the board has said that it starts
-  bool mixes = false;                   ///< knows M163
-  bool shuts_down = false;              ///< knows M85
-  bool tells_settings = false;          ///< knows M503
+  std::optional<PrinterQueues> queues;  ///< nullopt without ADVANCED_OK.
+  bool reset_by_opening = false;        ///< Whether the board has said "start".
+  bool mixes = false;                   ///< Whether it knows M163.
+  bool shuts_down = false;              ///< Whether it knows M85.
+  bool tells_settings = false;          ///< Whether it knows M503.
   MachineSettings settings;
-  double answer_seconds = 0;  ///< from a question to its answer, the median of several
+  double answer_seconds = 0;  ///< Time from a question to its answer, the median of several.
 };
 
-/// Connects the link, which must not be connected yet. Throws LinkError.
+/// Connects the link, which must not be connected yet, and asks the questions. Throws LinkError.
 asio::awaitable<Examination> examine(Link& link, asio::any_io_executor executor,
                                      std::shared_ptr<Clock> clock);
 

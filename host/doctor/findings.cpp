@@ -13,9 +13,9 @@ namespace {
 using gcode::Family;
 using Weight = Finding::Weight;
 
-constexpr double line_bytes = 40, bits_per_byte = 10;  ///< of a usual move on a serial line
-constexpr double segment = 0.2;                        ///< mm, of a curve of 0.45 mm spacing where it is bent
-constexpr double slow_answer = 0.012;      ///< s; FTDI chips hold replies back for 16 ms, others for 1
+constexpr double line_bytes = 40, bits_per_byte = 10;  ///< A typical move on a serial line.
+constexpr double segment = 0.2;            ///< Segments in the bends of a curve of 0.45 mm spacing, mm.
+constexpr double slow_answer = 0.012;      ///< s; FTDI's chips delay replies by 16 ms, others by 1 ms.
 constexpr double hot = 50;                 ///< °C
 constexpr double plenty_of_baud = 250000;  ///< bits/s
 
@@ -45,12 +45,11 @@ class Doctor {
   void firmware() {
     const gcode::Identity& who = found_.identity;
     if (who.family == Family::unknown) {
-      add(Weight::warning,
-          "its firmware is none that this program knows; a print may fail in ways that nobody has tried");
+      add(Weight::warning, "this program does not know its firmware; a print may fail in untested ways");
     } else {
       add_if(dialect_of(who.family).has_value(), Weight::trouble,
              fmt::format("this program speaks {}", gcode::name(who.family)),
-             fmt::format("this program does not speak {} yet; Marlin 2 would do", gcode::name(who.family)));
+             fmt::format("this program does not speak {} yet; use Marlin 2", gcode::name(who.family)));
     }
     if (profile_ != nullptr) {
       if (const auto wrong = mismatch(who, profile_->printer.firmware))
@@ -58,29 +57,29 @@ class Doctor {
     }
     if (who.family == Family::marlin && who.version && *who.version < gcode::Version{2, 0, 0}) {
       add(Weight::warning,
-          "its Marlin is older than 2.0: there a mixture changes for moves that are already queued, so "
-          "colours "
-          "change early; update it to 2.1");
+          "its Marlin is older than 2.0, in which a new mixture also affects moves that are already queued, "
+          "so colours change early; update it to 2.1");
     }
   }
 
   void mixing() {
     add_if(found_.mixes, Weight::trouble,
-           "its feeders mix (it knows M163); it does not tell how many they are, so the profile has to",
+           "its feeders mix (it knows M163); it does not report how many there are, so check the profile",
            does_not_mix);
     const auto extruders = found_.identity.extruders.value_or(1);
     if (!found_.mixes && extruders > 1)
-      add(Weight::note, fmt::format("it takes its feeders for {} extruders, each for itself", extruders));
+      add(Weight::note, fmt::format("it treats its feeders as {} separate extruders", extruders));
   }
 
   void settings() {
     if (!found_.tells_settings)
       return add(Weight::note,
-                 "it does not tell its settings (M503): compare speeds and accelerations "
+                 "it does not report its settings (M503): compare speeds and accelerations "
                  "with the profile yourself");
     if (found_.settings.volumetric.value_or(false)) {
       add(Weight::trouble,
-          "it takes E for mm³ (volumetric extrusion, M200), which would lay 2.4 times too much of 1.75 mm "
+          "it takes E as mm³ (volumetric extrusion, M200), so it would extrude 2.4 times too little of 1.75 "
+          "mm "
           "filament; switch that off with M200 S0 and M500");
     }
     if (profile_ == nullptr) return;
@@ -90,43 +89,42 @@ class Doctor {
   }
 
   void compare(const char* key, const char* unit, const std::array<double, 3>& believed,
-               const std::optional<std::array<double, 4>>& told) {
-    if (!told) return;
+               const std::optional<std::array<double, 4>>& reported) {
+    if (!reported) return;
     constexpr double rounding = 1.001;
     for (std::size_t axis = 0; axis < believed.size(); ++axis) {
-      if (believed[axis] <= (*told)[axis] * rounding) continue;
+      if (believed[axis] <= (*reported)[axis] * rounding) continue;
       return add(Weight::warning,
-                 fmt::format("its own limit of {0} for {1} is {2:g} {3}, the profile says {4:g}: prints take "
-                             "longer than they are planned for, at an uneven flow; correct the profile",
-                             key, "xyz"[axis], (*told)[axis], unit, believed[axis]));
+                 fmt::format("its own {0} for {1} is {2:g} {3}, the profile says {4:g}: prints take longer "
+                             "than planned, and the flow is not constant; correct the profile",
+                             key, "xyz"[axis], (*reported)[axis], unit, believed[axis]));
     }
-    add(Weight::good, fmt::format("its limits of {} leave what the profile says", key));
+    add(Weight::good, fmt::format("its {} is not below that of the profile", key));
   }
 
   void safety() {
     add_if(found_.shuts_down, Weight::warning,
-           "when this computer dies in mid-print, it switches its heaters off by itself (M85)",
-           "it does not know M85: when this computer dies in mid-print its heaters stay on; do not leave it "
-           "alone");
+           "if this computer fails in mid-print, the printer switches its heaters off by itself (M85)",
+           "it does not know M85: if this computer fails in mid-print, the heaters stay on; do not leave the "
+           "printer unattended");
     add_if(found_.identity.can("EMERGENCY_PARSER"), Weight::warning, "an emergency stop takes effect at once",
-           "an emergency stop waits until there is room in its queue; keep its own switch within reach, or "
+           "an emergency stop waits until there is room in its queue; keep its power switch within reach, or "
            "build its firmware with EMERGENCY_PARSER");
   }
 
   void line() {
-    add_if(found_.identity.can("AUTOREPORT_TEMP"), Weight::note, "it tells its temperatures by itself",
-           "it has to be asked for its temperatures, and answers late while it moves");
+    add_if(found_.identity.can("AUTOREPORT_TEMP"), Weight::note, "it reports its temperatures by itself",
+           "it must be asked for its temperatures, and answers late while it moves");
     add_if(found_.queues.has_value(), Weight::note,
-           fmt::format("it tells how full its queues are (up to {} moves and {} commands)",
+           fmt::format("it reports how full its queues are (up to {} moves and {} commands)",
                        found_.queues ? found_.queues->planner_size : 0,
                        found_.queues ? found_.queues->commands_size : 0),
-           "it does not tell how full its queues are; ADVANCED_OK in its firmware would");
+           "it does not report how full its queues are; build its firmware with ADVANCED_OK");
     const double lines = baud_ / (line_bytes * bits_per_byte);
     add_if(baud_ >= plenty_of_baud, Weight::warning,
            fmt::format("{} baud carry {:.0f} lines a second", baud_, lines),
-           fmt::format("{} baud carry only {:.0f} lines a second: curves whose segments are {:g} mm long are "
-                       "printed at {:.0f} mm/s at most, unless the board has USB of its own; 250000 would "
-                       "do better",
+           fmt::format("{} baud carry only {:.0f} lines a second: segments of {:g} mm are printed at "
+                       "{:.0f} mm/s at most, unless the board has native USB; use 250000 baud",
                        baud_, lines, segment, lines * segment));
     add_if(found_.answer_seconds < slow_answer, Weight::warning,
            fmt::format("it answers within {:.1f} ms", 1000 * found_.answer_seconds),
@@ -134,16 +132,17 @@ class Doctor {
                        "/sys/bus/usb-serial/devices/…/latency_timer",
                        1000 * found_.answer_seconds));
     if (found_.reset_by_opening)
-      add(Weight::note, "it has just started: opening its port resets it, or it was switched on this moment");
+      add(Weight::note, "it has just started: opening its port resets it, or it has just been switched on");
   }
 
   void heat() {
     const gcode::Temperatures& t = found_.temperatures;
     if (t.nozzle_target.value_or(0) > 0 || t.bed_target.value_or(0) > 0)
-      add(Weight::warning, "it is heating now, though nothing prints; M104 S0 and M140 S0 end that");
+      add(Weight::warning,
+          "it is heating although nothing prints; M104 S0 and M140 S0 switch the heaters off");
     else if (t.nozzle.value_or(0) > hot)
       add(Weight::note, fmt::format("its nozzle is still at {:.0f} °C", *t.nozzle));
-    if (!t.nozzle) add(Weight::warning, "it does not tell the temperature of its nozzle");
+    if (!t.nozzle) add(Weight::warning, "it does not report the temperature of its nozzle");
   }
 
   const Examination& found_;
@@ -183,7 +182,7 @@ bool has_trouble(const std::vector<Finding>& findings) {
 
 std::string in_words(const Examination& found, const std::vector<Finding>& findings) {
   const gcode::Identity& who = found.identity;
-  std::string text = who.firmware.empty() ? "a printer that does not tell its firmware's name" : who.firmware;
+  std::string text = who.firmware.empty() ? "a printer that does not report its firmware" : who.firmware;
   if (!who.machine.empty()) text += ", " + who.machine;
   text += "\n";
   for (const Finding& finding : findings)

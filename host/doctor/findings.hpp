@@ -1,4 +1,4 @@
-// What an examined printer means for a print, in plain words.
+// The consequences of an examination for a print, in words.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,22 +12,21 @@ namespace unicursal::host {
 
 struct Finding {
   enum class Weight {
-    good,     ///< works
-    note,     ///< works, and could work better
-    warning,  ///< something may go wrong
-    trouble,  ///< a print will not do
+    good,     ///< It works.
+    note,     ///< It works, but could work better.
+    warning,  ///< Something may go wrong.
+    trouble,  ///< A print will fail.
   };
   Weight weight = Weight::good;
-  std::string text;  ///< a sentence, with the remedy where there is one
+  std::string text;  ///< A sentence, with the remedy if there is one.
 };
 
-/// In the order in which a user should read them. `profile`: what the user believes the printer to be, if
-/// told.
+/// Returns the findings, the most important first. `profile` is compared with the printer, unless it is null.
 std::vector<Finding> findings(const Examination& found, unsigned baud, const Profile* profile);
 
 bool has_trouble(const std::vector<Finding>& findings);
 
-/// Who it is, then one finding on each line.
+/// The printer's name, then one finding on each line.
 std::string in_words(const Examination& found, const std::vector<Finding>& findings);
 nlohmann::json to_json(const Examination& found, const std::vector<Finding>& findings);
 

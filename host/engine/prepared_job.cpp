@@ -92,8 +92,8 @@ std::array<double, 2> reach_of(const PreparedJob& prepared, std::size_t material
 
 /// Gradients are given in the part's frame and printed in the bed's.
 void place_gradients(PreparedJob& prepared) {
-  for (std::size_t i = 0; i < prepared.job.materials.size(); ++i) {
-    std::optional<gcode::Gradient>& gradient = prepared.job.materials[i].gradient;
+  for (std::size_t i = 0; i < prepared.job.print.materials.size(); ++i) {
+    std::optional<gcode::Gradient>& gradient = prepared.job.print.materials[i].gradient;
     if (!gradient) continue;
     if (gradient->begin >= gradient->end) {
       const auto [begin, end] = reach_of(prepared, i, gradient->along);
@@ -118,6 +118,7 @@ void choose_layers(PreparedJob& prepared, const std::optional<LayerRange>& layer
   }
   prepared.first = range.first;
   prepared.count = std::min(range.last, all - 1) - range.first + 1;
+  prepared.layers = layers;
   prepared.lowered = underside(prepared.job.source, prepared.first);
 }
 
@@ -136,6 +137,20 @@ core::BeadPath on_bed(core::BeadPath path, const core::Vec2& offset) {
 
 void thin(core::BeadPath& path, double width) {
   for (std::size_t i = 0; i < path.size(); ++i) path.beads[i].area = width * path.length(i);
+}
+
+gcode::PrintFrame frame_of(const PreparedJob& prepared) {
+  const core::PartSource& source = prepared.job.source;
+  gcode::PrintFrame frame;
+  frame.layer_height = source.layer_height;
+  frame.first_layer_height = prepared.first == 0 ? first_layer_height(source) : source.layer_height;
+  frame.layer_count = prepared.count;
+  for (const core::Zone& zone : prepared.part->zones()) frame.zone_materials.push_back(zone.material);
+  frame.extent = prepared.part->extent();
+  frame.extent.min += prepared.offset;
+  frame.extent.max += prepared.offset;
+  frame.part_height = prepared.part->height() - prepared.lowered;
+  return frame;
 }
 
 bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
@@ -158,32 +173,12 @@ PreparedJob prepare(Job job, const std::optional<LayerRange>& layers) {
              : prepared.part->height();
   check_fit(prepared, height);
   place_gradients(prepared);
+  prepared.frame = frame_of(prepared);
   return prepared;
 }
 
 gcode::PrintSettings print_settings(const PreparedJob& prepared) {
-  gcode::PrintSettings settings;
-  const Job& job = prepared.job;
-  settings.flow = job.flow;
-  settings.automatic_flow = job.automatic_flow;
-  settings.speed = job.speed;
-  settings.first_layer_speed = job.first_layer_speed;
-  settings.skirt = job.skirt;
-  settings.fan = job.fan;
-  settings.temperatures = job.temperatures;
-  settings.layer_count = prepared.count;
-  settings.layer_height = job.source.layer_height;
-  settings.first_layer_height = prepared.first == 0 ? first_layer_height(job.source) : settings.layer_height;
-  settings.materials = prepared.job.materials;
-  for (const core::Zone& zone : prepared.part->zones()) settings.zone_materials.push_back(zone.material);
-  settings.extent = prepared.part->extent();
-  settings.extent.min += prepared.offset;
-  settings.extent.max += prepared.offset;
-  settings.part_height = prepared.part->height() - prepared.lowered;
-  settings.look_ahead = prepared.job.look_ahead;
-  settings.change_before_border = prepared.job.change_before_border;
-  settings.seam = prepared.job.seam;
-  return settings;
+  return {prepared.job.print, prepared.frame};
 }
 
 namespace {
@@ -191,8 +186,8 @@ namespace {
 /// By which a layer's volume passes, mm³/s: what a thin line leaves out of it takes no time.
 double layer_flow(const Job& job) {
   const double laid = job.line_width.value_or(job.bead_width);
-  double flow = job.automatic_flow ? job.profile.printer.max_flow : job.flow;
-  if (job.speed) flow = *job.speed * laid * job.source.layer_height;
+  double flow = job.print.automatic_flow ? job.profile.printer.max_flow : job.print.flow;
+  if (job.print.speed) flow = *job.print.speed * laid * job.source.layer_height;
   return flow * job.bead_width / laid;
 }
 

@@ -26,9 +26,11 @@ struct PreparedJob {
   std::shared_ptr<const core::IslandPlanner> planner;  ///< of the part's zones
   core::Vec2 offset{0, 0};                             ///< from the part's frame to the bed's
   std::size_t first = 0;                               ///< index of the first layer to print
-  std::size_t count = 0;                               ///< how many
-  std::size_t threads = 0;                             ///< that plan; 0: one for each core
-  double lowered = 0;  ///< by how much the layers come down, so that the first one lies on the bed
+  std::size_t count = 0;                               ///< number of layers to print
+  std::optional<LayerRange> layers;                    ///< as asked; absent: all
+  std::size_t threads = 0;                             ///< for planning; 0: one for each core
+  double lowered = 0;       ///< distance that layers come down, so that the first one lies on the bed
+  gcode::PrintFrame frame;  ///< on the bed
 };
 
 /// `layers`: print these only; all when absent. Throws core::DataError, among others when the part does not
@@ -39,6 +41,7 @@ PreparedJob prepare(Job job, const std::optional<LayerRange>& layers = {});
 /// air, or there would be none.
 void check_beginning(const PreparedJob& prepared);
 
+/// The job's choices and the part's frame in one.
 gcode::PrintSettings print_settings(const PreparedJob& prepared);
 LookaheadOptions lookahead_options(const PreparedJob& prepared);
 

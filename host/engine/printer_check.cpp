@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <variant>
 
 #include "core/error.hpp"
-#include "firmware_gcode/dialect/dialect.hpp"
+#include "core/text/wording.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 
 namespace unicursal::host {
@@ -19,9 +18,7 @@ bool denies_mixing(const std::string& line) {
 }
 
 std::optional<std::string> dialect_of(gcode::Family family) {
-  std::string word(gcode::name(family));
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string word = core::lower(gcode::name(family));
   try {
     gcode::dialect_named(word);
     return word;

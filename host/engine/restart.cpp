@@ -61,9 +61,9 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   restart.repeated = std::max(sent, certain) - certain;
   note_heights(restart, spool.chunks(), journal, certain, std::max(sent, certain));
   if (settled) restart.lowest = restart.highest;
-  const gcode::PrintSettings settings = print_settings(prepared);
-  gcode::Chunk chunk = gcode::lead_in(prepared.job.profile.printer,
-                                      {state, restart.lowest, settings.flow, settings.extent, restart.drawn});
+  gcode::Chunk chunk =
+      gcode::lead_in(prepared.job.profile.printer,
+                     {state, restart.lowest, prepared.job.print.flow, prepared.frame.extent, restart.drawn});
   restart.leg.height = restart.lowest;
   restart.leg.lead_in = commands(std::move(chunk.lines));
   restart.warnings = std::move(chunk.warnings);

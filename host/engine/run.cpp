@@ -59,12 +59,11 @@ Run::Run(const PreparedJob& prepared, std::string command, const RunOutputs& out
     : prepared_(prepared),
       command_(std::move(command)),
       repeatable_(outputs.repeatable),
-      zone_materials_(print_settings(prepared).zone_materials),
       encoder_(prepared.job.profile.printer, print_settings(prepared)),
       start_(encoder_.start()) {
   if (outputs.report) log_ = std::make_unique<LayerLog>(*outputs.report);
   if (outputs.pictures) pictures_ = std::make_unique<PictureWriter>(*outputs.pictures, curve_style(prepared));
-  const std::vector<gcode::Material>& materials = prepared.job.materials;
+  const std::vector<gcode::Material>& materials = prepared.job.print.materials;
   for (std::size_t i = 0; i < materials.size(); ++i) {
     totals_.materials.push_back({materials[i].name, materials[i].mixture, encoder_.intended(i)});
   }
@@ -98,7 +97,7 @@ gcode::Chunk Run::replay(const gcode::PlacedLayer& layer) {
 gcode::Chunk Run::encoded(const gcode::PlacedLayer& layer) {
   gcode::Chunk chunk = encoder_.layer(layer);
   ++totals_.layers;
-  add_layer(totals_.materials, layer, zone_materials_);
+  add_layer(totals_.materials, layer, prepared_.frame.zone_materials);
   return chunk;
 }
 
@@ -118,7 +117,7 @@ gcode::Chunk Run::finish() {
 
 double Run::flow() const {
   const Job& job = prepared_.job;
-  return job.speed ? *job.speed * job.bead_width * job.source.layer_height : encoder_.flow();
+  return job.print.speed ? *job.print.speed * job.bead_width * job.source.layer_height : encoder_.flow();
 }
 
 /// In order; after a stop those that were not printed to their end as well.
@@ -217,15 +216,15 @@ namespace {
 /// Where the skirt and the prime line are to lie.
 void add_aside(TargetLayer& target, const PreparedJob& prepared, const PlannedLayer& planned) {
   const gcode::Printer& printer = prepared.job.profile.printer;
-  const gcode::PrintSettings settings = print_settings(prepared);
-  core::Box kept_clear = settings.extent;
-  const double reach = gcode::skirt_reach(settings.skirt, printer);
+  core::Box kept_clear = prepared.frame.extent;
+  const double reach = gcode::skirt_reach(prepared.job.print.skirt, printer);
   kept_clear.min -= core::Vec2(reach, reach);
   kept_clear.max += core::Vec2(reach, reach);
   if (const auto line = gcode::prime_line(printer, kept_clear, target.height)) {
     target.prime.push_back({line->from, line->to, line->width});
   }
-  for (const core::BeadPath& ring : gcode::skirt(placed(prepared, planned), settings.skirt, printer)) {
+  for (const core::BeadPath& ring :
+       gcode::skirt(placed(prepared, planned), prepared.job.print.skirt, printer)) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       target.skirt.push_back({ring.start(i), ring.end(i), ring.width(i)});
     }
@@ -255,11 +254,11 @@ TargetLayer target_of(const PreparedJob& prepared, const PlannedLayer& planned) 
 
 std::vector<IntendedMaterial> intended_materials(const PreparedJob& prepared, const gcode::Encoder& encoder) {
   std::vector<IntendedMaterial> intended;
-  for (std::size_t i = 0; i < prepared.job.materials.size(); ++i) {
+  for (std::size_t i = 0; i < prepared.job.print.materials.size(); ++i) {
     IntendedMaterial material(encoder.intended(i));
-    material.gradient = prepared.job.materials[i].gradient;
+    material.gradient = prepared.job.print.materials[i].gradient;
     if (material.gradient) material.gradient->to = encoder.intended(i, 1);
-    material.transition = prepared.job.materials[i].transition;
+    material.transition = prepared.job.print.materials[i].transition;
     intended.push_back(std::move(material));
   }
   return intended;
@@ -269,7 +268,7 @@ CurveStyle curve_style(const PreparedJob& prepared) {
   CurveStyle style;
   style.extent = prepared.part->extent();
   for (const core::Zone& zone : prepared.part->zones()) {
-    style.zone_colours.push_back(colour_of(prepared.job.materials.at(zone.material).mixture));
+    style.zone_colours.push_back(colour_of(prepared.job.print.materials.at(zone.material).mixture));
   }
   style.bead_width = prepared.job.bead_width;
   return style;

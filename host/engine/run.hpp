@@ -74,7 +74,6 @@ class Run {
   const PreparedJob& prepared_;
   std::string command_;
   bool repeatable_;
-  std::vector<std::size_t> zone_materials_;
   gcode::Encoder encoder_;
   gcode::Chunk start_;
   RunTotals totals_;

@@ -1,30 +1,14 @@
-// What a session tells: of the printer's words, of itself, and of what is to come.
+// A session's status, and the words for its states and events.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <type_traits>
-#include <variant>
 
-#include "firmware_gcode/reply/reply.hpp"
-#include "host/engine/printer_check.hpp"
+#include "host/engine/seconds.hpp"
 #include "host/engine/session_impl.hpp"
 
 namespace unicursal::host {
 namespace {
-
-using namespace gcode;
-
-void update(Temperatures& known, const Temperatures& told) {
-  const auto take = [](std::optional<double>& to, const std::optional<double>& from) {
-    if (from) to = from;
-  };
-  take(known.nozzle, told.nozzle);
-  take(known.nozzle_target, told.nozzle_target);
-  take(known.bed, told.bed);
-  take(known.bed_target, told.bed_target);
-}
 
 std::optional<double> share_in(const std::string& line) {
   const auto at = line.find(" P");
@@ -83,75 +67,17 @@ const char* name(SessionEvent::Kind kind) {
   return "printer";
 }
 
-void Session::State::hear(const std::string& line) {
-  const Reply reply = parse_reply(line);
-  const auto heard = [&](const Temperatures& told) {
-    update(temperatures, told);
-    wake.notify();
-    tell(SessionEvent::Kind::heat);
-  };
-  if (const auto* ok = std::get_if<reply::Ok>(&reply)) return heard(ok->temperatures);
-  if (const auto* report = std::get_if<reply::TemperatureReport>(&reply)) return heard(report->temperatures);
-  if (const auto* error = std::get_if<reply::Error>(&reply); error && error->halted) halted = true;
-  tell(SessionEvent::Kind::printer, line);
-  if (const auto* echo = std::get_if<reply::Echo>(&reply); echo && echo->unknown_command) {
-    if (denies_mixing(line)) {
-      mixes = false;
-      wake.notify();
-    }
-    if (echo->text.find("M85") != std::string::npos)
-      warn("this firmware does not know M85: if this computer fails in mid-print, nothing cools the printer");
-  }
-  if (const auto* echo = std::get_if<reply::Echo>(&reply)) {
-    if (echo->text.find("cold extrusion") != std::string::npos) hold_because_cold();
-  }
-  if (const auto* action = std::get_if<reply::Action>(&reply)) obey(action->text);
-  if (halted) wake.notify();
-}
-
-void Session::State::enter(SessionState next, const std::string& why) {
-  state = next;
-  reason = why;
-  tell(SessionEvent::Kind::state);
-}
-
-void Session::State::tell(SessionEvent::Kind kind, const std::string& text) const {
-  if (observer) observer({kind, text});
-}
-
-void Session::State::warn(const std::string& sentence) {
-  if (std::find(warnings.begin(), warnings.end(), sentence) != warnings.end()) return;
-  warnings.push_back(sentence);
-  tell(SessionEvent::Kind::notice, "Warning: " + sentence);
-}
-
-/// Layers that are not sent yet are taken to last as the flow foretells, by as much more as those did that
-/// were; where nothing is foretold, as long as those before them on average.
-double Session::State::seconds_left() const {
-  if (replaying) {
-    const double this_layer = source.foretold(layers_begun, layers_begun + 1).value_or(0);
-    return source.foretold(layers_begun, source.layers()).value_or(0) - layer_fraction * this_layer;
-  }
-  const double at_hand = chunk_seconds * (1 - layer_fraction);
-  const std::size_t done = layers_before + layers_sent + whole;
-  if (const auto rest = source.foretold(done, source.layers())) {
-    const double later = source.foretold(std::max<std::size_t>(layers_before, 1), done).value_or(0);
-    const double stretch = later > 0 && later_seconds > 0 ? later_seconds / later : 1;
-    return at_hand + std::max(stretch * *rest - unfinished_seconds, no_time);
-  }
-  const Waiting waiting = source.waiting();
-  const std::size_t known = layers_sent + whole + waiting.layers;
-  const double sum = seconds_sent + chunk_seconds + waiting.seconds;
-  const double mean = known > 0 ? sum / static_cast<double>(known) : sum;
-  const std::size_t unknown = source.layers() - std::min(source.layers(), layers_before + known);
-  return at_hand + waiting.seconds + mean * static_cast<double>(unknown);
+Ahead Session::State::ahead() const {
+  return {source.layers(), source.waiting(),
+          [this](std::size_t begin, std::size_t end) { return source.foretold(begin, end); }};
 }
 
 /// By the tool in use and what was last stored into it.
 std::string Session::State::mixture() const {
-  if (!modal.tool || !caught_up) return {};
-  const auto tool = modal.tools.find(*modal.tool);
-  if (tool == modal.tools.end()) return {};
+  const gcode::ModalState& expected = printer.expected;
+  if (!expected.tool || !caught_up) return {};
+  const auto tool = expected.tools.find(*expected.tool);
+  if (tool == expected.tools.end()) return {};
   std::vector<double> shares;
   for (const std::string& line : tool->second) {
     if (const auto share = share_in(line)) shares.push_back(*share);
@@ -169,34 +95,30 @@ std::string Session::State::mixture() const {
 
 SessionStatus Session::State::status() const {
   SessionStatus status;
-  status.state = state;
-  status.reason = pause_wanted && state == SessionState::heating ? pause_when_hot : reason;
+  status.state = announcer.state();
+  const bool when_hot = intent.paused_by_session() && status.state == SessionState::heating;
+  status.reason = when_hot ? pause_when_hot : announcer.reason();
   status.layers = source.layers();
-  const bool begun = chunk_seconds > 0 || layers_begun > 0 || layers_sent > 0;
-  status.layer = begun ? std::min(layers_begun + 1, status.layers) : 0;
-  status.layer_fraction = layer_fraction;
-  if (begun) {
-    const double left = seconds_left();
-    double sent = seconds_sent + chunk_seconds * layer_fraction;
-    if (settings.continuation)
-      sent = std::max(source.foretold(0, source.layers()).value_or(0) - left, no_time);
-    status.left = has_ended(state) ? 0 : left;
-    const double rest = state == SessionState::done ? 0 : left;
-    if (sent + rest > 0) told_percent = std::max(told_percent, 100 * sent / (sent + rest));
-    status.percent = told_percent;
+  status.layer = progress.layer(status.layers);
+  status.layer_fraction = progress.fraction();
+  if (progress.has_begun()) {
+    const Ahead rest = ahead();
+    status.left = has_ended(status.state) ? 0 : progress.seconds_left(rest);
+    status.percent = progress.percent(rest, status.state == SessionState::done);
   }
-  status.elapsed = std::chrono::duration<double>(clock->now() - began).count();
-  status.temperatures = temperatures;
+  status.elapsed = seconds(clock->now() - began);
+  status.temperatures = printer.temperatures;
   status.mixture = mixture();
   const Waiting waiting = source.waiting();
   status.lookahead = waiting.seconds;
   status.lookahead_layers = waiting.layers;
   if (const auto& queues = link.queues(); queues && queues->planner_size > 0)
     status.queue = 1 - static_cast<double>(queues->planner_free) / queues->planner_size;
-  status.speed_percent = speed_percent;
-  status.flow_percent = flow_percent;
+  status.speed_percent = printer.speed_percent;
+  status.flow_percent = printer.flow_percent;
   if (caught_up) status.warnings = source.warnings();
-  status.warnings.insert(status.warnings.end(), warnings.begin(), warnings.end());
+  const std::vector<std::string>& own = announcer.warnings();
+  status.warnings.insert(status.warnings.end(), own.begin(), own.end());
   return status;
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "host/engine/seconds.hpp"
+
 namespace unicursal::host {
 namespace {
 
@@ -14,6 +16,10 @@ SpooledChunk record_of(const PlannedLayer& planned, const PreparedJob& prepared)
 }
 
 }  // namespace
+
+void report_printed(Source& source, const Clock& clock, double left) {
+  source.printed(seconds(clock.now().time_since_epoch()), left);
+}
 
 std::vector<NamedMixture> PlannedSource::mixtures() const {
   std::vector<NamedMixture> mixtures;

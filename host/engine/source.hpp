@@ -14,6 +14,7 @@
 #include "host/engine/run.hpp"
 #include "host/lookahead/foretold_times.hpp"
 #include "host/lookahead/lookahead.hpp"
+#include "host/loop/clock.hpp"
 #include "host/spool/spooled_chunk.hpp"
 
 namespace unicursal::host {
@@ -64,6 +65,9 @@ class Source {
   virtual std::optional<double> foretold(std::size_t begin, std::size_t end) const = 0;
 };
 
+/// Reports to the source that the lines sent so far leave `left` s of printing, at the clock's present time.
+void report_printed(Source& source, const Clock& clock, double left);
+
 /// A job's layers as they are planned. What it refers to must outlive it.
 class PlannedSource final : public Source {
  public:
@@ -76,7 +80,7 @@ class PlannedSource final : public Source {
                lookahead_options(run.prepared()).flow) {}
 
   const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
-  core::Box extent() const override { return print_settings(run_.prepared()).extent; }
+  core::Box extent() const override { return run_.prepared().frame.extent; }
   double flow() const override { return run_.flow(); }
   std::vector<NamedMixture> mixtures() const override;
   std::vector<std::string> warnings() const override { return run_.warnings(); }

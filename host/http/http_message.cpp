@@ -6,6 +6,8 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "core/text/wording.hpp"
+
 namespace unicursal::host {
 namespace {
 
@@ -31,14 +33,6 @@ bool is_value(std::string_view text) {
     const auto byte = static_cast<unsigned char>(c);
     return c == '\t' || (byte >= ' ' && byte != 0x7f);
   });
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -91,7 +85,7 @@ void read_header(std::string_view line, RequestHead& head) {
   const std::string_view value = trimmed(line.substr(colon + 1));
   if (!is_token(name) || !is_value(value)) throw HttpError(400, "a header holds what it must not");
   if (head.headers.size() == most_headers) throw HttpError(431, "there are too many headers");
-  head.headers.emplace_back(lower(name), value);
+  head.headers.emplace_back(core::lower(name), value);
 }
 
 /// Whatever decides where a request ends and who sent it must not be there twice.
@@ -125,7 +119,7 @@ std::optional<std::string> RequestHead::header(std::string_view name) const {
 }
 
 bool RequestHead::lists(std::string_view name, std::string_view word) const {
-  const std::string list = lower(header(name).value_or(""));
+  const std::string list = core::lower(header(name).value_or(""));
   std::string_view rest = list;
   while (!rest.empty()) {
     if (trimmed(take(rest, ",")) == word) return true;

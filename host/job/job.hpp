@@ -30,28 +30,28 @@ struct Placement {
 
 struct Job {
   std::filesystem::path file;
-  core::PartSource source;  ///< zones name materials by index
+  core::PartSource source;  ///< zones name materials by their index in `print.materials`
   double bead_width = 0;
   std::optional<double> seed_distance;
-  int perimeters = 0;  ///< contours around the fill
-  double flow = 2;
-  bool automatic_flow = false;
-  std::optional<double> speed;   ///< mm/s, constant instead of the flow
-  double first_layer_speed = 1;  ///< of the others'
-  gcode::Skirt skirt;
-  gcode::Fan fan;
-  std::vector<gcode::LayerTemperature> temperatures;
+  int perimeters = 0;                ///< contours around the fill
   std::optional<double> line_width;  ///< of a thin line that shows the curve; absent: beads fill their area
   Placement place;
-  gcode::Seam seam = gcode::Seam::hidden;
-  double change_before_border = 0.5;  ///< share of every change of mixture
-  // Only on the command line's word.
-  bool look_ahead = true;     ///< of the mixing schedule; false for comparison
-  bool full_quality = false;  ///< planning never hurries, though the nozzle may have to wait
-  /// The mixtures that zones use, equal ones once, in order of first use.
-  std::vector<gcode::Material> materials;
+  gcode::PrintChoices print;  ///< `look_ahead` is set by the command line only
+  bool full_quality = false;  ///< set by the command line: planning never hurries, the nozzle may wait
   Profile profile;
-  std::vector<std::string> warnings;  ///< keys that are accepted but not followed yet, one sentence each
+  std::vector<std::string> warnings;  ///< about keys that have no effect yet, one sentence each
 };
+
+/// The files that a print of a job is made from.
+struct JobInputs {
+  std::filesystem::path job, profile;
+  std::vector<std::filesystem::path> models;
+  std::vector<std::filesystem::path> fields;  ///< direction file of each zone, empty for zones without one
+
+  /// All of them, empty names left out.
+  std::vector<std::filesystem::path> all() const;
+};
+
+JobInputs files_of(const Job& job);
 
 }  // namespace unicursal::host

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "core/text/wording.hpp"
 #include "host/job/keys.hpp"
 #include "host/job/print_keys.hpp"
 #include "host/job/settings_file.hpp"
@@ -46,10 +46,7 @@ std::vector<std::filesystem::path> read_files(const Section& part) {
 }
 
 bool is_drawing(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".svg";
+  return core::lower(file.extension().string()) == ".svg";
 }
 
 double read_layer_height(const Section& part, const char* key, double nozzle) {
@@ -145,17 +142,19 @@ void read_bead_width(const Section& part, Job& job) {
 
 void read_flow(const Section& part, Job& job) {
   const double greatest = job.profile.printer.max_flow;
-  job.flow = std::min(job.flow, greatest);
+  job.print.flow = std::min(job.print.flow, greatest);
   const toml::node* node = part.find("flow");
   if (!node) return;
   if (node->is_string()) {
     part.choice("flow", *node, {"auto"});
-    job.automatic_flow = true;
+    job.print.automatic_flow = true;
     return;
   }
-  job.flow = part.number("flow", between(least_flow, most_flow, "mm³/s"), "write for example flow = 2.0");
-  if (job.flow > greatest) {
-    part.fail("flow", fmt::format("is {} mm³/s, but the printer melts at most {} mm³/s", job.flow, greatest),
+  job.print.flow =
+      part.number("flow", between(least_flow, most_flow, "mm³/s"), "write for example flow = 2.0");
+  if (job.print.flow > greatest) {
+    part.fail("flow",
+              fmt::format("is {} mm³/s, but the printer melts at most {} mm³/s", job.print.flow, greatest),
               "lower it, or raise extruder.max_flow in the profile if that is wrong");
   }
 }
@@ -172,9 +171,9 @@ void read_seam(const Section& part, Job& job) {
   if (!node) return;
   const std::string seam =
       part.choice("seam", *node, {"hidden", "scattered", "aligned", "none-extra-travel"});
-  if (seam == "scattered") job.seam = gcode::Seam::scattered;
-  if (seam == "aligned") job.seam = gcode::Seam::aligned;
-  if (seam == "none-extra-travel") job.seam = gcode::Seam::nearest;
+  if (seam == "scattered") job.print.seam = gcode::Seam::scattered;
+  if (seam == "aligned") job.print.seam = gcode::Seam::aligned;
+  if (seam == "none-extra-travel") job.print.seam = gcode::Seam::nearest;
 }
 
 std::filesystem::path profile_path(const Section& root, const std::optional<std::filesystem::path>& chosen) {
@@ -211,11 +210,12 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
   read_print_keys(part, job);
   read_perimeters(part, job);
   read_seam(part, job);
-  job.change_before_border = part.number_or("change_before_border", 0.5, between(0.05, 0.95, ""),
-                                            "write the share of a change that may fall before its border");
+  job.print.change_before_border =
+      part.number_or("change_before_border", 0.5, between(0.05, 0.95, ""),
+                     "write the share of a change that may fall before its border");
   ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders);
   job.source.zones = std::move(zones.zones);
-  job.materials = std::move(zones.materials);
+  job.print.materials = std::move(zones.materials);
   return job;
 }
 

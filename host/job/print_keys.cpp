@@ -31,9 +31,9 @@ void read_speed(const Section& part, Job& job) {
     if (part.has("flow")) {
       part.fail("speed", "cannot be held beside a flow", "leave out either part.speed or part.flow");
     }
-    job.speed = part.number("speed", range, "write for example speed = 20");
+    job.print.speed = part.number("speed", range, "write for example speed = 20");
   }
-  job.first_layer_speed =
+  job.print.first_layer_speed =
       part.number_or("first_layer_speed", 1, between(least_first_speed, 1, ""),
                      "write the part of the other layers' speed, for example first_layer_speed = 0.5");
 }
@@ -92,8 +92,8 @@ void read_temperatures(const Section& part, Job& job) {
     const toml::table* table = (*list)[i].as_table();
     if (!table) part.fail("temperatures", "holds something that is no table", remedy);
     const Section entry(part.file(), *table, fmt::format("part.temperatures[{}]", i), keys::temperatures);
-    job.temperatures.push_back(read_temperature(entry));
-    if (i > 0 && job.temperatures[i].layer <= job.temperatures[i - 1].layer) {
+    job.print.temperatures.push_back(read_temperature(entry));
+    if (i > 0 && job.print.temperatures[i].layer <= job.print.temperatures[i - 1].layer) {
       entry.fail("layer", "does not come after the one before it", "sort the list by layer, each layer once");
     }
   }
@@ -103,8 +103,8 @@ void read_temperatures(const Section& part, Job& job) {
 
 void read_print_keys(const Section& part, Job& job) {
   read_speed(part, job);
-  read_skirt(part, job.skirt);
-  read_fan(part, job.fan);
+  read_skirt(part, job.print.skirt);
+  read_fan(part, job.print.fan);
   read_temperatures(part, job);
 }
 

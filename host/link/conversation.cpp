@@ -1,5 +1,5 @@
-// The link's protocol: greeting a firmware, answering its resend requests, finding it again after silence.
-// See state.hpp for the facts behind it.
+// The link's protocol: greeting a firmware, answering its resend requests, resynchronising after silence. The
+// facts behind it are in host/link/state.hpp.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,20 +12,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto boot_chatter = 500ms;    ///< without a line: the firmware has finished booting
-constexpr auto ask_again = 1000ms;      ///< between questions to a firmware that may not have been ready
-constexpr auto longest_drain = 1000ms;  ///< for printers that never stop talking
-constexpr int number_attempts = 5;      ///< to set the line number, over a noisy line
-constexpr int probe_attempts = 4;       ///< each as long as LinkOptions::silence
-constexpr int find_attempts = 2;        ///< when rejoining, each as long as LinkOptions::silence
-constexpr int most_asks = 20;           ///< the same question, when refusals come in between
-constexpr int most_resends = 50;        ///< in a row that bring the job no further
+constexpr auto boot_chatter = 500ms;    ///< Silence after which the firmware has finished booting.
+constexpr auto ask_again = 1000ms;      ///< Interval of questions to a firmware that may still boot.
+constexpr auto longest_drain = 1000ms;  ///< Limit for printers that never fall silent.
+constexpr int number_attempts = 5;      ///< Attempts to set the line number, on a noisy line.
+constexpr int probe_attempts = 4;       ///< Each waits for LinkOptions::silence.
+constexpr int find_attempts = 2;        ///< When rejoining; each waits for LinkOptions::silence.
+constexpr int most_asks = 20;           ///< Repetitions of a question if refusals come in between.
+constexpr int most_resends = 50;        ///< Resends in a row without progress.
 constexpr auto finishes_nothing =
-    "the printer is alive but has finished no command for very long; look at it, then start again";
-constexpr std::uint32_t probe_distance = 1000;  ///< ahead of any number that could be right
+    "the printer is alive, but has not finished a command for a very long time; look at it, then start again";
+constexpr std::uint32_t probe_distance = 1000;  ///< Distance of a probe's number from any possible number.
 
-/// Past every queue of this program, since nothing is sent by it any more. The first newline ends what may
-/// be half written; M108 ends a wait for heat. Returns how many bytes were written.
+/// Writes ahead of all queues of this program, which send nothing any more. The first newline ends a half
+/// written line; M108 ends a wait for heat. Returns the number of bytes written.
 std::uint64_t switch_heaters_off(int descriptor) {
   constexpr std::string_view lines = "\nM108\nM104 S0\nM140 S0\n";
   const auto written = ::write(descriptor, lines.data(), lines.size());
@@ -34,37 +34,37 @@ std::uint64_t switch_heaters_off(int descriptor) {
 
 }  // namespace
 
-asio::awaitable<void> Link::State::until(const std::function<bool()>& ready) {
+asio::awaitable<void> LinkState::until(const std::function<bool()>& ready) {
   const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
   co_await signal.wait(TimePoint::max(), ready_or_failed);
   if (failure) throw LinkError(*failure);
 }
 
-asio::awaitable<bool> Link::State::until(const std::function<bool()>& ready, TimePoint deadline) {
+asio::awaitable<bool> LinkState::until(const std::function<bool()>& ready, TimePoint deadline) {
   const std::function<bool()> ready_or_failed = [&] { return failure || ready(); };
   const bool woken = co_await signal.wait(deadline, ready_or_failed);
   if (failure) throw LinkError(*failure);
   co_return woken;
 }
 
-void Link::State::fail(const std::string& message) {
+void LinkState::fail(const std::string& message) {
   if (!failure) failure = message;
   holding = true;
   signal.notify();
 }
 
-std::string Link::State::with_heat_warning(const std::string& message) const {
+std::string LinkState::with_heat_warning(const std::string& message) const {
   if (phase == Phase::greeting) return message;
-  return message + "; its heaters may still be on, switch it off if they are";
+  return message + "; its heaters may still be on: if they are, switch the printer off";
 }
 
-void Link::State::give_up(std::string message) {
+void LinkState::give_up(std::string message) {
   if (phase == Phase::streaming) statistics.bytes += switch_heaters_off(port.native_handle());
   fail(with_heat_warning(message));
   throw LinkError(*failure);
 }
 
-asio::awaitable<void> Link::State::quiet(Duration pause) {
+asio::awaitable<void> LinkState::quiet(Duration pause) {
   const auto limit = now() + longest_drain + pause;
   std::uint64_t seen = 0;
   const std::function<bool()> more = [&] { return bytes_heard != seen; };
@@ -75,7 +75,7 @@ asio::awaitable<void> Link::State::quiet(Duration pause) {
 
 // ---- greeting
 
-asio::awaitable<void> Link::State::greet() {
+asio::awaitable<void> LinkState::greet() {
   const std::function<bool()> spoken = [this] { return lines_heard > 0; };
   if (co_await until(spoken, now() + options.boot)) {
     co_await quiet(std::min<Duration>(boot_chatter, options.boot));
@@ -88,8 +88,8 @@ asio::awaitable<void> Link::State::greet() {
   if (numbering) numbering(ledger.next_to_number(), 0);
 }
 
-/// Once more if no ok comes; the print does not depend on it.
-asio::awaitable<void> Link::State::begin_reports() {
+/// Tries twice; the print does not depend on the reports.
+asio::awaitable<void> LinkState::begin_reports() {
   if (options.temperatures.count() == 0) co_return;
   if (!identity.can("AUTOREPORT_TEMP")) {
     ask_at = now() + options.temperatures;
@@ -105,26 +105,26 @@ asio::awaitable<void> Link::State::begin_reports() {
 
 // ---- rejoining
 
-/// What is sent here has no number that could be taken, so that nothing changes however often it is done.
-asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
+/// Sends no line with an acceptable number, so it changes nothing and can be repeated.
+asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   probing = true;
   const auto lines_before = lines_heard;
-  write("\n");  // ends half a line, which its missing checksum gives away
+  write("\n");  // ends half a line, which is refused for its missing checksum
   co_await quiet(options.quiet);
   Rejoined found;
-  const std::function<bool()> warm = [this] { return told_temperatures.has_value(); };
+  const std::function<bool()> warm = [this] { return reported_temperatures.has_value(); };
   co_await ask("M105\n", warm);
   if (lines_heard == lines_before) {
     give_up("the printer does not answer; check that it is on, and the cable, then resume again");
   }
-  // Waits its turn behind everything that was sent before. Twice, since homing answers like that, too.
-  const std::function<bool()> located = [this] { return told_position.has_value(); };
+  // M114 is answered after everything that was sent before. Twice, since homing gives the same answer.
+  const std::function<bool()> located = [this] { return reported_position.has_value(); };
   for (int i = 0; i < 2; ++i) {
-    told_position.reset();
+    reported_position.reset();
     co_await ask("M114\n", located);
   }
-  found.position = told_position;
-  found.temperatures = told_temperatures.value_or(gcode::Temperatures{});
+  found.position = reported_position;
+  found.temperatures = reported_temperatures.value_or(gcode::Temperatures{});
   const std::function<bool()> named = [this] { return !firmware.empty(); };
   co_await ask("M115\n", named);
   found.next = co_await ask_for_number(beyond);
@@ -132,19 +132,21 @@ asio::awaitable<Rejoined> Link::State::find_again(std::uint32_t beyond) {
   co_return found;
 }
 
-/// A Repetier that waits for a line already does not answer, but asks for it by its own clock.
-asio::awaitable<std::uint32_t> Link::State::ask_for_number(std::uint32_t beyond) {
-  const auto told_before = std::exchange(told_next, std::nullopt);
-  const std::function<bool()> told = [this] { return told_next.has_value(); };
-  co_await ask(framed(beyond, "M105"), told);
-  if (!told_next) told_next = told_before;
-  if (!told_next) give_up("the printer does not tell which line it wants next; begin the print anew");
-  co_return *told_next;
+/// A Repetier that already waits for a line does not answer; it repeats its request by its own clock.
+asio::awaitable<std::uint32_t> LinkState::ask_for_number(std::uint32_t beyond) {
+  const auto reported_before = std::exchange(reported_next, std::nullopt);
+  const std::function<bool()> answered = [this] { return reported_next.has_value(); };
+  co_await ask(framed(beyond, "M105"), answered);
+  if (!reported_next) reported_next = reported_before;
+  if (!reported_next) {
+    give_up("the printer does not report which line it expects next; start the print again from its job");
+  }
+  co_return *reported_next;
 }
 
-/// Repeats the question when a refusal may have emptied the printer's buffer, and after silence: noise may
-/// have hit it.
-asio::awaitable<void> Link::State::ask(std::string_view query, const std::function<bool()>& answered) {
+/// Repeats the question if a refusal may have flushed the printer's buffer, and after silence, since noise
+/// may have damaged it.
+asio::awaitable<void> LinkState::ask(std::string_view query, const std::function<bool()>& answered) {
   auto refusals_before = refusals;
   const std::function<bool()> over = [&] { return answered() || restarted; };
   const std::function<bool()> over_or_refused = [&] { return over() || refusals != refusals_before; };
@@ -153,7 +155,7 @@ asio::awaitable<void> Link::State::ask(std::string_view query, const std::functi
   for (int asks = 0; asks < most_asks && silences < find_attempts && !over(); ++asks) {
     last_life = now();
     refusals_before = refusals;
-    write("\n");  // after an overrun, Marlin is silent until one comes
+    write("\n");  // after an overrun, Marlin is silent until a newline arrives
     write(query);
     while (!over_or_refused() && now() < std::min(last_life + options.silence, patient_until)) {
       co_await until(over_or_refused, std::min(last_life + options.silence, patient_until));
@@ -161,37 +163,37 @@ asio::awaitable<void> Link::State::ask(std::string_view query, const std::functi
     if (!over_or_refused()) ++silences;
     co_await quiet(options.quiet);
   }
-  if (restarted) throw PrinterReset("the printer has started anew");
+  if (restarted) throw PrinterReset("the printer has restarted");
 }
 
-void Link::State::go_on(std::uint32_t next) {
+void LinkState::go_on(std::uint32_t next) {
   ledger = Ledger(options.receive_buffer, next, options.last_number);
-  doubt = true;  // an ok that is still to come may be that of an earlier line
+  doubt = true;  // the next ok may belong to an earlier line
   if (options.temperatures.count() > 0 && !identity.can("AUTOREPORT_TEMP"))
     ask_at = now() + options.temperatures;
   phase = Phase::streaming;
 }
 
-asio::awaitable<void> Link::State::ask_firmware() {
+asio::awaitable<void> LinkState::ask_firmware() {
   const auto started = now();
   const auto lines_before = lines_heard;
-  const std::function<bool()> told = [this] { return !firmware.empty(); };
-  // A newline first: it ends what an earlier program may have left half written.
+  const std::function<bool()> answered = [this] { return !firmware.empty(); };
+  // The newline ends a line that an earlier program may have left half written.
   for (int asked_times = 1;; ++asked_times) {
     write("\nM115\n");
-    if (co_await until(told, now() + std::min<Duration>(ask_again, options.silence))) break;
-    if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name to tell
+    if (co_await until(answered, now() + std::min<Duration>(ask_again, options.silence))) break;
+    if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name
     const auto patient_until = std::max(started, last_life) + options.silence;
     if (now() < std::min(patient_until, started + options.no_ok)) continue;
     give_up(lines_heard > lines_before
-                ? "the printer does not answer M115 as a printer would; check the baud rate in its profile"
+                ? "the answer to M115 is not that of a printer; check the baud rate in its profile"
                 : "the printer does not answer; check that it is on and that port and baud rate are right");
   }
   co_await quiet(options.quiet);
 }
 
-/// Alone, since Marlin acts upon it twice: when it is received and again when it is executed.
-asio::awaitable<void> Link::State::reset_numbers() {
+/// Sends M110 alone, since Marlin acts on it twice: on receipt and on execution.
+asio::awaitable<void> LinkState::reset_numbers() {
   for (int attempt = 0; attempt < number_attempts; ++attempt) {
     const auto oks_before = oks, refusals_before = refusals;
     const std::function<bool()> answered = [&] { return oks > oks_before || refusals > refusals_before; };
@@ -206,9 +208,9 @@ asio::awaitable<void> Link::State::reset_numbers() {
 
 // ---- keeping it going
 
-asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<State> self) {
+asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<LinkState> self) {
   const auto unproven = [this] { return draining && doubt && !holding && ledger.settled(); };
-  // Numbers begin anew only behind lines that are proven to be done.
+  // Numbering restarts only after lines that are proven to be done.
   const auto used_up = [this] { return !holding && ledger.exhausted(); };
   const auto idle = [this] { return idle_words > 1; };
   const std::function<bool()> due = [&] { return asked || stranger || unproven() || used_up() || idle(); };
@@ -220,39 +222,39 @@ asio::awaitable<void> Link::State::supervise([[maybe_unused]] std::shared_ptr<St
       else if (stranger || unproven() || idle() || now() >= stall_deadline() || (used_up() && doubt))
         co_await resynchronise();
       else if (used_up())
-        co_await count_anew();
+        co_await count_again();
       else if (now() >= ask_at)
         ask_temperatures();
     }
   } catch (const LinkError&) {
-    // fail() has told everyone who waits.
+    // fail() has woken all waiters.
   }
 }
 
-Duration Link::State::patience() const {
+Duration LinkState::patience() const {
   return identity.can("BUSY_PROTOCOL") ? std::min(options.keepalive, options.silence) : options.silence;
 }
 
-TimePoint Link::State::stall_deadline() const {
+TimePoint LinkState::stall_deadline() const {
   if (!ledger.in_flight()) return now() + patience();
   return std::min(last_life + patience(), ok_deadline());
 }
 
-void Link::State::ask_temperatures() {
+void LinkState::ask_temperatures() {
   ask_at = now() + options.temperatures;
   if (holding || ledger.exhausted()) return;
   insert_query();
   pump();
 }
 
-void Link::State::insert_query() {
+void LinkState::insert_query() {
   if (ledger.fence()) ++statistics.queries;
   if (numbering) numbering(ledger.next_to_number(), ledger.numbered());
 }
 
-/// M110 may act once more when it is executed, and then must find no newer line before it. A firmware whose
-/// oks come at receipt has to be idle for that, which it says every second.
-asio::awaitable<void> Link::State::count_anew() {
+/// M110 may act again when it is executed; no newer line may have arrived by then. A firmware whose oks come
+/// on receipt must therefore be idle, which it reports every second.
+asio::awaitable<void> LinkState::count_again() {
   holding = true;
   if (identity.family == gcode::Family::repetier) {
     const auto words_before = waits_heard;
@@ -271,26 +273,26 @@ asio::awaitable<void> Link::State::count_anew() {
   signal.notify();
 }
 
-TimePoint Link::State::ok_deadline() const {
+TimePoint LinkState::ok_deadline() const {
   return last_ok + (ledger.slow() ? options.slow_ok : options.no_ok);
 }
 
-asio::awaitable<void> Link::State::answer_resend() {
+asio::awaitable<void> LinkState::answer_resend() {
   co_await quiet(options.quiet);
   if (!asked) co_return;
   if (ledger.acknowledged() > best_acknowledged)
     best_acknowledged = ledger.acknowledged(), fruitless_resends = 0;
   if (++fruitless_resends > most_resends) {
-    give_up(
-        fmt::format("the printer has asked {} times for line {} and those around it; the line to it is "
-                    "too noisy, check the cable and keep it away from motors and mains",
-                    most_resends, *asked));
+    give_up(fmt::format(
+        "the printer has asked {} times for line {} or its neighbours: the connection is too noisy; "
+        "check the cable, and keep it away from motors and mains",
+        most_resends, *asked));
   }
   ++statistics.resends;
   resume_from(*asked, false);
 }
 
-void Link::State::resume_from(std::uint32_t number, bool with_fence) {
+void LinkState::resume_from(std::uint32_t number, bool with_fence) {
   ledger.rewind(number);
   if (with_fence) insert_query();
   statistics.acknowledged = ledger.acknowledged();
@@ -303,7 +305,7 @@ void Link::State::resume_from(std::uint32_t number, bool with_fence) {
   signal.notify();
 }
 
-asio::awaitable<void> Link::State::resynchronise() {
+asio::awaitable<void> LinkState::resynchronise() {
   if (ledger.in_flight() && now() >= ok_deadline()) {
     give_up(finishes_nothing);
   }
@@ -315,7 +317,7 @@ asio::awaitable<void> Link::State::resynchronise() {
     co_await quiet(options.quiet);
     probing = false;
     resume_from(*asked, true);
-    last_ok = waiting_since;  // a probe's answer is no progress
+    last_ok = waiting_since;  // the answer to a probe is not progress
     co_return;
   }
   if (now() >= ok_deadline()) give_up(finishes_nothing);
@@ -326,17 +328,17 @@ asio::awaitable<void> Link::State::resynchronise() {
               : "the printer has fallen silent; check its power and the cable");
 }
 
-asio::awaitable<bool> Link::State::probe() {
+asio::awaitable<bool> LinkState::probe() {
   ++statistics.probes;
   probing = true;
   doubt = false;
   asked.reset();
   stranger.reset();
-  // The newline ends a line whose own has been lost.
+  // The newline ends a line whose own newline was lost.
   write("\n" + framed(ledger.next() + probe_distance, "M105"));
   const std::function<bool()> answered = [this] { return asked || stranger; };
   last_life = now();
-  // A printer whose command queue is full reads nothing, but says that it is busy.
+  // A printer whose command queue is full reads nothing, but reports that it is busy.
   while (!answered() && now() < std::min(last_life + options.silence, ok_deadline())) {
     co_await until(answered, std::min(last_life + options.silence, ok_deadline()));
   }

@@ -20,8 +20,8 @@ namespace {
 using namespace std::chrono_literals;
 using Time = std::chrono::steady_clock;
 
-constexpr auto asking = 6s;        ///< an 8-bit board boots for two or three
-constexpr auto ask_interval = 1s;  ///< what is asked during the boot is lost
+constexpr auto asking = 6s;        ///< An 8-bit board boots for two or three seconds.
+constexpr auto ask_interval = 1s;  ///< A question during the boot is lost.
 
 /// Makers of the chips on printers' boards: Arduino, its Italian branch, Teensy, WCH (CH340), FTDI, Silicon
 /// Labs (CP210x), STMicroelectronics, OpenMoko (lent to Prusa, Duet, RAMPS clones), Prusa, Prolific,
@@ -47,7 +47,7 @@ std::optional<UsbId> usb_id_in(std::string_view text) {
   return UsbId{*vendor, *product};
 }
 
-/// A port that is being asked; closed with this object unless released.
+/// A port that is being asked. The destructor closes it unless it was released.
 class Asked {
  public:
   explicit Asked(int descriptor) : descriptor_(descriptor) {}
@@ -66,16 +66,16 @@ class Asked {
     [[maybe_unused]] const auto written = ::write(descriptor_, question.data(), question.size());
   }
 
-  /// Reads what is there; true once a firmware has told its name. False for good when the port ends.
+  /// Reads the available bytes; returns whether a firmware has reported its name.
   bool answers() {
     std::array<char, 4096> bytes;
     const ssize_t count = ::read(descriptor_, bytes.data(), bytes.size());
     if (count <= 0) return false;
-    bool told = false;
+    bool named = false;
     splitter_.feed({bytes.data(), static_cast<std::size_t>(count)}, [&](std::string_view line) {
-      told = told || std::holds_alternative<gcode::reply::Firmware>(gcode::parse_reply(line));
+      named = named || std::holds_alternative<gcode::reply::Firmware>(gcode::parse_reply(line));
     });
-    return told;
+    return named;
   }
 
  private:
@@ -89,7 +89,7 @@ std::string names(const std::vector<PortInfo>& ports) {
   return text;
 }
 
-/// The one that answers by `until`.
+/// Returns the index of the first port that answers by `until`.
 std::optional<std::size_t> await_answer(std::vector<Asked>& asked, Time::time_point until) {
   std::vector<pollfd> ends;
   for (const Asked& port : asked) ends.push_back({port.descriptor(), POLLIN, 0});
@@ -131,7 +131,7 @@ int open_answering_port(const std::vector<PortInfo>& ports, unsigned baud) {
     try {
       asked.emplace_back(open_port(port.path, baud));
     } catch (const PortError& error) {
-      why = error.what();  // in use, or not ours: another may be the printer
+      why = error.what();  // another port may be the printer
     }
   }
   if (asked.empty()) throw PortError(why);

@@ -9,8 +9,8 @@
 namespace unicursal::host {
 namespace {
 
-/// Acknowledged lines that are kept: more than can be in flight with the shortest lines, several times over.
-/// A firmware that asks for older ones has not missed a line, it has been reset.
+/// Number of acknowledged lines that are kept: several times as many as can be in flight. A firmware that
+/// asks for an older one has not missed a line, but was reset.
 constexpr std::uint32_t kept = 64;
 
 constexpr std::uint32_t repetier_modulus = 65536;

@@ -1,4 +1,4 @@
-// Bytes from a printer cut into lines of bounded length.
+// Splits bytes from a printer into lines of bounded length.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ namespace unicursal::host {
 
 class LineSplitter {
  public:
-  /// Longer lines lose what is beyond; no firmware writes such, noise may.
-  static constexpr std::size_t longest = 4096;  ///< bytes
+  /// Longest line, bytes; the rest of a longer one is dropped. No firmware writes so long a line; noise may.
+  static constexpr std::size_t longest = 4096;
 
   /// Calls `take(std::string_view)` with every line that `bytes` completes, without its newline.
   template <class Take>

@@ -9,11 +9,11 @@
 namespace unicursal::host {
 namespace {
 
-constexpr std::size_t longest_command = 80;  ///< bytes; with number and checksum at most 95
+constexpr std::size_t longest_command = 80;  ///< Bytes; at most 95 with number and checksum.
 
-/// Why a line cannot be sent, or nothing.
+/// Returns why a line cannot be sent; empty if it can.
 std::string defect(const std::string& line) {
-  if (line.empty()) return "it is empty, and the printer would not answer it";
+  if (line.empty()) return "it is empty, and the printer would not acknowledge it";
   if (line.size() > longest_command) return "it is longer than 80 characters";
   for (char c : line) {
     if (c < ' ' || c > '~') return "it holds a byte that is not printable ASCII";
@@ -27,7 +27,7 @@ std::string defect(const std::string& line) {
 }  // namespace
 
 Link::Link(asio::any_io_executor executor, int descriptor, LinkOptions options)
-    : state_(std::make_shared<State>(std::move(executor), descriptor, options)) {}
+    : state_(std::make_shared<LinkState>(std::move(executor), descriptor, options)) {}
 
 Link::~Link() {
   if (state_) state_->close();
@@ -55,7 +55,7 @@ void Link::go_on(std::uint32_t next) {
 
 asio::awaitable<void> Link::send(std::vector<std::string> lines) {
   const auto state = state_;
-  assert(state->phase == State::Phase::streaming || state->failure);
+  assert(state->phase == LinkState::Phase::streaming || state->failure);
   for (const std::string& line : lines) {
     if (const std::string why = defect(line); !why.empty()) {
       throw std::invalid_argument("the line \"" + line + "\" cannot be sent: " + why);
@@ -70,7 +70,7 @@ asio::awaitable<void> Link::send(std::vector<std::string> lines) {
 
 asio::awaitable<void> Link::drain() {
   const auto state = state_;
-  assert(state->phase == State::Phase::streaming || state->failure);
+  assert(state->phase == LinkState::Phase::streaming || state->failure);
   state->draining = true;
   const std::function<bool()> settled = [state] { return state->settled(); };
   state->signal.notify();

@@ -1,5 +1,5 @@
-// Finding and opening serial ports. libserialport 0.1.1 looks devices up in sysfs and refuses what it does
-// not find there, such as pseudo-terminals; those are opened and set raw directly.
+// Lists and opens serial ports. libserialport 0.1.1 looks devices up in sysfs and refuses those that it does
+// not find there, such as pseudo-terminals; these are opened and set raw directly.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <libserialport.h>
@@ -17,7 +17,7 @@
 #include <memory>
 #include <system_error>
 
-#include "firmware_gcode/reply/reply.hpp"
+#include "core/text/printable.hpp"
 #include "host/link/find_port.hpp"
 #include "host/link/line_rate.hpp"
 
@@ -35,7 +35,7 @@ struct FreeConfig {
   void operator()(sp_port_config* config) const { sp_free_config(config); }
 };
 
-/// Closes on the way out unless released.
+/// A file descriptor that closes itself unless it was released.
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -73,10 +73,10 @@ class Descriptor {
     default:
       why = std::string(std::strerror(error)) + "; check the cable and the printer's power";
   }
-  throw PortError(gcode::printable(path) + ": " + why);
+  throw PortError(core::printable(path) + ": " + why);
 }
 
-/// Where /dev/serial/by-id points, by device.
+/// The names in /dev/serial/by-id, by device.
 std::map<fs::path, std::string> stable_names() {
   std::map<fs::path, std::string> names;
   std::error_code none;
@@ -89,22 +89,21 @@ std::map<fs::path, std::string> stable_names() {
 }
 
 std::string text(const char* from) {
-  return from == nullptr ? std::string() : gcode::printable(from);
+  return from == nullptr ? std::string() : core::printable(from);
 }
 
-/// Changes nothing about the port; without one, whoever opens it next will tell why.
+/// Opens the port without changing its settings. An error is ignored; opening it again will report it.
 Descriptor open_as_left(const std::string& path) {
   return Descriptor(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
 }
 
-/// HUPCL is off since we opened it last (below): a cable that was pulled meanwhile would have brought it
-/// back.
+/// HUPCL is still off if this program had the port before and the cable was not pulled since.
 bool keeps_dtr(int fd) {
   termios settings{};
   return fd >= 0 && ::tcgetattr(fd, &settings) == 0 && (settings.c_cflag & HUPCL) == 0;
 }
 
-/// HUPCL off: otherwise closing the port drops DTR, which resets many boards at the next opening.
+/// Clears HUPCL: otherwise closing the port drops DTR, and the next opening resets many boards.
 void keep_dtr(int fd) {
   termios settings{};
   if (::tcgetattr(fd, &settings) != 0) return;
@@ -112,8 +111,8 @@ void keep_dtr(int fd) {
   ::tcsetattr(fd, TCSANOW, &settings);
 }
 
-/// Chips by FTDI hold back short replies for 16 ms unless told not to, which lets a window of 127 bytes use
-/// only a quarter of a 250 000 baud line. Other drivers do not mind.
+/// Asks for low latency: by default FTDI's chips hold short replies back for 16 ms, so a window of 127 bytes
+/// uses only a quarter of a 250 000 baud line. Other drivers ignore it.
 void hasten(int fd) {
   serial_struct settings{};
   if (::ioctl(fd, TIOCGSERIAL, &settings) != 0) return;
@@ -121,7 +120,7 @@ void hasten(int fd) {
   ::ioctl(fd, TIOCSSERIAL, &settings);
 }
 
-/// TIOCEXCL does not keep root out; this keeps out a second print by anyone.
+/// Locks the port. TIOCEXCL does not keep root out; this lock keeps out a second print by any user.
 void claim(int fd, const std::string& path) {
   if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse(path, EBUSY);
 }
@@ -143,16 +142,16 @@ int open_real(sp_port* port, const std::string& path, unsigned baud) {
   if (sp_set_config(port, config.get()) != SP_OK) {
     throw PortError(
         fmt::format("{}: the port cannot run at {} baud; correct the rate in the printer's profile",
-                    gcode::printable(path), baud));
+                    core::printable(path), baud));
   }
   keep_dtr(handle);
   hasten(handle);
-  const int own = ::fcntl(handle, F_DUPFD_CLOEXEC, 0);  // outlives the library's port
+  const int own = ::fcntl(handle, F_DUPFD_CLOEXEC, 0);  // stays open when the library closes its own
   if (own < 0) refuse(path, errno);
   return own;
 }
 
-/// What libserialport does not know, such as a pseudo-terminal, which only remembers its baud rate.
+/// Opens a port that libserialport does not know, such as a pseudo-terminal, which only stores its baud rate.
 int open_direct(const std::string& path, unsigned baud) {
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (port.get() < 0) refuse(path, errno);

@@ -1,7 +1,8 @@
-// What the printer's replies mean for the link. See state.hpp for the facts behind it.
+// Handles the printer's replies. The facts behind it are in host/link/state.hpp.
 #include <algorithm>
 #include <variant>
 
+#include "core/text/printable.hpp"
 #include "host/link/state.hpp"
 
 namespace unicursal::host {
@@ -9,9 +10,9 @@ namespace {
 
 using namespace gcode;
 
-/// How many oks a line holds that noise has touched: a single "ok" with one letter hit, or several replies
-/// run together. Taking one too many is harmless: the firmware's command queue is as large again as its
-/// receive buffer; one too few would narrow the window for good.
+/// The number of oks in a line that noise has damaged: one "ok" with a changed letter, or several replies
+/// that have run together. One ok too many is harmless, since the firmware's command queue holds as much
+/// again as its receive buffer; one too few would narrow the window for ever.
 int damaged_oks(std::string_view text) {
   if (text.size() <= 2) return text.find_first_of("ok") != std::string_view::npos ? 1 : 0;
   if (!text.starts_with("ok") && !text.ends_with("ok")) return 0;
@@ -27,23 +28,23 @@ bool is_plain_ok(const Reply& reply) {
 
 }  // namespace
 
-void Link::State::hear(std::string_view line) {
+void LinkState::hear(std::string_view line) {
   const Reply reply = parse_reply(line);
   if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard;
   std::visit([this](const auto& what) { take(what); }, reply);
-  if (probing && std::holds_alternative<reply::Error>(reply)) return;  // asked for
+  if (probing && std::holds_alternative<reply::Error>(reply)) return;  // the expected answer to a probe
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
-    listener(printable(line));
+    listener(core::printable(line));
   }
 }
 
-void Link::State::take(const reply::Ok& ok) {
+void LinkState::take(const reply::Ok& ok) {
   ++oks;
   last_ok = last_life = now();
   waits_for_user = false;
   idle_words = 0;
   if (!ok.temperatures.empty()) {
-    told_temperatures = ok.temperatures;
+    reported_temperatures = ok.temperatures;
     note(ok.temperatures);
   }
   const std::uint32_t queued = note_places(ok);
@@ -59,20 +60,21 @@ void Link::State::take(const reply::Ok& ok) {
   statistics.acknowledged = ledger.acknowledged();
 }
 
-void Link::State::note(const Temperatures& told) {
-  if (told.nozzle) temperatures.nozzle = told.nozzle, temperatures.nozzle_target = told.nozzle_target;
-  if (told.bed) temperatures.bed = told.bed, temperatures.bed_target = told.bed_target;
+void LinkState::note(const Temperatures& reported) {
+  if (reported.nozzle)
+    temperatures.nozzle = reported.nozzle, temperatures.nozzle_target = reported.nozzle_target;
+  if (reported.bed) temperatures.bed = reported.bed, temperatures.bed_target = reported.bed_target;
 }
 
-std::uint32_t Link::State::note_places(const reply::Ok& ok) {
+std::uint32_t LinkState::note_places(const reply::Ok& ok) {
   if (!ok.planner_places || !ok.command_places) return 0;
-  constexpr std::uint32_t most = 4096;  // of any firmware's queues; noise may say anything
+  constexpr std::uint32_t most = 4096;  // no firmware has longer queues; noise may say anything
   const std::uint32_t moves = std::min(*ok.planner_places, most);
   const std::uint32_t commands = std::min(*ok.command_places, most);
   if (!queues) queues.emplace();
   queues->planner_free = moves, queues->commands_free = commands;
   if (phase == Phase::greeting) {
-    // The firmware is idle, but for the command that this answers.
+    // The firmware is idle except for the command that this ok answers.
     queues->planner_size = std::max(queues->planner_size, moves);
     queues->commands_size = std::max(queues->commands_size, commands + 1);
   }
@@ -80,24 +82,24 @@ std::uint32_t Link::State::note_places(const reply::Ok& ok) {
   return out_of_band || taken > queues->commands_size ? 0 : queues->commands_size - taken;
 }
 
-void Link::State::take(const reply::Resend& resend) {
+void LinkState::take(const reply::Resend& resend) {
   asked_for(resend.line);
 }
 
-void Link::State::take(const reply::Error& error) {
+void LinkState::take(const reply::Error& error) {
   if (error.last_line) return asked_for(*error.last_line + 1);
   if (!error.halted) {
-    last_error = printable(error.text);
+    last_error = core::printable(error.text);
     ++refusals;
     return;
   }
-  fail("the printer has stopped itself (" + (last_error.empty() ? printable(error.text) : last_error) +
-       "); see to the cause, then switch it off and on again");
+  fail("the printer has stopped itself (" + (last_error.empty() ? core::printable(error.text) : last_error) +
+       "); remove the cause, then switch the printer off and on again");
 }
 
-void Link::State::asked_for(std::uint32_t number) {
+void LinkState::asked_for(std::uint32_t number) {
   ++refusals;
-  told_next = number;
+  reported_next = number;
   if (phase == Phase::greeting) return;
   if (!probing) doubt = true;
   const auto known = ledger.locate(number);
@@ -108,32 +110,33 @@ void Link::State::asked_for(std::uint32_t number) {
   holding = true;
 }
 
-void Link::State::take(const reply::Start&) {
+void LinkState::take(const reply::Start&) {
   ++refusals;
   restarted = true;
   if (phase == Phase::greeting) return;
   fail(
-      "the printer has reset itself in the middle of the job, its position and heat are gone; "
-      "check its power supply, see `unicursal resume`");
+      "the printer has reset itself in the middle of the job: its position and heat are lost; "
+      "check its power supply, then see `unicursal resume`");
 }
 
-/// Nobody knows how long it takes until a person comes.
-void Link::State::take(const reply::Busy& busy) {
+/// A wait for a person can take any time.
+void LinkState::take(const reply::Busy& busy) {
   last_life = now();
   waits_for_user = busy.for_user;
   if (busy.for_user) last_ok = now();
 }
 
-/// Repetier's, every second in which it does nothing. The first may have crossed with lines on their way.
-void Link::State::take(const reply::Wait&) {
+/// Repetier says "wait" every second in which it is idle. The first one may have crossed with lines in
+/// transit.
+void LinkState::take(const reply::Wait&) {
   ++waits_heard;
   if (phase == Phase::streaming && !holding && ledger.in_flight()) ++idle_words;
 }
 
-void Link::State::take(const reply::TemperatureReport& report) {
+void LinkState::take(const reply::TemperatureReport& report) {
   note(report.temperatures);
   if (!report.waiting) {
-    told_temperatures = report.temperatures;
+    reported_temperatures = report.temperatures;
     return;
   }
   last_life = now();
@@ -143,28 +146,28 @@ void Link::State::take(const reply::TemperatureReport& report) {
   write("M108\n");
 }
 
-void Link::State::take(const reply::Firmware& told) {
-  firmware = printable(told.text, 1000);
+void LinkState::take(const reply::Firmware& reported) {
+  firmware = core::printable(reported.text, 1000);
   auto promised = std::move(identity.capabilities);
-  identity = identify(told.text);
+  identity = identify(reported.text);
   identity.capabilities = std::move(promised);
 }
 
-void Link::State::take(const reply::Capability& capability) {
+void LinkState::take(const reply::Capability& capability) {
   identity.learn(capability.name, capability.on);
 }
 
-void Link::State::take(const reply::Echo& echo) {
+void LinkState::take(const reply::Echo& echo) {
   if (!echo.unknown_command) return;
   ++refusals;
   doubt = true;
 }
 
-void Link::State::take(const reply::Position& position) {
-  told_position = position.mm;
+void LinkState::take(const reply::Position& position) {
+  reported_position = position.mm;
 }
 
-void Link::State::take(const reply::Unknown& unknown) {
+void LinkState::take(const reply::Unknown& unknown) {
   doubt = true;
   const int count = damaged_oks(unknown.text);
   for (int i = 0; i < count; ++i) take(reply::Ok{});

@@ -11,7 +11,7 @@
 namespace unicursal::host {
 namespace {
 
-/// Counted for each entry beside its bytes, so that many small ones are bounded as well.
+/// Counted for each entry in addition to its bytes, so that many small entries are bounded, too.
 constexpr std::size_t entry_cost = 64;
 
 std::filesystem::path older(const std::filesystem::path& file, std::size_t number) {
@@ -66,7 +66,7 @@ void SerialLog::add(Way way, TimePoint time, std::string_view bytes) {
     }
     waiting_ += cost;
     entries_.push_back({way, time, std::string(bytes)});
-    if (entries_.size() > 1) return;  // the thread has been told of the first
+    if (entries_.size() > 1) return;  // the first entry has woken the thread
   }
   work_.notify_one();
 }
@@ -77,7 +77,7 @@ std::uint64_t SerialLog::dropped() const {
 }
 
 void SerialLog::run() {
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   for (bool over = false; !over;) {
     std::vector<Entry> entries;
     std::uint64_t dropped;
@@ -90,8 +90,8 @@ void SerialLog::run() {
       over = over_;
     }
     for (const Entry& entry : entries) write(entry);
-    if (dropped > told) put(fmt::format("{} bytes left out\n", dropped - told));
-    told = dropped;
+    if (dropped > reported) put(fmt::format("{} bytes left out\n", dropped - reported));
+    reported = dropped;
     stream_.flush();
   }
 }
@@ -114,7 +114,7 @@ void SerialLog::put(const std::string& line) {
   written_ += line.size();
 }
 
-/// A file that cannot be moved is overwritten: the newest entries matter most.
+/// Overwrites a file that cannot be renamed: the newest entries matter most.
 void SerialLog::rotate() {
   stream_.close();
   std::error_code ignored;

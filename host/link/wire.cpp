@@ -1,4 +1,4 @@
-// The link's bytes: reading, writing as much as the port takes, closing.
+// The link's input and output: reads, writes as much as the port takes, closes.
 #include <termios.h>
 #include <unistd.h>
 
@@ -14,8 +14,8 @@
 namespace unicursal::host {
 namespace {
 
-/// Waits for heat that a cool-down ends, one for each report of it: bed and nozzle may both wait, and the
-/// user's own lines once more. No more, since a firmware that does not know M108 only collects them.
+/// Number of waits for heat that a cool-down ends, one for each report of a wait: bed, nozzle, and those in
+/// the user's own lines. It is limited, since a firmware without M108 would only queue them.
 constexpr int most_interruptions = 4;
 
 std::string lost(const asio::error_code& error) {
@@ -25,7 +25,7 @@ std::string lost(const asio::error_code& error) {
 
 }  // namespace
 
-Link::State::State(asio::any_io_executor on, int descriptor, LinkOptions with)
+LinkState::LinkState(asio::any_io_executor on, int descriptor, LinkOptions with)
     : executor(std::move(on)),
       port(executor, descriptor),
       options(with),
@@ -35,7 +35,7 @@ Link::State::State(asio::any_io_executor on, int descriptor, LinkOptions with)
   options.clock->attach(port.native_handle(), [this] { return statistics.bytes; });
 }
 
-asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State> self) {
+asio::awaitable<void> LinkState::listen([[maybe_unused]] std::shared_ptr<LinkState> self) {
   std::array<char, 4096> buffer;
   for (;;) {
     asio::error_code ended;
@@ -53,12 +53,12 @@ asio::awaitable<void> Link::State::listen([[maybe_unused]] std::shared_ptr<State
   }
 }
 
-void Link::State::write(std::string_view text) {
+void LinkState::write(std::string_view text) {
   unsent += text;
   pump();
 }
 
-void Link::State::pump() {
+void LinkState::pump() {
   while (!waiting_for_port && !failure) {
     if (unsent.empty() && phase == Phase::streaming && !holding) {
       if (!ledger.in_flight()) last_ok = last_life = now();
@@ -77,7 +77,7 @@ void Link::State::pump() {
   }
 }
 
-void Link::State::wait_for_port() {
+void LinkState::wait_for_port() {
   waiting_for_port = true;
   port.async_wait(asio::posix::descriptor_base::wait_write,
                   [self = shared_from_this()](const asio::error_code& error) {
@@ -87,8 +87,9 @@ void Link::State::wait_for_port() {
                   });
 }
 
-/// The oks of these lines look like those of numbered ones; the doubt makes drain() prove the end.
-void Link::State::cool_down() noexcept {
+/// The oks of these lines look like those of numbered lines; therefore `doubt` makes drain() probe at the
+/// end.
+void LinkState::cool_down() noexcept {
   try {
     if (failure || phase == Phase::greeting) return;
     statistics.lines -= ledger.forget_waiting();
@@ -101,7 +102,7 @@ void Link::State::cool_down() noexcept {
   }
 }
 
-void Link::State::end_wait_for_user() noexcept {
+void LinkState::end_wait_for_user() noexcept {
   try {
     if (failure || phase == Phase::greeting || !waits_for_user) return;
     waits_for_user = false;
@@ -110,26 +111,26 @@ void Link::State::end_wait_for_user() noexcept {
     write("M108\n");
     signal.notify();
   } catch (...) {
-    // It can still be told so by its own button.
+    // The printer's own button can still end it.
   }
 }
 
-void Link::State::emergency_stop() noexcept {
+void LinkState::emergency_stop() noexcept {
   try {
     const int descriptor = port.native_handle();
     if (options.clock->may_discard()) ::tcflush(descriptor, TCOFLUSH);
-    constexpr std::string_view stop = "\nM112\n";  // the newline ends what may be half written
+    constexpr std::string_view stop = "\nM112\n";  // the newline ends a half written line
     const auto written = ::write(descriptor, stop.data(), stop.size());
     statistics.bytes += static_cast<std::uint64_t>(std::max<ssize_t>(written, 0));
-    fail("the printer was stopped in an emergency; switch it off and on again before the next print");
+    fail("the printer was stopped by an emergency stop; switch it off and on again before the next print");
   } catch (...) {
-    // Nothing more can be done from here; the printer's own switch remains.
+    // This program cannot do more; the printer's own switch remains.
   }
 }
 
-void Link::State::close() {
+void LinkState::close() {
   fail("the link was closed");
-  listener = nullptr;  // whatever still comes in, nobody may be there to hear it
+  listener = nullptr;  // its owner may no longer exist when further lines arrive
   options.clock->attach(-1, nullptr);
   asio::error_code ignored;
   port.close(ignored);

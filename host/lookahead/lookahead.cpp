@@ -166,7 +166,7 @@ struct Lookahead::State {
     core::PlanOptions plan = options.plan;
     plan.seed = island_seed(options.plan.seed, layer.result.layer.index, index);
     plan.threads = threads_for(layer);
-    plan.enough = [&] { return enough(layer, attempt, time); };
+    plan.budget_spent = [&] { return enough(layer, attempt, time); };
     run(lock, layer, time,
         [&] { layer.result.plans[index] = options.planner->plan(island, layer.result.layer.z, plan); });
     learn(layer, attempt, layer.result.plans[index].effort, time.now());

@@ -22,13 +22,9 @@
 #include "core/model/part.hpp"
 #include "core/planner/plan_island.hpp"
 #include "host/lookahead/planned_layer.hpp"
+#include "host/lookahead/planning_clock.hpp"
 
 namespace unicursal::host {
-
-struct PlanningClock {
-  std::function<double()> now;  ///< s of the printer's clock, from any thread; empty in virtual time
-  double charge = 1;            ///< in virtual time: s that a second of planning takes
-};
 
 struct LookaheadOptions {
   core::PlanOptions plan;  ///< `seed` is the job's; every island gets its own, made from it

@@ -5,7 +5,7 @@
 #include <ctime>
 #include <optional>
 
-#include "host/lookahead/lookahead.hpp"
+#include "host/lookahead/planning_clock.hpp"
 
 namespace unicursal::host {
 

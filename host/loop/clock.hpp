@@ -1,6 +1,5 @@
-// The time that a link lives in: this computer's, or that of a simulated printer. Whatever the link waits
-// for, however long it is patient, is measured by one of these, so a dry run has the timeouts of a real
-// print.
+// The clock of a print: this computer's, or that of a simulated printer. All waits and timeouts are measured by
+// it, so a dry run has the timeouts of a real print.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -20,21 +19,21 @@ class Clock {
   virtual ~Clock() = default;
 
   virtual TimePoint now() const = 0;
-  /// Lets a timer on which nobody waits yet expire when this clock shows `deadline`, by cancelling it if need
-  /// be.
+  /// Arms `timer`, which must have no waiters, to fire at `deadline` of this clock. A virtual clock fires it by
+  /// cancelling it.
   virtual void set(asio::steady_timer& timer, TimePoint deadline) = 0;
-  /// The timer is about to go.
+  /// To be called before the timer is destroyed.
   virtual void forget(asio::steady_timer&) noexcept {}
   /// Runs the loop until it is stopped.
   virtual void run(asio::io_context& loop) { loop.run(); }
-  /// The link hangs on this descriptor and has written so many bytes to it; −1 when it has closed it.
+  /// To be called when a serial line is opened: `port` is its descriptor, and `written` returns the number of
+  /// bytes written to it so far. −1 means that it was closed.
   virtual void attach(int /*port*/, std::function<std::uint64_t()> /*written*/) {}
 
-  /// Whether bytes that were written may be thrown away before they arrive.
+  /// Whether written bytes may be discarded before they arrive.
   virtual bool may_discard() const { return true; }
 
-  /// While one of these lives, a clock that is not this computer's stands still: the host works, it does not
-  /// wait.
+  /// While an object of this class exists, a virtual clock stands still: the host works and does not wait.
   class Hold {
    public:
     explicit Hold(Clock& clock) : clock_(clock) { ++clock_.held_; }
@@ -53,7 +52,7 @@ class Clock {
   int held_ = 0;
 };
 
-/// This computer's clock, or one that goes `speed` times as fast.
+/// This computer's clock, or one that runs `speed` times as fast.
 std::shared_ptr<Clock> real_clock(double speed = 1);
 
 }  // namespace unicursal::host

@@ -1,4 +1,4 @@
-// Coroutines of one event loop waiting for each other: until something is so, or a deadline has passed.
+// Lets coroutines of one event loop wait for a condition, or until a deadline has passed.
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -17,9 +17,10 @@ class Signal {
   Signal(asio::any_io_executor executor, std::shared_ptr<Clock> clock)
       : executor_(std::move(executor)), clock_(std::move(clock)) {}
 
-  /// Returns whether `ready` holds, at the latest at `deadline`. `ready` and the signal must live until then.
+  /// Waits until `ready` holds, at the latest until `deadline`; returns whether it holds. `ready` and the
+  /// signal must live until then.
   asio::awaitable<bool> wait(TimePoint deadline, const std::function<bool()>& ready);
-  /// Wakes those whose condition has come true. To be called after anything they may wait for.
+  /// Wakes the waiters whose condition has come true. To be called after every change that they may wait for.
   void notify();
 
  private:

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numeric/grid_distance.hpp"
+
 namespace unicursal::host {
 namespace {
 
@@ -44,61 +46,6 @@ void scan_row(const core::Polygon& polygon, const PixelGrid& grid, std::size_t r
   }
 }
 
-/// Squared distances along a line to the lower envelope of parabolas (Felzenszwalb and Huttenlocher): for
-/// every i the least of values[j] + (i − j)².
-class Envelope {
- public:
-  void transform(std::vector<float>& values) {
-    const std::size_t n = values.size();
-    places_.resize(n);
-    from_.resize(n + 1);
-    source_ = values;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (source_[i] == far_away) continue;
-      double begin = -std::numeric_limits<double>::infinity();
-      while (count > 0 && (begin = meeting(places_[count - 1], i)) <= from_[count - 1]) --count;
-      if (count == 0) begin = -std::numeric_limits<double>::infinity();
-      places_[count] = i;
-      from_[count++] = begin;
-    }
-    if (count == 0) return;
-    for (std::size_t i = 0, k = 0; i < n; ++i) {
-      while (k + 1 < count && from_[k + 1] < static_cast<double>(i)) ++k;
-      const double d = static_cast<double>(i) - static_cast<double>(places_[k]);
-      values[i] = static_cast<float>(d * d + source_[places_[k]]);
-    }
-  }
-
- private:
-  double meeting(std::size_t a, std::size_t b) const {
-    const double x = static_cast<double>(a), y = static_cast<double>(b);
-    return (source_[b] + y * y - source_[a] - x * x) / (2 * (y - x));
-  }
-
-  std::vector<std::size_t> places_;
-  std::vector<double> from_;
-  std::vector<float> source_;
-};
-
-/// In place, first along the columns, then along the rows.
-void distance_transform(std::vector<float>& squares, const PixelGrid& grid) {
-  Envelope envelope;
-  std::vector<float> line(grid.rows);
-  for (std::size_t x = 0; x < grid.columns; ++x) {
-    for (std::size_t y = 0; y < grid.rows; ++y) line[y] = squares[y * grid.columns + x];
-    envelope.transform(line);
-    for (std::size_t y = 0; y < grid.rows; ++y) squares[y * grid.columns + x] = line[y];
-  }
-  line.resize(grid.columns);
-  for (std::size_t y = 0; y < grid.rows; ++y) {
-    const auto row = squares.begin() + static_cast<std::ptrdiff_t>(y * grid.columns);
-    std::copy_n(row, grid.columns, line.begin());
-    envelope.transform(line);
-    std::copy(line.begin(), line.end(), row);
-  }
-}
-
 }  // namespace
 
 std::vector<RegionLabel> scan(const std::vector<LabelledPolygon>& polygons, const PixelGrid& grid) {
@@ -120,13 +67,12 @@ std::vector<float> distance_to_other_label(const std::vector<RegionLabel>& label
   std::vector<float> result(labels.size(), present.count() > 1 ? 0 : far_away);
   for (RegionLabel own = 0; present.count() > 1 && own < outside_all; ++own) {
     if (!present[own]) continue;
-    std::vector<float> squares(labels.size());
+    std::vector<std::uint8_t> other(labels.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) other[i] = labels[i] != own && labels[i] != outside_all;
+    const std::vector<double> pixels = core::distance_to_marked(grid.rows, grid.columns, other);
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      squares[i] = labels[i] != own && labels[i] != outside_all ? 0 : far_away;
-    }
-    distance_transform(squares, grid);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] == own) result[i] = static_cast<float>((std::sqrt(squares[i]) - 0.5F) * grid.pixel);
+      if (labels[i] == own)
+        result[i] = static_cast<float>((static_cast<float>(pixels[i]) - 0.5F) * grid.pixel);
     }
   }
   return result;

@@ -1,4 +1,4 @@
-// Numbers and texts as bytes, little end first whatever the computer.
+// Numbers and texts as bytes, little-endian on every computer.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace unicursal::host {
 
-/// The bytes are not what their writer would have written.
+/// The bytes are not a possible output of their writer.
 class DamagedBytes : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -56,7 +56,7 @@ class ByteReader {
   }
   double number() { return std::bit_cast<double>(take<std::uint64_t>()); }
   std::string text() { return std::string(raw(take<std::uint32_t>())); }
-  /// How many things follow, each of at least `least` bytes: no more than there is room for.
+  /// Reads the number of elements that follow, each of at least `least` bytes. Throws if they cannot fit.
   std::size_t count(std::size_t least) {
     const std::size_t many = take<std::uint32_t>();
     if (many > rest_.size() / least) throw DamagedBytes("promises more than it holds");

@@ -31,7 +31,16 @@ void SpoolExtent::add(const SpooledChunk& chunk) {
 LegReader::LegReader(const std::filesystem::path& chunks, Leg leg, std::uint64_t place)
     : reader_(chunks), leg_(std::move(leg)), line_(leg_.line(place)) {
   leading_ = place < leg_.lead_in.size();
-  if (leading_) lines_ = leg_.lead_in, given_ = place;
+  if (!leading_) return;
+  lines_ = leg_.lead_in, given_ = place;
+  mixture_ = mixture_before(chunks, leg_.begins_at);
+}
+
+/// Takes over the mixtures that start before the next line to be given.
+void LegReader::start_mixtures() {
+  for (const gcode::MixtureStart& start : mixtures_) {
+    if (start.line < given_) mixture_ = start.name;
+  }
 }
 
 bool LegReader::open_next() {
@@ -39,9 +48,11 @@ bool LegReader::open_next() {
     layers_begun_ = layers_;
     if (chunk->kind == SpooledChunk::Kind::layer) ++layers_;
     const std::uint64_t first = reader_.first_line();
-    if (first + chunk->lines.size() <= line_) continue;
     lines_ = std::move(chunk->lines);
-    given_ = line_ - first;
+    mixtures_ = std::move(chunk->mixtures);
+    given_ = std::min<std::uint64_t>(lines_.size(), line_ - first);
+    start_mixtures();
+    if (given_ == lines_.size()) continue;
     leading_ = false;
     return true;
   }
@@ -54,6 +65,7 @@ std::vector<std::string> LegReader::next(std::size_t most) {
   const auto begin = lines_.begin() + static_cast<std::ptrdiff_t>(given_);
   std::vector<std::string> batch(begin, begin + static_cast<std::ptrdiff_t>(count));
   given_ += count;
+  start_mixtures();
   if (!leading_) line_ += count;
   return batch;
 }
@@ -83,6 +95,18 @@ gcode::ModalState state_at(const std::filesystem::path& chunks, const Leg& leg, 
   }
   if (line == leg.begins_at) lead_in();
   return state;
+}
+
+std::string mixture_before(const std::filesystem::path& chunks, std::uint64_t line) {
+  std::string mixture;
+  ChunkReader reader(chunks);
+  while (const auto chunk = reader.next()) {
+    if (reader.first_line() >= line) break;
+    for (const gcode::MixtureStart& start : chunk->mixtures) {
+      if (reader.first_line() + start.line < line) mixture = start.name;
+    }
+  }
+  return mixture;
 }
 
 std::optional<LayerPlace> layer_of(const std::filesystem::path& chunks, std::uint64_t line) {

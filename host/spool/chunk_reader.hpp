@@ -53,23 +53,31 @@ class LegReader {
   std::vector<std::string> next(std::size_t most);
   /// Layers before the one that the lines given last belong to.
   std::size_t layers_begun() const { return layers_begun_; }
+  /// The mixture in use after the lines given last; empty before the first.
+  const std::string& mixture() const { return mixture_; }
   /// How much of its chunk has been given, 0 … 1.
   double fraction() const;
 
  private:
   bool open_next();
+  void start_mixtures();
 
   ChunkReader reader_;
   Leg leg_;
   std::uint64_t line_;  ///< the print's next
   std::vector<std::string> lines_;
-  std::size_t given_ = 0;  ///< of lines_
-  bool leading_ = false;   ///< they are the lead-in's
+  std::vector<gcode::MixtureStart> mixtures_;  ///< in lines_
+  std::size_t given_ = 0;                      ///< of lines_
+  std::string mixture_;
+  bool leading_ = false;  ///< they are the lead-in's
   std::size_t layers_ = 0, layers_begun_ = 0;
 };
 
 /// The state of a printer that has run a leg up to `place`, all legs before it included.
 gcode::ModalState state_at(const std::filesystem::path& chunks, const Leg& leg, std::uint64_t place);
+
+/// The mixture in use before a print's line is run: its name, empty before the first.
+std::string mixture_before(const std::filesystem::path& chunks, std::uint64_t line);
 
 /// The layer, counted from 0 among those printed, that a print's line belongs to, with its upper face in mm;
 /// none for lines before the first.

@@ -13,13 +13,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The mains of printer and computer may be one: what is known then is as old as this at most.
+/// A power cut can hit printer and computer at once; the journal is then at most this old.
 constexpr auto sync_interval = 1s;
-constexpr std::uint64_t reserve = 1 << 16;  ///< bytes set aside for what must be written on a full disk
+constexpr std::uint64_t reserve = 1 << 16;  ///< Bytes reserved for writing events on a full disk.
 constexpr std::int64_t repetier_modulus = 65536;
-constexpr std::uint64_t most_lines = 1'000'000'000'000;  ///< of one print, fifty years' worth
+constexpr std::uint64_t most_lines = 1'000'000'000'000;  ///< Lines of one print; more means damage.
 
-/// First byte of a record. Numbers of the format: never given a new meaning.
+/// First byte of a record. The numbers belong to the format and never change their meaning.
 enum class Event : std::uint8_t { session = 1, leg, anchor, progress, park, end, superseded, aside };
 
 ByteWriter event(Event what) {
@@ -41,7 +41,7 @@ std::vector<std::string> lines_in(ByteReader& bytes) {
 
 std::uint64_t place_in(ByteReader& bytes) {
   const auto place = bytes.take<std::uint64_t>();
-  if (place > most_lines) throw DamagedBytes("tells of more lines than any print has");
+  if (place > most_lines) throw DamagedBytes("names a line that no print can have");
   return place;
 }
 
@@ -49,7 +49,7 @@ Leg leg_in(ByteReader& bytes) {
   Leg leg;
   leg.begins_at = place_in(bytes);
   leg.height = bytes.number();
-  if (!std::isfinite(leg.height)) throw DamagedBytes("holds a height that is no number");
+  if (!std::isfinite(leg.height)) throw DamagedBytes("holds a height that is not a number");
   leg.lead_in = lines_in(bytes);
   return leg;
 }
@@ -63,7 +63,7 @@ void begin(JournalState& state, Leg leg) {
 
 Ended ended_in(ByteReader& bytes) {
   const auto outcome = bytes.take<std::uint8_t>();
-  if (outcome > static_cast<std::uint8_t>(Outcome::failed)) throw DamagedBytes("tells of no known end");
+  if (outcome > static_cast<std::uint8_t>(Outcome::failed)) throw DamagedBytes("holds an unknown outcome");
   return {static_cast<Outcome>(outcome), bytes.text()};
 }
 
@@ -99,12 +99,12 @@ void apply(JournalState& state, ByteReader bytes) {
       state.superseded = true;
       break;
     default:
-      throw DamagedBytes("tells of something that this version does not know");
+      throw DamagedBytes("holds an event that this version does not know");
   }
   if (!bytes.empty()) throw DamagedBytes("holds more than it should");
 }
 
-/// Of a number that may be told modulo 65536, the one that is nearest to what is expected.
+/// Of the numbers that `number`, perhaps modulo 65536, can mean: the one nearest to `expected`.
 std::int64_t nearest(std::uint32_t number, std::int64_t expected) {
   std::int64_t best = number;
   if (number >= repetier_modulus) return best;
@@ -126,7 +126,7 @@ std::optional<std::uint64_t> JournalState::place_of(std::uint32_t number) const 
   if (after == anchors.begin()) return std::nullopt;
   const Anchor& anchor = *std::prev(after);
   const std::uint64_t place = anchor.place + static_cast<std::uint64_t>(meant - anchor.number);
-  // Numbers right before an anchor may be those of lines that are none of the leg's.
+  // Numbers just before an anchor may belong to lines that are not part of the leg.
   return after == anchors.end() ? place : std::min(place, after->place);
 }
 
@@ -183,9 +183,12 @@ void Journal::begin_leg(const Leg& leg) {
   write_now(bytes.bytes());
 }
 
-void Journal::anchor(const Anchor& anchor, bool anew) {
-  write_now(
-      event(Event::anchor).put(static_cast<std::uint8_t>(anew)).put(anchor.number).put(anchor.place).bytes());
+void Journal::anchor(const Anchor& anchor, bool restarts) {
+  write_now(event(Event::anchor)
+                .put(static_cast<std::uint8_t>(restarts))
+                .put(anchor.number)
+                .put(anchor.place)
+                .bytes());
 }
 
 void Journal::park(const std::vector<std::string>& lines) {
@@ -222,7 +225,7 @@ std::optional<std::string> Journal::problem() const {
   return problem_;
 }
 
-/// Syncing takes long on a memory card, so the lock is not held meanwhile.
+/// Releases the lock while it syncs, which takes long on a memory card.
 void Journal::work(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   auto due = std::chrono::steady_clock::now();
@@ -239,7 +242,7 @@ void Journal::work(std::stop_token stop) {
     try {
       writer_.sync();
     } catch (const SpoolFull&) {
-      // The record is in the system's hands; whether it reaches the disk is no longer in ours.
+      // The system has the record; this program cannot do more to bring it to the disk.
     }
     lock.lock();
     due = std::chrono::steady_clock::now() + sync_interval;

@@ -1,11 +1,11 @@
-// What has happened to a print: which of its lines were handed to the printer and which it has taken, under
-// which numbers, and how it ended. Written while printing, off the event loop; read after everything else is
-// gone.
+// The history of a print: which lines were passed to the link, which of them the printer has accepted, their
+// line numbers, and how the print ended. It is written during the print, off the event loop, and read when
+// the print is resumed.
 //
-// A print's lines are counted from 0. It goes through them in *legs*: the first begins at line 0; after the
-// printer was lost, another begins with a few lines of its own (lead-in) that bring the printer back, and
-// goes on with the line where that was. A *place* counts lines from the beginning of a leg, its lead-in
-// included. An *anchor* ties a place to the number that its line has on the wire; later lines count on from
+// A print's lines are counted from 0. They are sent in *legs*: the first leg begins at line 0. After the
+// printer was lost, a new leg begins with a few lines of its own (the *lead-in*), which bring the printer
+// back, and continues with the line at which the printer was lost. A *place* is the index of a line in a leg,
+// lead-in included. An *anchor* ties a place to the line number on the wire; the lines after it count on from
 // there.
 #pragma once
 
@@ -24,11 +24,11 @@
 namespace unicursal::host {
 
 struct Leg {
-  std::vector<std::string> lead_in;  ///< before the print's own lines
-  std::uint64_t begins_at = 0;       ///< the print's line after the lead-in
-  double height = 0;                 ///< mm, where the nozzle was before the lead-in
+  std::vector<std::string> lead_in;  ///< Lines before the print's own lines.
+  std::uint64_t begins_at = 0;       ///< The print's line after the lead-in.
+  double height = 0;                 ///< Height of the nozzle before the lead-in, mm.
 
-  /// The print's line at a place; the one after the lead-in for places within that.
+  /// The print's line at a place; for a place in the lead-in, the line after the lead-in.
   std::uint64_t line(std::uint64_t place) const {
     return place < lead_in.size() ? begins_at : begins_at + (place - lead_in.size());
   }
@@ -43,51 +43,54 @@ enum class Outcome : std::uint8_t { completed, stopped, failed };
 
 struct Ended {
   Outcome outcome = Outcome::failed;
-  std::string reason;  ///< a sentence, or empty
+  std::string reason;  ///< A sentence, or empty.
 };
 
-/// What a journal tells.
+/// The contents of a journal.
 struct JournalState {
-  std::uint64_t legs = 0;            ///< begun
-  Leg leg;                           ///< the last one
-  std::vector<Anchor> anchors;       ///< since the numbers began anew
-  std::uint64_t handed = 0;          ///< places before this one were handed to the link
-  std::uint64_t acknowledged = 0;    ///< places before this one have their ok
-  std::vector<std::string> parking;  ///< lines that led the nozzle away, after `handed`, and perhaps back
-  bool aside = false;                ///< it has come where these led it, and everything before them was run
-  bool superseded = false;           ///< another print has begun: the printer is no longer where it was
+  std::uint64_t legs = 0;          ///< Number of legs that have begun.
+  Leg leg;                         ///< The last leg.
+  std::vector<Anchor> anchors;     ///< Anchors since the line numbers were last reset.
+  std::uint64_t handed = 0;        ///< Places before this one were passed to the link.
+  std::uint64_t acknowledged = 0;  ///< Places before this one were acknowledged.
+  /// Lines sent after `handed` that parked the nozzle, and perhaps returned.
+  std::vector<std::string> parking;
+  bool aside = false;       ///< Whether those lines, and everything before them, were executed.
+  bool superseded = false;  ///< Whether another print has begun, so that the printer has moved.
   std::optional<Ended> ended;
 
-  /// The place of the line that a firmware asks for by `number`, perhaps modulo 65536; none if no line of
-  /// this leg can have been meant.
+  /// The place of the line that a firmware asks for by `number`, perhaps modulo 65536; nullopt if it cannot
+  /// be a line of this leg.
   std::optional<std::uint64_t> place_of(std::uint32_t number) const;
 };
 
-/// Reads as much as is sound. Throws SpoolError when it cannot be read at all or is of another version.
-/// `sound`, if given, gets the bytes that a writer may keep.
+/// Reads a journal up to the first damaged record. Throws SpoolError if it cannot be read at all or is of
+/// another version. If `sound` is given, it receives the number of bytes that a writer may keep.
 JournalState read_journal(const std::filesystem::path& file, std::uint64_t* sound = nullptr);
 
 class Journal {
  public:
-  /// Goes on behind the first `sound` bytes. Throws SpoolError.
+  /// Continues the file after its first `sound` bytes. Throws SpoolError.
   Journal(const std::filesystem::path& file, std::uint64_t sound);
   /// Writes what still waits.
   ~Journal();
 
-  // At once, so that it is known however this program ends. No longer than a write to memory takes.
-  void begin_session();  ///< this program begins or goes on; an end told earlier was none
+  // These write at once, so that the event is on record however this program ends. They do not wait for the
+  // disk.
+  void begin_session();  ///< The program begins or resumes the print; an earlier end no longer counts.
   void begin_leg(const Leg& leg);
-  /// From now on line `number` on the wire is the one at `place`. `anew`: numbers told before mean nothing.
-  void anchor(const Anchor& anchor, bool anew);
-  void park(const std::vector<std::string>& lines);  ///< these are sent instead of the rest, or before it
-  void aside();                                      ///< and were run
+  /// From now on the line number `anchor.number` on the wire is the line at `anchor.place`. `restarts` means
+  /// that earlier anchors are invalid.
+  void anchor(const Anchor& anchor, bool restarts);
+  void park(const std::vector<std::string>& lines);  ///< Lines that are sent instead of the rest, or first.
+  void aside();                                      ///< The lines of park() were executed.
   void end(const Ended& ended);
   void supersede();
 
-  /// By a thread of its own: the latest is what counts.
+  /// Written by a thread of its own; only the latest progress counts.
   void progress(std::uint64_t handed, std::uint64_t acknowledged);
 
-  /// Why something could not be written, if so.
+  /// Why something could not be written; nullopt if everything was.
   std::optional<std::string> problem() const;
 
  private:
@@ -96,7 +99,7 @@ class Journal {
   };
 
   void write_now(const std::string& content);
-  // Locked:
+  // To be called with the mutex locked:
   void append(const std::string& content);
   void write_latest();
   void work(std::stop_token stop);
@@ -107,7 +110,7 @@ class Journal {
   std::optional<Progress> latest_;
   bool unsynced_ = false;
   std::optional<std::string> problem_;
-  std::jthread thread_;  ///< last, so that it ends before what it uses
+  std::jthread thread_;  ///< The last member, so that it ends before the members that it uses.
 };
 
 }  // namespace unicursal::host

@@ -14,13 +14,13 @@
 namespace unicursal::host {
 namespace {
 
-constexpr std::size_t header = 8;  ///< bytes before a record's content
+constexpr std::size_t header = 8;  ///< Bytes before a record's content.
 
 std::string length_bytes(std::size_t length) {
   return ByteWriter().put(static_cast<std::uint32_t>(length)).bytes();
 }
 
-/// The checksum covers the length, too, so that a row of zeros is not a record.
+/// Includes the length, so that a row of zeros is not a valid record.
 std::uint32_t checksum(std::string_view content) {
   return crc32(content, crc32(length_bytes(content.size())));
 }
@@ -113,7 +113,7 @@ void RecordWriter::append(std::string_view content) {
   before_last_ = std::exchange(length_, length_ + bytes.size());
 }
 
-/// Where even that fails, half a record is cut when the file is read again.
+/// If this fails, too, the half record is cut off when the file is read again.
 void RecordWriter::cut() noexcept {
   const auto end = static_cast<off_t>(length_);
   if (::ftruncate(descriptor_, end) == 0) ::lseek(descriptor_, end, SEEK_SET);

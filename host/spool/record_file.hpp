@@ -1,6 +1,6 @@
-// An append-only file of records, each with its length and a checksum (CRC-32 of length and content), so that
-// what a killed program or a lost mains left half written is seen and cut off. Everything behind a damaged
-// record counts as lost, too: what it depends on is gone.
+// An append-only file of records, each with its length and a checksum (CRC-32 of length and content). A
+// record that a killed program or a power cut left incomplete is detected and cut off. Everything behind a
+// damaged record counts as lost, since it depends on that record.
 //
 //   length (4 bytes) · checksum (4 bytes) · content (length bytes, at least one)
 #pragma once
@@ -17,19 +17,19 @@ namespace unicursal::host {
 /// The CRC-32 of zip, PNG and Ethernet.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
-/// A record as it stands in the file.
+/// The bytes of a record in the file.
 std::string framed_record(std::string_view content);
 
 class RecordReader {
  public:
-  /// Throws SpoolError when the file cannot be read.
+  /// Throws SpoolError if the file cannot be read.
   explicit RecordReader(std::filesystem::path file);
 
-  /// The next sound record's content; none at the end and at the first damaged one.
+  /// Returns the content of the next record; nullopt at the end and at the first damaged record.
   std::optional<std::string> next();
-  /// Bytes of sound records read so far.
+  /// Number of bytes of sound records read so far.
   std::uint64_t sound() const { return sound_; }
-  /// Where next() reads on. Precondition: a value that sound() had.
+  /// Lets next() continue at a position. Precondition: sound() has returned this value before.
   void seek(std::uint64_t sound);
 
  private:
@@ -40,32 +40,31 @@ class RecordReader {
 
 class RecordWriter {
  public:
-  /// Makes the file if it is missing, and cuts what stands behind the first `sound` bytes. `reserve`: room
-  /// on the disk that is set aside at once, so that small records can be written when the disk is full; best
-  /// effort. Throws SpoolError.
+  /// Makes the file if it is missing, and truncates it to `sound` bytes. `reserve` bytes of the disk are
+  /// allocated at once (best effort), so that small records can still be written if the disk is full. Throws
+  /// SpoolError.
   RecordWriter(std::filesystem::path file, std::uint64_t sound, std::uint64_t reserve = 0);
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  /// Hands the record to the system: from then on it survives this program. Throws SpoolFull.
+  /// Writes a record; it then survives the end of this program. Throws SpoolFull.
   void append(std::string_view content);
-  /// From here on what was appended survives the computer, too. Throws SpoolFull.
+  /// Syncs the file: all records then survive a power cut, too. Throws SpoolFull.
   void sync();
-  /// As if the last record had never been appended; best effort. Precondition: one was, and none dropped
-  /// since.
+  /// Removes the last record; best effort. Precondition: a record was appended, and none removed since.
   void drop_last() noexcept;
 
  private:
   [[noreturn]] void refuse(int error);
-  void cut() noexcept;  ///< to `length_`
+  void cut() noexcept;  ///< Truncates the file to `length_`.
 
   std::filesystem::path file_;
   int descriptor_ = -1;
   std::uint64_t length_, before_last_ = 0;
 };
 
-/// Makes a folder's new names survive the computer; best effort.
+/// Syncs a folder, so that new names in it survive a power cut; best effort.
 void sync_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace unicursal::host

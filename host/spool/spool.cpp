@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t kept = 5;  ///< prints; a part of many layers takes some tens of MB
-constexpr int format = 1;        ///< of print.json and of the two record files
+constexpr std::size_t kept = 5;  ///< Number of prints kept; one with many layers takes some tens of MB.
+constexpr int format = 2;        ///< Version of print.json and of the two record files.
 
 fs::path order_file(const fs::path& folder) {
   return folder / "print.json";
@@ -36,7 +36,7 @@ fs::path chunk_file(const fs::path& folder) {
   return folder / "chunks";
 }
 
-/// One program at a time; given back by the system however that program ends.
+/// Lets one program at a time use a folder. The system releases the lock however the program ends.
 class Lock {
  public:
   explicit Lock(const fs::path& folder) : descriptor_(::open(folder.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -45,7 +45,7 @@ class Lock {
     if (descriptor_ >= 0) ::close(descriptor_);
     if (taken) {
       throw SpoolError(folder.string(), "", "is being printed by another program",
-                       "wait for its end, or stop it first");
+                       "wait until it has finished, or stop it first");
     }
     throw SpoolError(folder.string(), "", "cannot be opened", "check that it is there and its permissions");
   }
@@ -57,7 +57,7 @@ class Lock {
   int descriptor_;
 };
 
-/// "2026-11-22-101500-heart": sorts by time, and says what it is.
+/// Returns a name such as "2026-11-22-101500-heart", which sorts by time.
 std::string folder_name(const fs::path& job) {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -67,7 +67,7 @@ std::string folder_name(const fs::path& job) {
   return std::string(text.data()) + "-" + job.stem().string();
 }
 
-/// A new folder, also when two prints begin within a second.
+/// Makes a new folder, also if two prints begin within one second.
 fs::path make_folder(const fs::path& root, const std::string& name) {
   std::error_code error;
   fs::create_directories(root, error);
@@ -80,7 +80,7 @@ fs::path make_folder(const fs::path& root, const std::string& name) {
                    "check its permissions and that the disk is not full, or name another with --spool");
 }
 
-/// Files of a job that may share their names get a folder each.
+/// Copies the files of a job, each into a folder of its own, since their names may be equal.
 class Copies {
  public:
   explicit Copies(fs::path folder) : folder_(std::move(folder)) {}
@@ -106,10 +106,11 @@ class Copies {
 
 json copies_of(const Job& job, const fs::path& folder) {
   Copies copies(folder / "job");
-  json files = {{"job", copies.add(job.file)}, {"profile", copies.add(job.profile.file)}};
-  for (const fs::path& file : job.source.files) files["models"].push_back(copies.add(file));
-  for (const core::Zone& zone : job.source.zones) {
-    files["fields"].push_back(zone.pattern.field.empty() ? "" : copies.add(zone.pattern.field));
+  const JobInputs inputs = files_of(job);
+  json files = {{"job", copies.add(inputs.job)}, {"profile", copies.add(inputs.profile)}};
+  for (const fs::path& file : inputs.models) files["models"].push_back(copies.add(file));
+  for (const fs::path& file : inputs.fields) {
+    files["fields"].push_back(file.empty() ? "" : copies.add(file));
   }
   return files;
 }
@@ -126,7 +127,7 @@ json read_order(const fs::path& folder) {
   if (order.is_object() && order.value("format", json()) == format) return order;
   const bool other = order.is_object() && order.contains("format");
   throw SpoolError(order_file(folder).string(), "",
-                   other ? "was written by another version of this program" : "is no record of a print",
+                   other ? "was written by another version of this program" : "is not the record of a print",
                    other ? "resume with that version" : "see `unicursal resume --list`");
 }
 
@@ -142,34 +143,34 @@ PrintOrder order_in(const json& record) {
   return order;
 }
 
-/// What json throws, as a sentence.
+/// Runs `work`, and turns an exception of the JSON library into a SpoolError.
 template <class Work>
 auto of_record(const fs::path& folder, Work work) {
   try {
     return work();
   } catch (const json::exception& error) {
     throw SpoolError(order_file(folder).string(), "", fmt::format("is damaged ({})", error.what()),
-                     "begin the print anew");
+                     "start the print again from its job");
   }
 }
 
-/// A copy's path; what a damaged record names elsewhere is not followed.
+/// Returns the path of a copy; a damaged record must not lead out of the folder.
 fs::path copy_in(const fs::path& folder, const std::string& name) {
   const fs::path relative(name);
   if (relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end()) {
-    throw SpoolError(order_file(folder).string(), "", "names a file outside of the print's folder",
-                     "begin the print anew");
+    throw SpoolError(order_file(folder).string(), "", "names a file outside the print's folder",
+                     "start the print again from its job");
   }
   return folder / "job" / relative;
 }
 
-/// Those that are being printed stay, whatever their age.
+/// Removes old prints, except those in use.
 void remove_old(const fs::path& root) {
   const std::vector<fs::path> prints = kept_prints(root);
   for (std::size_t i = kept; i < prints.size(); ++i) {
     try {
       const Lock lock(prints[i]);
-      read_order(prints[i]);  // nothing is removed that is no print
+      read_order(prints[i]);  // throws if the folder is not a print, which is then not removed
       std::error_code ignored;
       fs::remove_all(prints[i], ignored);
     } catch (const SpoolError&) {
@@ -223,13 +224,13 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
                  {"device", order.device},
                  {"layer_count", order.layer_count},
                  {"layers", order.layers ? json{order.layers->first, order.layers->second} : json()},
-                 {"look_ahead", job.look_ahead},
+                 {"look_ahead", job.print.look_ahead},
                  {"full_quality", job.full_quality},
                  {"files", copies_of(job, folder)}};
   auto state = std::make_unique<State>(folder, record, 0, 0);
   state->lock = std::move(lock);
   state->journal.begin_leg({});
-  write(order_file(folder), record);  // last: only now it counts as a print
+  write(order_file(folder), record);  // last, since the folder counts as a print from now on
   sync_folder(folder);
   sync_folder(root);
   remove_old(root);
@@ -279,10 +280,10 @@ Job Spool::job() const {
     Job job = load_job(copy(files.at("job")), copy(files.at("profile")));
     const json fields = files.value("fields", json::array()), models = files.at("models");
     if (models.size() != job.source.files.size() || fields.size() != job.source.zones.size()) {
-      throw SpoolError(order_file(folder).string(), "", "does not go with the job beside it",
-                       "begin the print anew");
+      throw SpoolError(order_file(folder).string(), "", "does not match the job beside it",
+                       "start the print again from its job");
     }
-    job.look_ahead = state_->record.at("look_ahead").get<bool>();
+    job.print.look_ahead = state_->record.at("look_ahead").get<bool>();
     job.full_quality = state_->record.at("full_quality").get<bool>();
     for (std::size_t i = 0; i < models.size(); ++i) job.source.files[i] = copy(models[i]);
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -299,11 +300,11 @@ void Spool::supersede_others() noexcept {
       try {
         supersede(folder, state_->order);
       } catch (const SpoolError&) {
-        // In use on another printer, or beyond help.
+        // In use on another printer, or damaged.
       }
     }
   } catch (...) {
-    // No memory for that; the checks when one of them is resumed remain.
+    // Out of memory. The checks when one of them is resumed remain.
   }
 }
 
@@ -317,7 +318,7 @@ void Spool::append(const SpooledChunk& chunk) {
   try {
     state_->chunks.sync();
   } catch (const SpoolFull&) {
-    state_->chunks.drop_last();  // it is appended again when there is room
+    state_->chunks.drop_last();  // the caller appends it again when there is room
     throw;
   }
 }
@@ -327,7 +328,8 @@ fs::path default_spool_root() {
   if (state && *state == '/') return fs::path(state) / "unicursal" / "prints";
   const char* home = std::getenv("HOME");
   if (home && *home == '/') return fs::path(home) / ".local/state/unicursal/prints";
-  throw SpoolError("", "", "there is no home folder to keep the print in", "name a folder with --spool");
+  throw SpoolError("", "", "there is no home folder in which to keep the print",
+                   "name a folder with --spool");
 }
 
 std::vector<fs::path> kept_prints(const fs::path& root) {

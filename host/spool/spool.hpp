@@ -1,15 +1,15 @@
-// The folder in which a print is kept while it runs, so that it can go on after this program, the computer or
-// the printer has failed: copies of everything that it was begun with, every chunk before its first line is
-// sent, and the journal of what was sent.
+// The folder in which a print is kept while it runs, so that it can be resumed after this program, the
+// computer or the printer has failed: copies of its input, every chunk before its first line is sent, and the
+// journal of what was sent (host/spool/README.md).
 //
-//   ROOT/2026-11-22-101500-heart/print.json   what it is, and how the copies are called
+//   ROOT/2026-11-22-101500-heart/print.json   the print, and the names of the copies
 //                                job/…        job, profile, models, direction files
-//                                chunks       SpooledChunk records (record_file.hpp)
-//                                journal      events (journal.hpp)
+//                                chunks       SpooledChunk records (host/spool/record_file.hpp)
+//                                journal      events (host/spool/journal.hpp)
 //
-// What survives: a chunk is on the disk (fdatasync) when append() returns, so that the loss of the computer's
-// mains costs none that was sent. The journal is handed to the system at once, which a killed program does
-// not undo, and synced once a second.
+// A chunk is on the disk (fdatasync) when append() returns, so a power cut of the computer loses no chunk
+// that was sent. The journal is written at once, which survives the end of this program, and synced once a
+// second.
 #pragma once
 
 #include <cstdint>
@@ -27,41 +27,42 @@
 
 namespace unicursal::host {
 
-/// What a print was begun with.
+/// The parameters with which a print was begun.
 struct PrintOrder {
-  std::string job_name;                                       ///< for people
-  std::string port;                                           ///< as the user said: a path or "auto"
-  std::string device;                                         ///< that this was, when the print began
-  std::optional<std::pair<std::size_t, std::size_t>> layers;  ///< first and last, if not all
-  std::size_t layer_count = 0;                                ///< to be printed
+  std::string job_name;                                       ///< Name for display.
+  std::string port;                                           ///< Port as the user gave it: a path or "auto".
+  std::string device;                                         ///< Device of the port when the print began.
+  std::optional<std::pair<std::size_t, std::size_t>> layers;  ///< First and last layer; nullopt = all.
+  std::size_t layer_count = 0;                                ///< Number of layers to print.
 };
 
 class Spool {
  public:
-  /// Makes a folder below `root` for a new print; the newest few are kept, older ones removed.
+  /// Makes a folder below `root` for a new print. The newest few prints are kept, older ones are removed.
   /// Throws SpoolError.
   static Spool create(const std::filesystem::path& root, const Job& job, const PrintOrder& order);
-  /// Opens one that is there, for going on; damaged ends of its files are cut. Throws SpoolError, among
-  /// others when another program is at it.
+  /// Opens an existing folder to resume its print; damaged ends of its files are cut off. Throws SpoolError,
+  /// for instance if another program uses it.
   static Spool open(const std::filesystem::path& folder);
   ~Spool();
   Spool(Spool&&) noexcept;
 
   const std::filesystem::path& folder() const;
   const PrintOrder& order() const;
-  /// The job from its copies, whatever has become of the originals. Throws as load_job() does.
+  /// Loads the job from its copies, so the originals may have changed. Throws as load_job() does.
   Job job() const;
 
-  /// Keeps a chunk, durably: may take long. From any one thread. Throws SpoolFull; nothing was kept then.
+  /// Writes a chunk durably, which may take long. One thread at a time. Throws SpoolFull; the chunk was then
+  /// not kept.
   void append(const SpooledChunk& chunk);
   std::filesystem::path chunks() const;
   Journal& journal();
-  /// The printer is about to move: prints that were interrupted on the same port learn that it is no longer
-  /// where they left it.
+  /// To be called before the printer moves: marks interrupted prints on the same port as superseded, since
+  /// the printer leaves the position where they stopped.
   void supersede_others() noexcept;
-  /// It is of no use: nothing was sent. The folder goes.
+  /// Removes the folder, if nothing was sent.
   void discard() noexcept;
-  /// What the journal told, and what was spooled, when the spool was opened.
+  /// The contents of the journal and the extent of the chunks when the spool was opened.
   const JournalState& before() const;
   const SpoolExtent& extent() const;
 
@@ -71,13 +72,14 @@ class Spool {
   std::unique_ptr<State> state_;
 };
 
-/// $XDG_STATE_HOME/unicursal/prints, or ~/.local/state/unicursal/prints. Throws SpoolError without a home.
+/// $XDG_STATE_HOME/unicursal/prints, or ~/.local/state/unicursal/prints. Throws SpoolError if there is no
+/// home folder.
 std::filesystem::path default_spool_root();
 
-/// The folders of prints below `root`, the newest first.
+/// The folders of the kept prints below `root`, the newest first.
 std::vector<std::filesystem::path> kept_prints(const std::filesystem::path& root);
 
-/// One sentence about a kept print: its job, how far it came, how it ended.
+/// One line about a kept print: its job, its progress, and how it ended.
 std::string describe(const std::filesystem::path& folder);
 
 }  // namespace unicursal::host

@@ -1,17 +1,17 @@
-// What goes wrong with the files of a print, as sentences.
+// Errors of the files of a print.
 #pragma once
 
 #include "core/error.hpp"
 
 namespace unicursal::host {
 
-/// A spool that cannot be read or made; names the file and the remedy.
+/// A spool cannot be read or made. The message names the file and the remedy.
 class SpoolError : public core::DataError {
  public:
   using DataError::DataError;
 };
 
-/// What was to be kept could not be written; the file is as it was before. The disk may be full.
+/// A record could not be written, perhaps because the disk is full. The file is unchanged.
 class SpoolFull : public SpoolError {
  public:
   using SpoolError::SpoolError;

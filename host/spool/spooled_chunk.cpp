@@ -9,6 +9,7 @@ namespace unicursal::host {
 namespace {
 
 constexpr std::size_t bead_bytes = 3 * 8 + 4;
+constexpr std::size_t longest_name = 4096;  ///< bytes of a mixture's name
 
 void put(ByteWriter& bytes, const core::BeadPath& path) {
   bytes.put(static_cast<std::uint32_t>(path.size()));
@@ -94,6 +95,9 @@ std::string to_bytes(const SpooledChunk& chunk) {
   for (const core::Polygon& outline : chunk.layer.outlines) put(bytes, outline);
   bytes.put(static_cast<std::uint32_t>(chunk.begun.size()));
   for (const LayerBegun& begun : chunk.begun) bytes.put(begun.line).put(begun.top);
+  bytes.put(static_cast<std::uint32_t>(chunk.mixtures.size()));
+  for (const gcode::MixtureStart& start : chunk.mixtures)
+    bytes.put(static_cast<std::uint32_t>(start.line)).put(std::string_view(start.name));
   bytes.put(static_cast<std::uint32_t>(chunk.efforts.size()));
   for (const core::Effort& effort : chunk.efforts) {
     bytes.put(static_cast<std::uint32_t>(effort.size()));
@@ -122,10 +126,19 @@ SpooledChunk chunk_from(std::string_view content) {
     begun.line = bytes.take<std::uint32_t>();
     begun.top = length_in(bytes);
   }
+  chunk.mixtures.resize(bytes.count(4 + 4));
+  for (gcode::MixtureStart& start : chunk.mixtures) {
+    start.line = bytes.take<std::uint32_t>();
+    start.name = bytes.text();
+    if (start.name.size() > longest_name) throw DamagedBytes("holds a name that is too long");
+  }
   chunk.efforts.resize(bytes.count(4));
   for (core::Effort& effort : chunk.efforts) effort = effort_in(bytes);
   chunk.lines.resize(bytes.count(4));
   for (std::string& line : chunk.lines) line = bytes.text();
+  for (const gcode::MixtureStart& start : chunk.mixtures) {
+    if (start.line >= chunk.lines.size()) throw DamagedBytes("starts a mixture after its last line");
+  }
   if (!bytes.empty()) throw DamagedBytes("holds more than it should");
   return chunk;
 }

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "core/planner/island_plan.hpp"
-#include "firmware_gcode/print/print_settings.hpp"
+#include "firmware_gcode/print/chunk.hpp"
+#include "firmware_gcode/print/placed_layer.hpp"
 
 namespace unicursal::host {
 
@@ -29,10 +30,11 @@ struct SpooledChunk {
     finish
   };
   Kind kind = Kind::start;
-  gcode::PlacedLayer layer;           ///< for Kind::layer: what the encoder was given, on the bed, mm
-  std::vector<LayerBegun> begun;      ///< in `lines`
-  std::vector<core::Effort> efforts;  ///< of its islands
-  std::vector<std::string> lines;     ///< as sent: no comments
+  gcode::PlacedLayer layer;                   ///< for Kind::layer: what the encoder was given, on the bed, mm
+  std::vector<LayerBegun> begun;              ///< in `lines`
+  std::vector<gcode::MixtureStart> mixtures;  ///< in `lines`
+  std::vector<core::Effort> efforts;          ///< of its islands
+  std::vector<std::string> lines;             ///< as sent: no comments
 };
 
 /// From the comments of a chunk that has them still.

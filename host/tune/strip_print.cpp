@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/motion/speeds.hpp"
 #include "firmware_gcode/review/review.hpp"
@@ -90,8 +90,8 @@ class StripWriter {
   }
 
   void define(Chunk& chunk, std::size_t tool, const Mixture& mixture) {
-    const gcode::WrittenTool written = gcode::calibrated(mixture, printer_.flow_factors, dialect_);
-    writer_.calibrate(tool, written.scale);
+    const gcode::CalibratedMixture written = gcode::calibrated(mixture, printer_.flow_factors, dialect_);
+    writer_.define_tool(tool, gcode::shares_text(written.delivered), written.scale);
     append(chunk, dialect_.define_tool(tool, written.written));
   }
 

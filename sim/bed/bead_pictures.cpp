@@ -17,9 +17,9 @@ constexpr picture::Colour background{250, 249, 246};
 constexpr double margin = 1;           // mm around the print
 constexpr double longest_side = 4096;  // pixels of a layer's picture
 constexpr double part_side = 1600;     // pixels of the part's picture
-constexpr double finest_part = 16;     // pixels for a mm in it
-constexpr Ink wall{0.36, 0.36};        // the side of a layer
-constexpr Ink seam{0.2, 0.2};          // and its foot, so that layers can be told apart
+constexpr double finest_part = 16;     // pixels per mm in the part's picture, at most
+constexpr Ink wall{0.36, 0.36};        // side of a layer
+constexpr Ink seam{0.2, 0.2};          // foot of a layer, so that layers are distinguishable
 constexpr Ink top{0.6, 1};
 
 std::size_t pixels(double count, double most) {
@@ -46,7 +46,7 @@ bool holds(const Extents& box, const StoredBead& bead) {
          bead.y0 < box.max_y + rounding;
 }
 
-/// x runs to the right and away, y to the left and away; both rise by half of what they go sideways.
+/// x runs to the right and away from the viewer, y to the left and away; both at 30° to the horizontal.
 class CornerView {
  public:
   /// Shows the part and the walls below it; `around` mm of margin.
@@ -68,7 +68,7 @@ class CornerView {
         {-left_ * scale, (top_ - z) * scale}, {across * scale, -up * scale}, {-across * scale, -up * scale}};
   }
 
-  double scale = 1;  ///< pixels for a mm
+  double scale = 1;  ///< Pixels per mm.
   std::size_t width = 1, height = 1;
 
  private:
@@ -80,7 +80,7 @@ class CornerView {
     bottom_ = std::min(bottom_, high), top_ = std::max(top_, high);
   }
 
-  double left_ = 1e9, right_ = -1e9, bottom_ = 1e9, top_ = -1e9;  ///< mm of the projection
+  double left_ = 1e9, right_ = -1e9, bottom_ = 1e9, top_ = -1e9;  ///< Extents of the projection, mm.
 };
 
 }  // namespace

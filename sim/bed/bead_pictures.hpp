@@ -1,8 +1,7 @@
-// What was laid, bead by bead, in the colours that arrived: a picture of each layer from above, and one of
-// the whole part from a corner. The first layer's shows everything, the others and the part's are cropped
-// alike to what lies above it, so that a prime line does not shrink the part. Each bead is as wide as its
-// volume makes it, with a darker border, drawn in the order of printing: overlaps show as borders across
-// older beads, gaps as background.
+// Pictures of the deposit, bead by bead, in the colours that arrived: each layer from above, and the whole
+// part from a corner. All are cropped to the extents of the part, so that a prime line does not shrink it.
+// Each bead has the width that follows from its volume, and a darker border. Beads are drawn in the order of
+// printing: overlaps show as borders across older beads, gaps as background.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +10,13 @@
 
 namespace unicursal::sim {
 
-/// deposit-0000.png and so on. `pixel` mm; pixels grow where a side would exceed 4096 of them.
+/// Draws deposit-0000.png and so on. `pixel` is in mm; it grows if a side would exceed 4096 pixels.
 void draw_layers(BeadStore& store, const std::filesystem::path& folder, double pixel);
 
-/// part.png: parallel projection from the front left corner, a third of a right angle above the bed.
+/// Draws part.png: parallel projection from the front left corner, 30° above the bed.
 void draw_part(BeadStore& store, const std::filesystem::path& folder);
 
-/// Makes the folder and removes an older print's pictures from it. Throws std::system_error.
+/// Makes the folder and removes the pictures of an older print from it. Throws std::system_error.
 void clear_pictures(const std::filesystem::path& folder);
 
 }  // namespace unicursal::sim

@@ -11,8 +11,8 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double joined = 0.01;     // mm from the end of one bead to the next that goes on from it
-constexpr double widest_drawn = 5;  // mm: what a nozzle that stands still piles up is drawn no wider
+constexpr double joined = 0.01;     // mm between two beads that count as one strand
+constexpr double widest_drawn = 5;  // mm: limit for beads of a nozzle that hardly moves
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
   throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), file.string());

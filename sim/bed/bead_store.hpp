@@ -1,5 +1,6 @@
-// Every bead of a print, waiting in a file to be drawn when the part's extent is known. The file lies in the
-// pictures' folder and is removed in the end; memory holds a few bytes for each layer. mm.
+// All beads of a print, kept in a file until the extents of the part are known and they can be drawn. The
+// file lies in the folder of the pictures, and the destructor removes it. Memory holds a few bytes for each
+// layer. mm.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,7 @@ struct StoredLayer {
 
 class BeadStore : public BeadSink {
  public:
-  /// Throws std::system_error when the file cannot be made, and when the disk is full later on.
+  /// Throws std::system_error if the file cannot be made; bead() does if the disk is full.
   explicit BeadStore(const std::filesystem::path& folder);
   ~BeadStore() override;
   BeadStore(const BeadStore&) = delete;
@@ -36,11 +37,11 @@ class BeadStore : public BeadSink {
 
   void bead(std::size_t layer, const DepositedLayer& about, const Bead& bead, double width) override;
 
-  /// In the order of printing. `use` gets a layer's number and each of its beads.
+  /// Calls `use` for every bead in the order of printing, with the index of its layer.
   void for_each(const std::function<void(std::size_t layer, const StoredBead& bead)>& use);
 
   const std::vector<StoredLayer>& layers() const { return layers_; }
-  /// Of the centre lines, without a prime line: a straight strand laid first, in one go, apart from the rest.
+  /// Extents of the centre lines, without a prime line (a straight strand that is laid first, in one stroke).
   Extents part() const;
   double widest() const { return widest_; }
 
@@ -54,8 +55,8 @@ class BeadStore : public BeadSink {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::vector<StoredLayer> layers_;
-  Extents first_, rest_;  ///< of the strand laid first, and of all after it
-  Position end_;          ///< of the bead before
+  Extents first_, rest_;  ///< Extents of the first strand, and of everything after it.
+  Position end_;          ///< The end of the previous bead.
   bool in_first_ = true;
   double widest_ = 0;
 };

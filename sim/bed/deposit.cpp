@@ -8,7 +8,7 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double travel_in_bead_widths = 1.5;  // a shorter way without laying anything is no travel
+constexpr double travel_in_bead_widths = 1.5;  // a shorter movement without a bead is not a travel
 
 double in_plane(const Position& a, const Position& b) {
   return std::hypot(b.x - a.x, b.y - a.y);

@@ -1,9 +1,10 @@
-// The part as it grows: every bead, summed up by layer, and the beads themselves passed on to be drawn and to
-// be spread on the layer's raster. Memory holds one short record for each layer and no bead. A new layer
-// begins whenever a bead ends at another height than the one before; its height is the way up from the layer
-// before, or, after a way down, from the nearest earlier layer below it (from the bed when there is none). A
-// drop, pushed out while the nozzle stands, begins no layer; it lies in the present one if it fell at its
-// height, otherwise it is only counted. mm, mm³, s.
+// The part as it grows: sums over the beads of each layer. The beads themselves are passed on to be drawn and
+// to be spread on the layer's raster. Memory holds one short record for each layer and no bead.
+//
+// A new layer begins when a bead ends at another z than the previous one. Its height is the distance from the
+// previous layer, or, if the nozzle went down, from the nearest earlier layer below (from the bed if there is
+// none). A drop (plastic pushed out while the nozzle stands still) does not begin a layer. It is spread if it
+// lies at the z of the current layer; otherwise it is only counted. mm, mm³, s.
 #pragma once
 
 #include <limits>
@@ -18,10 +19,10 @@ namespace unicursal::sim {
 struct DepositedLayer {
   double z = 0, height = 0;
   std::uint64_t beads = 0;
-  double length = 0;   ///< of beads
-  double seconds = 0;  ///< spent on them
+  double length = 0;   ///< Length of the beads.
+  double seconds = 0;  ///< Time spent on the beads.
   double volume = 0;
-  double travel = 0;  ///< length of the travels before beads of this layer
+  double travel = 0;  ///< Length of the travels to beads of this layer.
   std::uint64_t travels = 0;
 };
 
@@ -33,7 +34,7 @@ struct Extents {
   void include(const Position& place);
 };
 
-/// Takes beads with what is known of their layer. `width` is volume ÷ (length · layer height), in mm.
+/// Receives beads with the record of their layer. `width` is volume ÷ (length · layer height), mm.
 class BeadSink {
  public:
   virtual ~BeadSink() = default;
@@ -43,28 +44,28 @@ class BeadSink {
 class Deposit : public BedSink {
  public:
   struct Takers {
-    BeadSink* drawing = nullptr;    ///< of every bead
-    Spread* spread = nullptr;       ///< where they are laid
-    RasterSink* rasters = nullptr;  ///< of every layer when it is finished
+    BeadSink* drawing = nullptr;    ///< Receives every bead.
+    Spread* spread = nullptr;       ///< Spreads the beads on the raster of the layer.
+    RasterSink* rasters = nullptr;  ///< Receives every finished layer.
   };
 
-  /// Each of the takers may be missing.
+  /// Each of the takers may be null.
   explicit Deposit(const Takers& takers) : takers_(takers) {}
 
   void laid(const Bead& bead) override;
   void travelled(const Position& from, const Position& to) override;
 
-  /// The last layer is complete.
+  /// To be called after the last bead: finishes the last layer.
   void finish();
 
   const std::vector<DepositedLayer>& layers() const { return layers_; }
-  const Extents& extents() const { return extents_; }  ///< of the beads' centre lines
-  double volume() const { return volume_; }            ///< in beads
-  double dropped() const { return dropped_; }          ///< volume pushed out while the nozzle stood
-  const PerFeeder<double>& by_feeder() const { return by_feeder_; }  ///< volume, of both
+  const Extents& extents() const { return extents_; }                ///< Extents of the beads' centre lines.
+  double volume() const { return volume_; }                          ///< Volume of the beads.
+  double dropped() const { return dropped_; }                        ///< Volume of the drops.
+  const PerFeeder<double>& by_feeder() const { return by_feeder_; }  ///< Volume of beads and drops.
   double length() const { return length_; }
-  double first_start() const { return first_start_; }  ///< s, when the first bead began
-  double last_end() const { return last_end_; }        ///< s
+  double first_start() const { return first_start_; }  ///< Start of the first bead, s.
+  double last_end() const { return last_end_; }        ///< End of the last bead, s.
 
  private:
   void drop(const Bead& bead);
@@ -77,8 +78,8 @@ class Deposit : public BedSink {
   double volume_ = 0, length_ = 0, dropped_ = 0;
   PerFeeder<double> by_feeder_{};
   double first_start_ = 0, last_end_ = 0;
-  double travel_ = 0;      ///< since the last bead
-  double last_width_ = 0;  ///< of the last bead
+  double travel_ = 0;      ///< Distance since the last bead.
+  double last_width_ = 0;  ///< Width of the last bead.
 };
 
 }  // namespace unicursal::sim

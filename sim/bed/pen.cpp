@@ -16,7 +16,7 @@ Projection::Pixel Projection::operator()(double x, double y) const {
   return {origin.x + x * along_x.x + y * along_y.x, origin.y + x * along_x.y + y * along_y.y};
 }
 
-/// What a strand covers shrinks by the projection's determinant, its length by its own factor.
+/// A strand's area scales with the projection's determinant, its length with the factor of its direction.
 double Projection::thickness(double width, double dx, double dy) const {
   const double determinant = std::abs(along_x.x * along_y.y - along_x.y * along_y.x);
   const double length = std::hypot(dx, dy);

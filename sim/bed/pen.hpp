@@ -1,6 +1,6 @@
-// Draws strands so that each can be told from its neighbours: a darker border, and a core that lies one bead
-// width behind it, so that the round end of a new border never bites into the core of the bead that it
-// continues. The picture may show the bed from above or from any side: a strand's thickness is that of its
+// Draws strands so that each differs visibly from its neighbours: a darker border, and a lighter core that
+// follows one bead width behind, so that the round end of a new border never covers the core of the bead that
+// it continues. The picture may show the bed from above or from any side; a strand is drawn as thick as its
 // projection. mm in, pixels out.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace unicursal::sim {
 
-/// Affine: pixels = origin + x·along_x + y·along_y.
+/// Affine projection: pixels = origin + x·along_x + y·along_y.
 struct Projection {
   struct Pixel {
     double x = 0, y = 0;
@@ -19,13 +19,13 @@ struct Projection {
   Pixel origin, along_x, along_y;
 
   Pixel operator()(double x, double y) const;
-  /// Pixels across a strand of `width` mm that runs along (dx, dy).
+  /// Returns the thickness in pixels of a strand of `width` mm that runs along (dx, dy).
   double thickness(double width, double dx, double dy) const;
 };
 
 struct Ink {
-  double border = 0.45;  ///< light of the border, of the bead's own colour
-  double core = 1;       ///< and of the core
+  double border = 0.45;  ///< Brightness of the border, relative to the bead's colour.
+  double core = 1;       ///< Brightness of the core.
 };
 
 class Pen {
@@ -46,8 +46,8 @@ class Pen {
   picture::Image& image_;
   Projection projection_;
   Ink ink_;
-  std::deque<StoredBead> waiting_;  ///< border drawn, core not yet
-  double ahead_ = 0;                ///< mm of them
+  std::deque<StoredBead> waiting_;  ///< Beads whose border is drawn, but not their core.
+  double ahead_ = 0;                ///< Length of the waiting beads, mm.
 };
 
 }  // namespace unicursal::sim

@@ -14,8 +14,8 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr std::uint64_t mark = 0x31726574736172'75;  // at the head of every layer
-constexpr std::uint64_t longest_side = 1 << 20;      // pixels; more is no raster of ours
+constexpr std::uint64_t mark = 0x31726574736172'75;  // first bytes of every layer
+constexpr std::uint64_t longest_side = 1 << 20;      // pixels; a longer side means a damaged stream
 
 struct Head {
   std::uint64_t mark = 0;
@@ -84,7 +84,7 @@ std::optional<RasterFrame> RasterReader::next() {
   const std::size_t count = read(&head, sizeof head);
   if (count == 0) return std::nullopt;
   if (count < sizeof head) throw RasterError("the simulator's rasters end in the middle of a layer");
-  if (!plausible(head)) throw RasterError("the simulator's rasters are not in the form expected");
+  if (!plausible(head)) throw RasterError("the simulator's rasters have an unexpected format");
   return head.frame;
 }
 
@@ -93,7 +93,7 @@ void RasterReader::read_row(std::span<RasterPixel> pixels) {
     throw RasterError("the simulator's rasters end in the middle of a layer");
 }
 
-/// Less than `count` only at the end.
+/// Returns the number of bytes read, which is less than `count` only at the end.
 std::size_t RasterReader::read(void* bytes, std::size_t count) {
   char* to = static_cast<char*>(bytes);
   std::size_t done = 0;

@@ -7,12 +7,12 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double most_pixels = 16e6;    // of a bed
-constexpr double margin = 10;           // mm around the bed that the raster covers as well
-constexpr double widest_radius = 3;     // mm; a thicker bead heaps up within it
-constexpr double steps_per_width = 8;   // along a bead
-constexpr double full = 1 - 1e-6;       // fill at which a pixel has no room that matters
-constexpr double golden_angle = 2.399;  // radians; scatters the order of places equally far away
+constexpr double most_pixels = 16e6;    // pixels of the whole bed
+constexpr double margin = 10;           // mm around the bed that the raster covers, too
+constexpr double widest_radius = 3;     // mm; a wider bead piles up within this radius
+constexpr double steps_per_width = 8;   // steps per bead width along a bead
+constexpr double full = 1 - 1e-6;       // fill from which a pixel counts as full
+constexpr double golden_angle = 2.399;  // radians; scatters the order of pixels at the same distance
 
 double along(double from, double to, double part) {
   return from + part * (to - from);
@@ -113,7 +113,7 @@ void Spread::lay(const Bead& bead, double width) {
   }
 }
 
-/// `amount` in pixels filled to the layer's height.
+/// `amount` is the number of pixels that it fills to the layer's height.
 void Spread::drop(double x, double y, double amount, double radius, const PerFeeder<double>& shares) {
   const auto cell = [this](double mm) { return static_cast<int>(std::floor((mm + margin) / grid_.pixel)); };
   const int cx = cell(x), cy = cell(y);
@@ -122,7 +122,7 @@ void Spread::drop(double x, double y, double amount, double radius, const PerFee
   if (left > 0) heap(cx, cy, left, std::max(0.5, pixels), shares);
 }
 
-/// Returns what found no room.
+/// Returns the amount that did not fit.
 double Spread::fill_room(int cx, int cy, double amount, double within, const PerFeeder<double>& shares) {
   for (const Offset& offset : offsets_) {
     if (offset.distance > within || amount <= 0) break;

@@ -1,15 +1,15 @@
-// How plastic spreads under the nozzle, on a height raster of one layer at a time.
+// How plastic spreads under the nozzle, on a height raster of one layer at a time (sim/README.md, Physics).
 //
-// The cross-section model: the nozzle runs at the layer's height, so plastic fills the room below it, the
-// nearest place first, up to the layer's height and no higher. On open ground that gives a bead of
-// rectangular section, volume ÷ (length × layer height) wide, with round ends. Beside a strand that lies
-// there already the plastic gives way to the other side, and ahead, as far as `reach` times its half width on
-// open ground. What finds no room there heaps up evenly where the bead lies, higher than the layer: overfill.
-// Every mm³ stays in the raster (outside the bed's margin it is counted as lost). Departures from real melt:
-// no pressure, viscosity, die swell or cooling; the layer below counts as flat.
+// Model: the nozzle runs at the layer's height, so plastic fills the gap below it outwards from the centre
+// line, up to the layer's height. On open ground a bead gets a rectangular section of the width
+// volume ÷ (length × layer height), with round ends. Beside an older strand the plastic moves to the other
+// side and ahead, at most `reach` times the bead's half width from the centre line. The rest piles up evenly
+// where the bead lies, above the layer's height: overfill. Every mm³ stays in the raster; outside the bed's
+// margin it is counted as lost. Departures from real melt: no pressure, viscosity, die swell or cooling; the
+// layer below counts as flat.
 //
-// Memory: one layer, in tiles that exist where something lies. The pixel is the finest asked for with which
-// the whole bed stays within 16 million pixels. mm, mm³.
+// Memory holds one layer, in tiles that exist where plastic lies. A pixel has the size asked for, or is
+// coarser so that the whole bed stays within 16 million pixels. mm, mm³.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 namespace unicursal::sim {
 
 struct BedSize {
-  double x = 200, y = 200;  ///< from 0
+  double x = 200, y = 200;  ///< The bed reaches from 0 to here.
 };
 
 class Spread {
@@ -31,22 +31,22 @@ class Spread {
 
   Spread(const BedSize& bed, double finest_pixel);
 
-  /// A new, empty layer.
+  /// Begins a new, empty layer.
   void begin(double z, double height);
-  /// `width` mm: of the bead on open ground; of a drop it is its diameter.
+  /// Lays a bead. `width` is its width on open ground, or the diameter of a drop, mm.
   void lay(const Bead& bead, double width);
-  /// What the layer has become; valid until the next begin().
+  /// The current layer; valid until the next begin().
   const LayerRaster& raster() const { return grid_; }
   bool empty() const { return grid_.empty(); }
 
   double pixel() const { return grid_.pixel; }
-  /// Of all layers so far: laid outside the bed, so in no raster.
+  /// Volume laid outside the bed, in all layers so far.
   double lost() const { return lost_; }
 
  private:
   struct Offset {
     int x, y;
-    double distance;  ///< pixels
+    double distance;  ///< Pixels.
   };
   struct Tile {
     static constexpr int side = 64;
@@ -54,13 +54,13 @@ class Spread {
   };
   struct Grid : LayerRaster {
     double pixel = 0, z = 0, height = 0;
-    int across = 0, down = 0;                        ///< tiles
-    int left = 0, bottom = 0, right = -1, top = -1;  ///< tiles in use
+    int across = 0, down = 0;                        ///< Number of tiles in x and y.
+    int left = 0, bottom = 0, right = -1, top = -1;  ///< Range of the tiles in use.
     std::vector<std::unique_ptr<Tile>> tiles;
 
     bool empty() const { return right < left; }
     void clear();
-    /// Null outside the bed.
+    /// Returns nullptr outside the bed's margin.
     RasterPixel* at(int x, int y);
     RasterFrame frame() const override;
     void read_row(std::uint64_t row, std::span<RasterPixel> pixels) const override;
@@ -71,7 +71,7 @@ class Spread {
   void heap(int x, int y, double amount, double within, const PerFeeder<double>& shares);
 
   Grid grid_;
-  std::vector<Offset> offsets_;  ///< the nearest first
+  std::vector<Offset> offsets_;  ///< Sorted by distance.
   double lost_ = 0;
 };
 

@@ -33,31 +33,36 @@ constexpr std::array kinds{
     KindFacts{K::reply_flip, "replyflip", Value::chance, "a byte from the printer has one bit wrong"},
     KindFacts{K::lost_reply, "lostreply", Value::chance, "a byte from the printer is lost"},
     KindFacts{K::merged_lines, "merge", Value::chance,
-              "a line to the printer loses its end and joins the next"},
-    KindFacts{K::false_alarm, "falsealarm", Value::chance, "the printer asks again for a line that was good"},
-    KindFacts{K::false_number, "falsenumber", Value::chance, "the same, and says that its number was wrong"},
-    KindFacts{K::false_missing, "falsemissing", Value::chance, "the same, and says that it had no checksum"},
-    KindFacts{K::rewind, "rewind", Value::chance, "the printer takes a line and asks for it once more"},
-    KindFacts{K::lost_ok, "lostok", Value::chance, "an ok never comes"},
-    KindFacts{K::double_ok, "doubleok", Value::chance, "an ok comes twice"},
-    KindFacts{K::broken_ok, "brokenok", Value::chance, "an ok comes misspelt"},
+              "a line to the printer loses its newline and joins the next"},
+    KindFacts{K::false_alarm, "falsealarm", Value::chance,
+              "the printer reports a checksum mismatch for a good line"},
+    KindFacts{K::false_number, "falsenumber", Value::chance,
+              "the printer reports a wrong line number for a good line"},
+    KindFacts{K::false_missing, "falsemissing", Value::chance,
+              "the printer reports a missing checksum for a good line"},
+    KindFacts{K::rewind, "rewind", Value::chance, "the printer accepts a line and then asks for it again"},
+    KindFacts{K::lost_ok, "lostok", Value::chance, "an ok never arrives"},
+    KindFacts{K::double_ok, "doubleok", Value::chance, "an ok arrives twice"},
+    KindFacts{K::broken_ok, "brokenok", Value::chance, "an ok is misspelt"},
     KindFacts{K::other_ok, "answer", Value::text, "the next ok reads TEXT"},
-    KindFacts{K::lost_resend, "lostresend", Value::chance, "a request to resend never comes"},
-    KindFacts{K::double_resend, "doubleresend", Value::chance, "a request to resend comes twice"},
-    KindFacts{K::noise, "noise", Value::chance, "a line of noise comes before a reply"},
-    KindFacts{K::bad_utf8, "badutf8", Value::chance, "a line that is no valid UTF-8 comes before a reply"},
+    KindFacts{K::lost_resend, "lostresend", Value::chance, "a request to resend never arrives"},
+    KindFacts{K::double_resend, "doubleresend", Value::chance, "a request to resend arrives twice"},
+    KindFacts{K::noise, "noise", Value::chance, "a line of random bytes comes before a reply"},
+    KindFacts{K::bad_utf8, "badutf8", Value::chance, "a line of invalid UTF-8 comes before a reply"},
     KindFacts{K::nul, "nul", Value::chance, "a line with NUL bytes comes before a reply"},
-    KindFacts{K::slow, "slow", Value::seconds, "every reply comes up to SECONDS late"},
-    KindFacts{K::stall, "stall", Value::seconds, "the firmware neither reads nor answers for SECONDS"},
+    KindFacts{K::slow, "slow", Value::seconds, "every reply is up to SECONDS late"},
+    KindFacts{K::stall, "stall", Value::seconds,
+              "the firmware neither reads nor answers for SECONDS; moves continue"},
     KindFacts{K::silence, "silence", Value::none, "the firmware never answers again"},
     KindFacts{K::disconnect, "disconnect", Value::optional_seconds,
-              "the cable is pulled, and comes back after SECONDS if given"},
+              "the cable is pulled; it returns after SECONDS if given"},
     KindFacts{K::reset, "reset", Value::none, "the board resets"},
-    KindFacts{K::heater_failure, "heaterfail", Value::none, "the nozzle's heater gives no more heat"},
-    KindFacts{K::bed_failure, "bedfail", Value::none, "the bed's heater gives no more heat"},
-    KindFacts{K::runaway, "runaway", Value::none, "the nozzle's heater cannot be switched off any more"},
-    KindFacts{K::thermistor, "thermistor", Value::none, "the nozzle's thermistor falls out"},
-    KindFacts{K::runout, "runout", Value::none, "a feeder runs out of filament, and the printer says so"},
+    KindFacts{K::heater_failure, "heaterfail", Value::none, "the nozzle heater gives no more heat"},
+    KindFacts{K::bed_failure, "bedfail", Value::none, "the bed heater gives no more heat"},
+    KindFacts{K::runaway, "runaway", Value::none, "the nozzle heater cannot be switched off"},
+    KindFacts{K::thermistor, "thermistor", Value::none, "the nozzle thermistor falls out"},
+    KindFacts{K::runout, "runout", Value::none,
+              "a feeder runs out of filament, and the printer announces it"},
     KindFacts{K::say, "say", Value::text, "the printer says TEXT"},
     KindFacts{K::fatal, "fatal", Value::text, "the firmware stops itself with the error TEXT"},
 };
@@ -76,7 +81,7 @@ const KindFacts& kind_named(std::string_view name, std::string_view fault) {
     if (facts.name == name) return facts;
     names += (names.empty() ? "" : ", ") + std::string(facts.name);
   }
-  refuse(fault, fmt::format("is of no known kind; the kinds are {}", names));
+  refuse(fault, fmt::format("has an unknown kind; the kinds are {}", names));
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -96,7 +101,7 @@ double seconds_from(std::string_view text, std::string_view fault) {
   constexpr double longest = 1e7;
   const auto value = number<double>(text);
   if (!value || !(*value >= 0 && *value <= longest)) {
-    refuse(fault, fmt::format("needs a number of seconds instead of \"{}\"", text));
+    refuse(fault, fmt::format("needs a number of seconds, not \"{}\"", text));
   }
   return *value;
 }
@@ -109,11 +114,11 @@ void read_moment(std::string_view moment, std::string_view text, Fault& fault) {
     fault.time = seconds_from(value, text);
   } else if (which == "line") {
     fault.line = number<std::int64_t>(value);
-    if (!fault.line) refuse(text, "needs the number of a line behind line=");
+    if (!fault.line) refuse(text, "needs a line number after line=");
   } else if (which == "command" && !value.empty()) {
     fault.command = std::string(value);
   } else {
-    refuse(text, "has a moment that is none of @t=SECONDS, @line=NUMBER and @command=WORD");
+    refuse(text, "has an unknown moment; use @t=SECONDS, @line=NUMBER or @command=WORD");
   }
 }
 
@@ -172,7 +177,7 @@ Fault parse_fault(std::string_view text) {
   fault.kind = facts.kind;
   if (at != std::string_view::npos) read_moment(text.substr(at + 1), text, fault);
   read_value(facts.value, colon == std::string_view::npos ? "" : before.substr(colon + 1), text, fault);
-  if (facts.kind == K::slow && fault.has_moment()) refuse(text, "holds all the time and takes no moment");
+  if (facts.kind == K::slow && fault.has_moment()) refuse(text, "acts all the time and takes no moment");
   const bool always = facts.value == Value::chance || facts.kind == K::slow;
   if (!always && !fault.has_moment()) refuse(text, "needs a moment, as in reset@t=60 or reset@line=100");
   return fault;
@@ -187,7 +192,7 @@ FaultPlan parse_faults(std::string_view text, const std::string& file) {
     try {
       if (line.starts_with("seed ")) {
         const auto seed = number<std::uint64_t>(trimmed(line.substr(5)));
-        if (!seed) refuse(line, "needs a whole number as its seed");
+        if (!seed) refuse(line, "needs a whole number as seed");
         plan.seed = *seed;
       } else if (!line.empty()) {
         plan.faults.push_back(parse_fault(line));

@@ -1,15 +1,15 @@
-// What shall go wrong, as a user writes it: KIND[:VALUE][@MOMENT].
+// Faults as a user writes them: KIND[:VALUE][@MOMENT]. sim/README.md lists all kinds (section Faults).
 //
-//   bitflip:1e-4          one byte in ten thousand on its way to the printer has one bit wrong
+//   bitflip:1e-4          one byte in ten thousand to the printer has one bit wrong
 //   lostok@line=120       the next ok after line N120 was received never comes
-//   stall:5@t=60          a minute after power-up the firmware stops reading and answering for 5 s
+//   stall:5@t=60          one minute after power-up the firmware stops reading and answering for 5 s
 //   say://action:pause@command=G28
 //
 // A moment is `t=SECONDS` of printer time, `line=NUMBER` when that numbered line is first received, or
-// `command=WORD` whenever a line with that command is. A kind that has a chance needs that or a moment (it
-// then strikes at its next occasion, once for every time that the moment comes); every other kind needs a
-// moment, also `answer`, whose occasion is the next ok. A file holds one fault on each line, blank lines,
-// comments from `#` on, and `seed NUMBER`.
+// `command=WORD` whenever a line with that command is received. A kind with a chance needs a chance or a
+// moment; with a moment it strikes at its next occasion, once for each time that the moment comes. `slow`
+// takes no moment. Every other kind needs one; the occasion of `answer` is the next ok. A file holds one
+// fault on each line, blank lines, comments after `#`, and `seed NUMBER`.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +22,19 @@
 namespace unicursal::sim {
 
 enum class FaultKind {
-  // each byte to the printer
+  // Occasion: each byte to the printer.
   bit_flip,
   lost_byte,
-  // each byte from the printer
+  // Occasion: each byte from the printer.
   reply_flip,
   lost_reply,
-  // each line to the printer
+  // Occasion: each line to the printer.
   merged_lines,
   false_alarm,
   false_number,
   false_missing,
   rewind,
-  // each reply
+  // Occasion: each reply.
   lost_ok,
   double_ok,
   broken_ok,
@@ -45,7 +45,7 @@ enum class FaultKind {
   bad_utf8,
   nul,
   slow,
-  // at a moment
+  // These strike at a moment.
   stall,
   silence,
   disconnect,
@@ -61,12 +61,12 @@ enum class FaultKind {
 
 struct Fault {
   FaultKind kind{};
-  double chance = 0;                   ///< at every occasion
-  double seconds = 0;                  ///< of a stall, a disconnection (0: for ever), at most of a slow reply
-  std::string text;                    ///< to be said, or what an ok is to be instead
-  std::optional<double> time;          ///< s since power-up
-  std::optional<std::int64_t> line;    ///< number
-  std::optional<std::string> command;  ///< "G28"
+  double chance = 0;                   ///< Probability at every occasion.
+  double seconds = 0;                  ///< Duration; 0 = for ever if the cable is pulled. Maximum for `slow`.
+  std::string text;                    ///< Text to say, or to replace an ok.
+  std::optional<double> time;          ///< Moment: s since power-up.
+  std::optional<std::int64_t> line;    ///< Moment: line number.
+  std::optional<std::string> command;  ///< Moment: command, "G28".
 
   bool has_moment() const { return time || line || command; }
 };
@@ -78,11 +78,11 @@ struct FaultPlan {
 
 /// The name that a user writes.
 std::string_view name(FaultKind kind);
-/// One line for each kind: its name and what it does.
+/// One line for each kind: its name and its effect.
 std::string fault_help();
 
-/// These throw std::invalid_argument with a sentence; read_faults std::system_error for a file it cannot
-/// read.
+/// Read faults. All throw std::invalid_argument with a sentence; read_faults() also throws
+/// std::system_error if it cannot read the file.
 Fault parse_fault(std::string_view text);
 FaultPlan parse_faults(std::string_view text, const std::string& file);
 FaultPlan read_faults(const std::filesystem::path& file);

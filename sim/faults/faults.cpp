@@ -13,7 +13,7 @@ bool needs_occasion(FaultKind kind) {
   return kind < FaultKind::slow;
 }
 
-/// "N12 G28 X" → G28 X; anything else stays.
+/// "N12 G28 X" → "G28 X"; other lines stay as they are.
 std::string_view without_number(std::string_view line) {
   if (!line.starts_with('N')) return line;
   const std::size_t behind = line.find_first_not_of("0123456789 ", 1);
@@ -99,7 +99,7 @@ Misreading Faults::received(std::string_view line) {
     const bool by_command = fault.command && is_command(line, *fault.command);
     if (by_line || by_command) arm(armed);
   }
-  // Each has its turn whatever the others do, so that its chances do not depend on them.
+  // Every kind draws its chance, whether or not another one strikes, so that the kinds stay independent.
   const bool damaged = strikes(FaultKind::false_alarm), misnumbered = strikes(FaultKind::false_number),
              unchecked = strikes(FaultKind::false_missing), forgotten = number && strikes(FaultKind::rewind);
   return damaged       ? Misreading::damaged
@@ -174,9 +174,9 @@ double Faults::delay() {
   return longest * static_cast<double>(details_() % static_cast<std::uint64_t>(parts)) / parts;
 }
 
-// ---- things that happen to the printer
+// ---- faults of the printer itself
 
-/// Its moment has come.
+/// Called when the moment of a fault has come.
 void Faults::arm(Armed& armed) {
   if (needs_occasion(armed.fault.kind)) {
     ++armed.pending;

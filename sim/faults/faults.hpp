@@ -1,6 +1,6 @@
-// The faults at work: what they make of bytes and lines that pass, and what they do to the printer and when.
-// Every fault has a stream of chance of its own, so a run with the same seed and the same bytes is the same
-// run, and one fault more changes nothing of the others.
+// Applies the faults of a plan: changes the bytes and lines that pass, and reports what happens to the
+// printer and when. Every fault has a random stream of its own: the same seed and the same bytes give the
+// same run, and an additional fault does not change the others.
 #pragma once
 
 #include <cstdint>
@@ -21,29 +21,29 @@ class Faults {
  public:
   explicit Faults(const FaultPlan& plan = {});
 
-  /// What arrives of bytes that the computer sends. A byte that follows a lost one is marked as damaged.
+  /// Returns what arrives of the bytes that the computer sends. A byte after a lost one is marked as damaged.
   std::vector<WireByte> to_printer(std::string_view bytes);
-  /// What the printer really says instead of this line; newlines included.
+  /// Returns what the printer says instead of this line, newlines included.
   std::string from_printer(std::string_view line);
-  /// By how many seconds a reply is late.
+  /// Returns the delay of a reply, s.
   double delay();
-  /// A complete line has been received; what the firmware takes it for.
+  /// To be called for every complete line that is received. Returns the firmware's error with this line.
   Misreading received(std::string_view line);
 
-  /// When the next fault with a time strikes.
+  /// The time of the next fault with a time; nullopt if there is none.
   std::optional<double> next_time() const;
-  /// Those that are to be done to the printer now.
+  /// Returns the faults that strike the printer now.
   std::vector<Fault> due(double now);
 
-  /// How often each has struck, by name.
+  /// How often each kind has struck, by name.
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
 
  private:
   struct Armed {
     Fault fault;
     std::mt19937_64 chance;
-    std::uint64_t pending = 0;  ///< moments that have come and not struck yet
-    bool past = false;          ///< its time has come, or its line
+    std::uint64_t pending = 0;  ///< Moments that have come, but have not struck yet.
+    bool past = false;          ///< Whether its time or line has come.
   };
 
   bool strikes(FaultKind kind);
@@ -57,10 +57,10 @@ class Faults {
   void damage_byte(WireByte byte, std::vector<WireByte>& bytes);
 
   std::vector<Armed> armed_;
-  std::vector<Fault> events_;  ///< struck by a line, not yet done
+  std::vector<Fault> events_;  ///< Armed by a line or a time, not yet returned by due().
   std::map<std::string, std::uint64_t> counts_;
-  std::mt19937_64 details_;  ///< which bit, which text
-  bool gap_ = false;         ///< a byte to the printer was lost just now
+  std::mt19937_64 details_;  ///< Chooses bits and texts.
+  bool gap_ = false;         ///< Whether the last byte to the printer was lost.
 };
 
 }  // namespace unicursal::sim

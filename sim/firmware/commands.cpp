@@ -1,5 +1,5 @@
-// What each command does. A handler answers at once, or says what the command waits for; the ok follows when
-// nothing is left to wait for.
+// The commands. A handler acts at once, or adds the conditions that the command waits for; the ok follows
+// when no wait is left.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ namespace {
 constexpr double cold = 170;                                        // °C: below, nothing is extruded
 constexpr double longest_extrusion = 200;                           // mm of E in one move
 constexpr double homing_speed = 50, homing_speed_z = 4;             // mm/s
-constexpr double homing_way_back = 10, homing_touch_seconds = 1.5;  // mm at least; s for the second touch
+constexpr double homing_way_back = 10, homing_touch_seconds = 1.5;  // least way, mm; second touch, s
 constexpr double longest_report_interval = 60;                      // s
 constexpr double longest_dwell = 4294967.295;  // s: the firmware's clock counts 32 bits of ms
 constexpr double least_steps_per_mm = 0.1, most_steps_per_mm = 1e5;
@@ -23,7 +23,7 @@ constexpr double least_speed = 0.05, least_acceleration = 1, least_jerk = 0.01; 
 
 constexpr std::array<char, axes> axis_letters{'X', 'Y', 'Z', 'E'};
 
-/// Takes the number of a word if there is one, and if it is not less than what a machine can live with.
+/// Takes the number of a word, if it has one, but at least `least`.
 void read(const Command& command, char letter, double least, double& value) {
   if (const auto given = command.value(letter)) value = std::max(*given, least);
 }
@@ -129,7 +129,7 @@ void Firmware::plan(const MoveTarget& target, double e) {
   planner_.push({steps, fed, target.speed, current_mix()}, now_);
 }
 
-/// What of a move's E is really fed: all, or nothing when that is refused; XY moves all the same.
+/// Returns the part of a move's E that is really fed: all, or 0 if extrusion is refused; x and y move anyway.
 double Firmware::filament_to_feed(double e) {
   if (e == 0) return 0;
   if (nozzle_.temperature(now_) < cold) {
@@ -188,7 +188,7 @@ void Firmware::stop_moves(const Command&) {
 }
 
 void Firmware::motors_off(const Command& command) {
-  if (command.has('S')) return;  // only a time-out, which M85 does better
+  if (command.has('S')) return;  // only a timeout, which the simulator does not need
   wait_until_still([this] { coordinates_.forget_home(); });
 }
 
@@ -262,7 +262,7 @@ void Firmware::store_mixture(const Command& command) {
   }
 }
 
-/// M165 A… B… C…: the present tool, at once; letters left out are none of that feeder.
+/// M165 A… B… C…: sets the current tool at once; an omitted letter means 0.
 void Firmware::mix_directly(const Command& command) {
   constexpr std::string_view letters = "ABCDHI";
   PerFeeder<double> shares{};
@@ -281,7 +281,7 @@ std::string Firmware::temperatures() const {
                      nozzle_.target(), bed_.temperature(now_), bed_.target(), nozzle_.power(), bed_.power());
 }
 
-/// Virtual tools have no heater of their own: only T0 does.
+/// Only T0 has a heater; the virtual tools share it.
 bool Firmware::extruder_exists(const Command& command) {
   const double extruder = command.value_or('T', 0);
   if (extruder == 0) return true;
@@ -311,7 +311,7 @@ void Firmware::wait_bed(const Command& command) {
   wait_for_heater(bed_, !both);
 }
 
-/// Its ok is the start of its own line; a wrong extruder gets none at all.
+/// The ok is part of the report's own line; a wrong extruder gets no ok at all.
 void Firmware::report_temperatures(const Command& command) {
   answers_ok_ = false;
   if (extruder_exists(command)) reply_("ok " + temperatures());

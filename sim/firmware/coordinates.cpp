@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<char, 3> letters{'X', 'Y', 'Z'};
 constexpr double seconds_per_minute = 60;
 
-// Far beyond any machine; keeps hostile moves from overflowing, or from taking years. mm
+// Limits far beyond any machine, so that hostile moves neither overflow nor take years. mm
 constexpr double farthest_place = 1e4, farthest_e = 1e7;
 
 double bounded(double mm, double farthest) {

@@ -1,6 +1,6 @@
-// What G-code's modal state makes of the numbers in a move: units, absolute or relative, the origin that G92
-// shifts, feed rate, M220 and M221. Positions in mm in the machine's frame; E is the logical one (the sum of
-// what was asked), while `filament` is what the feeders are to have fed since power-up.
+// Turns the numbers of a move into a target according to G-code's modal state: units, absolute or relative,
+// the origin that G92 shifts, feed rate, M220 and M221. Positions are in mm in the machine's frame. E is the
+// logical one: the sum of what was asked for, not of what the feeders fed.
 #pragma once
 
 #include <array>
@@ -10,40 +10,40 @@
 
 namespace unicursal::sim {
 
-/// Where a move goes and what it asks for.
+/// The end of a move and its speed.
 struct MoveTarget {
-  std::array<double, 3> place{};  ///< mm, machine's frame
-  double e = 0;                   ///< mm, logical
-  double speed = 0;               ///< mm/s along the move, M220 included
-  bool held_at_edge = false;      ///< the bed's edge cut it short (software endstops)
+  std::array<double, 3> place{};  ///< Position in the machine's frame, mm.
+  double e = 0;                   ///< Logical E, mm.
+  double speed = 0;               ///< Speed along the move, M220 included, mm/s.
+  bool held_at_edge = false;      ///< Whether the software endstops held it at the bed's edge.
 };
 
 class Coordinates {
  public:
-  /// `bed`: mm; homed axes stay within it.
+  /// `bed` is its size in mm; homed axes stay within it.
   explicit Coordinates(const std::array<double, 3>& bed) : bed_(bed) {}
 
-  /// Also remembers F, as G0 and G1 do.
+  /// Returns the target of a G0 or G1, and remembers its F.
   MoveTarget target(const Command& command);
   void arrive(const MoveTarget& target);
   void shift_origin(const Command& command);  ///< G92
 
-  void set_absolute(bool absolute) { absolute_ = absolute_e_ = absolute; }  ///< G90, G91: E too
+  void set_absolute(bool absolute) { absolute_ = absolute_e_ = absolute; }  ///< G90, G91; includes E.
   void set_absolute_e(bool absolute) { absolute_e_ = absolute; }            ///< M82, M83
   void set_inches(bool inches) { unit_ = inches ? 25.4 : 1; }
   void set_feed_percent(double percent) { feed_ = limited(percent); }
   void set_flow_percent(double percent) { flow_ = limited(percent); }
 
-  /// Multiplies filament (M221).
+  /// Factor of the filament (M221).
   double flow() const { return flow_; }
   const std::array<double, 3>& place() const { return place_; }
   double e() const { return e_; }
-  /// What M114 calls X, Y, Z.
+  /// X, Y or Z as M114 reports it.
   double logical(Axis axis) const { return place_[axis] - origin_[axis]; }
 
   void home(Axis axis);
   void forget_home() { homed_ = {}; }
-  /// After an abrupt stop: where the machine really is.
+  /// To be called after an abrupt stop, with the position that the machine has really reached.
   void stopped_at(const std::array<double, 3>& place, double e);
 
  private:
@@ -53,7 +53,7 @@ class Coordinates {
   std::array<double, 3> place_{}, origin_{};
   std::array<bool, 3> homed_{};
   double e_ = 0;
-  double speed_ = 25;  ///< mm/s, until the first F
+  double speed_ = 25;  ///< The last F, mm/s; 25 before the first one.
   double unit_ = 1, feed_ = 1, flow_ = 1;
   bool absolute_ = true, absolute_e_ = true;
 };

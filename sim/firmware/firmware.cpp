@@ -11,8 +11,8 @@ namespace {
 
 constexpr double busy_interval = 2;  // s between busy lines
 constexpr double heat_interval = 1;  // s between the lines of M109 and M190
-constexpr double heat_look = 0.25;   // s between looks at the thermometer while M109 and M190 wait
-constexpr double residency = 10;     // s that a heater must have been hot for M109 and M190
+constexpr double heat_look = 0.25;   // s between checks of the temperature while M109 or M190 waits
+constexpr double residency = 10;     // s for which a heater must have been hot before M109 or M190 ends
 
 LineCheck::Rules rules_of(const Personality& personality) {
   return personality.family == Personality::Family::repetier ? LineCheck::Rules::repetier
@@ -245,8 +245,8 @@ void Firmware::refuse(LineVerdict::Kind kind) {
   say("ok");
 }
 
-/// Without a number, three commands act when they are received, ahead of the queue. Only a kill ends there;
-/// the others are queued as well and answered in their turn.
+/// Three unnumbered commands act as soon as they are received, ahead of the queue. M112 ends there; M108 and
+/// M410 are queued as well, and answered in their turn.
 bool Firmware::handled_at_once(std::string_view line) {
   if (line.starts_with("M112")) {
     emergency_stop({'M', 112});
@@ -292,7 +292,7 @@ bool Firmware::over(Wait& wait) {
   return true;
 }
 
-/// As Marlin's TEMP_RESIDENCY_TIME: the time starts at the target and starts anew when it strays.
+/// As Marlin's TEMP_RESIDENCY_TIME: the time starts at the target, and starts again when the heater strays.
 bool Firmware::hot_for_long(Wait& wait) {
   HeatWait& heat = *wait.heat;
   if (!heat.since && heat.heater->arrived(now_, heat.heating_only)) heat.since = now_;

@@ -1,15 +1,16 @@
 // A printer's firmware: bytes in, lines of replies out, moves to a sink. It behaves like Marlin 2.1.2 with a
-// mixing extruder (firmware facts); what other families do differently overrides it. It has no clock of its
-// own: whoever holds it says how far printer time goes, so it can run in real time, in leaps, or step by step
-// in a test.
+// mixing extruder (sim/README.md, "Marlin 2.1"); other families override the functions in which they differ.
+// It has no clock of its own: its owner decides how far printer time advances, so it can run in real time, in
+// leaps, or step by step in a test.
 //
 //   Firmware printer(machine, personality("marlin"), bed, [](std::string_view line) { … });
-//   printer.receive("G28\n");                                 // answers what needs no time
+//   printer.receive("G28\n");                                 // executes what needs no time
 //   while (printer.blocked()) printer.advance(*printer.next_event());
 //
-// Order of things, as on the board: bytes wait in the receive buffer; lines are checked and queued as long as
-// fewer than four commands are (the running one counts); commands run one at a time; a move is answered when
-// it is planned, most others when they are done. Units: mm, mm/s, °C, printer seconds since power-up.
+// The order of events is that of the board: bytes wait in the receive buffer; lines are checked and queued
+// while fewer than four commands are queued (the running one counts); commands run one at a time; a move is
+// answered when it is planned, most other commands when they are done. Units: mm, mm/s, °C, printer seconds
+// since power-up.
 #pragma once
 
 #include <array>
@@ -37,7 +38,7 @@
 namespace unicursal::sim {
 
 struct Machine {
-  std::array<double, 3> bed{200, 200, 200};  ///< mm
+  std::array<double, 3> bed{200, 200, 200};  ///< Bed size, mm.
   MotionLimits limits;
   std::size_t feeders = 3;
   HeaterModel nozzle;
@@ -45,29 +46,29 @@ struct Machine {
 };
 
 struct LineCounts {
-  std::uint64_t received = 0;         ///< complete lines that were not blank
-  std::uint64_t accepted = 0;         ///< numbered lines taken
-  std::uint64_t executed = 0;         ///< commands done, numbered or not
-  std::uint64_t checksum_errors = 0;  ///< a wrong one, or none beside a number
-  std::uint64_t number_errors = 0;
-  std::uint64_t resends = 0;
-  std::uint64_t repeated = 0;  ///< dropped in silence
-  std::uint64_t skipped = 0;   ///< repeated, and answered so (Repetier)
-  std::uint64_t unknown = 0;
-  std::uint64_t unseen_damage = 0;  ///< damaged on the way, and the 8-bit checksum fits all the same
-  std::uint64_t disguised = 0;      ///< damaged so that they looked like lines without a number
-  std::uint64_t while_booting = 0;  ///< bytes that came before the firmware ran
-  std::uint64_t resets = 0;         ///< after power-up
-  bool executed_in_order = true;    ///< every numbered line once, each one more than the one before
+  std::uint64_t received = 0;         ///< Complete lines that were not blank.
+  std::uint64_t accepted = 0;         ///< Numbered lines that were accepted.
+  std::uint64_t executed = 0;         ///< Executed commands, numbered or not.
+  std::uint64_t checksum_errors = 0;  ///< Numbered lines with a wrong checksum or without one.
+  std::uint64_t number_errors = 0;    ///< Lines with an unexpected number.
+  std::uint64_t resends = 0;          ///< Requests for a line.
+  std::uint64_t repeated = 0;         ///< Repeated lines that were dropped silently.
+  std::uint64_t skipped = 0;          ///< Repeated lines that were answered with `skip` (Repetier).
+  std::uint64_t unknown = 0;          ///< Unknown commands.
+  std::uint64_t unseen_damage = 0;    ///< Damaged lines that were accepted, since the 8-bit checksum matched.
+  std::uint64_t disguised = 0;        ///< Damaged lines that looked like lines without a number.
+  std::uint64_t while_booting = 0;    ///< Bytes that arrived while the firmware booted.
+  std::uint64_t resets = 0;           ///< Resets after power-up.
+  bool executed_in_order = true;      ///< Whether each numbered line was executed once, in order.
 };
 
 class Firmware {
  public:
-  /// Takes one line of reply, without its newline.
+  /// Receives each line of the replies, without its newline.
   using Reply = std::function<void(std::string_view line)>;
-  /// Sees every complete line that comes in, and says what the firmware takes it for.
+  /// Sees every complete line that arrives, and returns the firmware's error with it.
   using LineWatch = std::function<Misreading(std::string_view line)>;
-  /// Sees every command that is executed, without its number and checksum.
+  /// Sees every command that is executed, without line number and checksum.
   using CommandWatch = std::function<void(const std::string& command)>;
 
   Firmware(const Machine& machine, const Personality& personality, MoveSink& sink, Reply reply);
@@ -75,30 +76,30 @@ class Firmware {
   Firmware(const Firmware&) = delete;
   Firmware& operator=(const Firmware&) = delete;
 
-  /// Power comes on: after the personality's time it says what it is. Without this it is up from the start.
+  /// Power comes on: the firmware boots and then says what it is. Without this call it is ready at once.
   void boot();
-  /// The board's reset: motion stops where it is, heaters go off, everything in memory is forgotten; boots.
+  /// Resets the board: motion stops where it is, heaters go off, memory is cleared, and the firmware boots.
   void reset();
-  /// Bytes arrive now.
+  /// Receives bytes at the current time.
   void receive(const std::vector<WireByte>& bytes);
   void receive(std::string_view bytes);
-  /// Lets printer time run; everything due until then happens, in order.
+  /// Advances printer time to `until`; everything that is due happens, in order.
   void advance(double until);
   double now() const { return now_; }
-  /// When the next thing happens by itself; nothing when the printer rests or is dead.
+  /// The time of the next event that happens by itself; nullopt if the printer is idle or dead.
   std::optional<double> next_event() const;
-  /// The running command waits for time to pass, or the firmware boots.
+  /// Whether the running command waits for time to pass, or the firmware boots.
   bool blocked() const { return booting_ || (running_ && !dead() && !silent()); }
   bool booting() const { return booting_; }
-  /// Lets time run until every command received has been done and all is still.
+  /// Advances time until every received command has been executed and all motion has ended.
   void run_down();
 
-  // What a fault can do to it
+  // Observation and faults
   void watch_lines(LineWatch watch) { watch_ = std::move(watch); }
   void watch_commands(CommandWatch watch) { command_watch_ = std::move(watch); }
-  /// Neither reads nor answers for so long; moves go on.
+  /// Neither reads nor answers for `seconds`; moves continue.
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
-  /// Stops itself for good and says why.
+  /// Stops for good, with `reason` as an error message.
   virtual void die(const std::string& reason);
 
   bool killed() const { return killed_; }
@@ -115,7 +116,7 @@ class Firmware {
   const Heater& bed() const { return bed_; }
   Heater& nozzle() { return nozzle_; }
   Heater& bed() { return bed_; }
-  /// What a user should know about, and how often it happened.
+  /// Events that a user should know about, and how often each happened.
   const std::map<std::string, std::uint64_t>& warnings() const { return warnings_; }
 
  protected:
@@ -123,28 +124,28 @@ class Firmware {
     std::optional<std::int64_t> number;
     std::string body;
   };
-  /// A heater that has to be at its target for a while.
+  /// A wait for a heater to stay at its target for a while.
   struct HeatWait {
     const Heater* heater;
     bool heating_only;
-    std::optional<double> since;  ///< it is there
+    std::optional<double> since;  ///< The time at which it reached its target.
   };
-  /// Something that the running command waits for, and what it does then.
+  /// A condition that the running command waits for, and the action that follows.
   struct Wait {
     enum class For { room, stillness, time, heat } what;
-    double until = 0;            ///< printer time; for heat when to look again
-    std::function<void()> then;  ///< may add waits
+    double until = 0;            ///< Printer time; for heat the time of the next check.
+    std::function<void()> then;  ///< May add further waits.
     std::optional<HeatWait> heat;
   };
   using Handler = void (Firmware::*)(const Command&);
 
-  // What families do differently, from the line to the ok
+  // The steps from line to ok in which families differ
   virtual void repeated(std::int64_t) { ++counts_.repeated; }
   virtual void refuse(LineVerdict::Kind kind);
   virtual bool handled_at_once(std::string_view line);
-  /// A line has been taken into the queue.
+  /// Called when a line has been queued.
   virtual void taken(const Line&) {}
-  /// The running command is done, but still in the queue.
+  /// Called when the running command is done, while it is still in the queue.
   virtual void done(const Line& line);
   virtual void say_busy() { say("echo:busy: processing"); }
   virtual void say_heating(const HeatWait& wait);
@@ -152,13 +153,13 @@ class Firmware {
   virtual void say_refused(const char* what);
   virtual bool knows(const Command& command) const;
   virtual Mix current_mix() const { return mixer_.current(); }
-  /// Things that the firmware does by itself; nothing when there are none.
+  /// The time at which the family next does something by itself; nullopt if it will not.
   virtual std::optional<double> next_habit() const { return std::nullopt; }
   virtual void follow_habits() {}
-  /// What a reset makes it forget, and the time from which habits count.
+  /// Clears the family's own memory after a reset, and restarts the times of its habits.
   virtual void forget() {}
 
-  // firmware.cpp: lines in, commands one at a time, time
+  // firmware.cpp: incoming lines, commands one at a time, time
   void settle();
   void read_lines();
   void take(const std::string& line, bool damaged);
@@ -173,7 +174,7 @@ class Firmware {
   void tick_heaters();
   void wake_up();
   bool frozen() const { return now_ < stalled_until_; }
-  /// Frozen for ever.
+  /// Whether it is frozen for ever.
   bool silent() const { return stalled_until_ == std::numeric_limits<double>::infinity(); }
   bool dead() const { return killed_ || planner_.stuck(); }
   bool idle() const { return !running_ && queue_.empty(); }
@@ -187,7 +188,7 @@ class Firmware {
   void wait_seconds(double seconds, std::function<void()> then);
   void wait_for_heater(const Heater& heater, bool heating_only);
 
-  // commands.cpp: what each command does
+  // commands.cpp: the commands
   static const std::map<std::pair<char, int>, Handler>& handlers();
   void execute(const std::string& body);
   bool extruder_exists(const Command& command);
@@ -238,7 +239,7 @@ class Firmware {
   ReceiveBuffer buffer_;
   LineAssembler assembler_;
   LineCheck check_;
-  bool line_damaged_ = false;  ///< the one being read
+  bool line_damaged_ = false;  ///< Whether the line that is being read is damaged.
   LineCounts counts_;
   std::deque<Line> queue_;
   std::deque<Wait> waits_;
@@ -249,17 +250,17 @@ class Firmware {
   std::map<std::string, std::uint64_t> warnings_;
 
   double now_ = 0;
-  double filament_ = 0;             ///< mm asked of the feeders since power-up
-  PerAxis<std::int64_t> origin_{};  ///< steps: where the machine stood when the firmware last booted
+  double filament_ = 0;             ///< Filament that the feeders were asked for since power-up, mm.
+  PerAxis<std::int64_t> origin_{};  ///< Position of the machine when the firmware last booted, steps.
   bool booting_ = false, running_ = false, answers_ok_ = true, killed_ = false;
-  double boot_at_ = 0;  ///< when booting is over
+  double boot_at_ = 0;  ///< End of the boot.
   double stalled_until_ = 0;
-  std::int64_t last_executed_ = 0;  ///< line number
-  double busy_at_ = 0;              ///< when to say that a command still runs
+  std::int64_t last_executed_ = 0;  ///< Number of the last executed line.
+  double busy_at_ = 0;              ///< Time of the next busy message.
   double heat_report_at_ = 0;
-  double report_interval_ = 0, report_at_ = 0;  ///< M155; 0: off
-  double inactivity_ = 0;                       ///< M85, s; 0: off
-  double active_at_ = 0;                        ///< last command or motion
+  double report_interval_ = 0, report_at_ = 0;  ///< M155; interval 0 = off.
+  double inactivity_ = 0;                       ///< M85, s; 0 = off.
+  double active_at_ = 0;                        ///< Time of the last command or motion.
 };
 
 }  // namespace unicursal::sim

@@ -8,13 +8,13 @@ namespace unicursal::sim {
 
 namespace {
 constexpr int full = 127;
-constexpr double period = 0.25;        // s between two acts of the control
-constexpr double control_range = 10;   // °C from the target: beyond, all or nothing
+constexpr double period = 0.25;        // s between two steps of the control
+constexpr double control_range = 10;   // °C from the target, beyond which power is all or nothing
 constexpr double window = 1;           // °C from the target that count as reached
-constexpr double hysteresis = 3;       // °C from the target at which it has strayed
+constexpr double hysteresis = 3;       // °C from the target that count as strayed
 constexpr double watch_increase = 2;   // °C
-constexpr double min_temp = 5;         // °C: below, no thermometer can be there
-constexpr double no_thermistor = -15;  // °C that an open input reads
+constexpr double min_temp = 5;         // °C: a lower reading means a missing thermistor
+constexpr double no_thermistor = -15;  // °C: the reading of an open input
 }  // namespace
 
 HeaterModel HeaterModel::bed() {
@@ -29,7 +29,7 @@ HeaterModel HeaterModel::bed() {
   return model;
 }
 
-/// Share of full power that really heats.
+/// Share of full power that the heater really delivers.
 double Heater::delivered() const {
   if (defect_ == Defect::open) return 0;
   if (defect_ == Defect::closed) return 1;
@@ -71,7 +71,7 @@ void Heater::set_target(double now, double target) {
   tick_at_ = now + period;
 }
 
-/// As in Marlin: only a target well above what is there has to be seen approaching.
+/// As in Marlin, only a heater that is well below its target is watched.
 void Heater::start_watch(double now) {
   watch_until_.reset();
   const double reading = temperature(now);

@@ -1,12 +1,12 @@
-// A heater with its thermometer and the firmware's control of it. The block warms towards the temperature
-// that its power gives in the long run, with one time constant; the thermometer follows the block with
-// another. Between two ticks of the control the power is constant, so every temperature has a closed form and
-// the clock may jump. °C, printer seconds.
+// A heater with its sensor, and the firmware's control of it. The block approaches the steady-state
+// temperature of its power with one time constant; the sensor follows the block with another (sim/README.md,
+// Physics). Between two steps of the control the power is constant, so every temperature has a closed-form
+// solution and the clock can jump. °C, printer seconds.
 //
-// Control: full power while far below the target, none while far above, between them proportional and
-// integral (Marlin's PID without its D, which the model's clean thermometer does not need). Protection as in
-// Marlin 2.1 with its default periods: a heater that does not warm, one that falls behind its target, and a
-// thermometer that reads what cannot be.
+// Control: full power far below the target, none far above, proportional and integral in between (Marlin's
+// PID without D, which the noise-free sensor of this model does not need). Protection as in Marlin 2.1 with
+// its default periods: a heater that does not warm up, one that falls behind its target, and an impossible
+// reading of the sensor.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@
 namespace unicursal::sim {
 
 struct HeaterModel {
-  double limit = 425;           ///< °C reached at full power after a long time
-  double time_constant = 120;   ///< s
-  double highest_target = 260;  ///< the firmware cuts higher targets down to this
-  double sensor_lag = 2;        ///< s
-  double gain = 0.06;           ///< share of full power for each °C below the target
-  double integral_time = 20;    ///< s
-  double watch_period = 40;     ///< s within which it must have warmed by 2 °C
-  double runaway_period = 40;   ///< s that it may be behind its target
-  double runaway_margin = 4;    ///< °C behind the target that count
-  double max_temp = 275;        ///< °C: above, the firmware stops everything
+  double limit = 425;           ///< Steady-state temperature at full power, °C.
+  double time_constant = 120;   ///< Time constant of the block, s.
+  double highest_target = 260;  ///< The firmware limits higher targets to this, °C.
+  double sensor_lag = 2;        ///< Time constant of the sensor, s.
+  double gain = 0.06;           ///< Share of full power for each °C below the target.
+  double integral_time = 20;    ///< s.
+  double watch_period = 40;     ///< Time within which it must warm up by 2 °C, s.
+  double runaway_period = 40;   ///< Time for which it may be behind its target, s.
+  double runaway_margin = 4;    ///< Difference from the target that counts as behind, °C.
+  double max_temp = 275;        ///< Above this the firmware stops everything, °C.
 
   static HeaterModel bed();
 };
@@ -32,39 +32,38 @@ inline constexpr double room_temperature = 25;  ///< °C
 
 class Heater {
  public:
-  /// What the protection has found.
+  /// Alarms of the protection.
   enum class Alarm { heating_failed, thermal_runaway, min_temp, max_temp };
-  /// What can break.
   enum class Defect {
     none,
-    open,    ///< the cartridge gives no heat
-    closed,  ///< its transistor does not switch off
+    open,    ///< The cartridge gives no heat.
+    closed,  ///< The transistor does not switch off.
   };
 
   explicit Heater(const HeaterModel& model) : model_(model) {}
 
   void set_target(double now, double target);
   double target() const { return target_; }
-  /// What the firmware reads.
+  /// The reading of the sensor.
   double temperature(double now) const;
-  /// Of the block itself.
+  /// The temperature of the block itself.
   double block(double now) const;
-  /// Firmware's measure of power, 0…127.
+  /// Power in the firmware's units, 0…127.
   int power() const { return power_; }
 
-  /// When the control next acts; nothing when there is nothing to control.
+  /// The time of the control's next step; nullopt if there is nothing to control.
   std::optional<double> next_tick() const;
-  /// Lets the control act if it is due.
+  /// Runs the control if it is due, and returns its alarm, if any.
   std::optional<Alarm> tick(double now);
 
-  /// Whether a wait may end: `heating_only` waits only while it is too cold, otherwise for both.
+  /// Whether a wait may end: near the target, or, with `heating_only`, not below it.
   bool arrived(double now, bool heating_only) const;
-  /// It has been there and has left again.
+  /// Whether it is so far from the target that a wait must start again.
   bool strayed(double now) const;
 
   void break_down(double now, Defect defect);
   void pull_thermistor(double now);
-  /// The board resets: no target, full of hope. Heat and defects stay.
+  /// Board reset: clears target and protection state; keeps temperature and defects.
   void reset(double now);
 
  private:
@@ -83,17 +82,17 @@ class Heater {
   bool pulled_ = false;
   double target_ = 0;
   int power_ = 0;
-  double integral_ = 0;                              ///< share of full power
-  double since_ = 0;                                 ///< of the present power
-  Sample from_{room_temperature, room_temperature};  ///< then
+  double integral_ = 0;                              ///< Share of full power.
+  double since_ = 0;                                 ///< Time of the last change of power.
+  Sample from_{room_temperature, room_temperature};  ///< Temperatures at that time.
   double tick_at_ = 0;
-  std::optional<double> watch_until_;  ///< must have warmed by then
-  double watch_goal_ = 0;              ///< °C
-  bool reached_ = false;               ///< the target, once
+  std::optional<double> watch_until_;  ///< It must have reached `watch_goal_` by then.
+  double watch_goal_ = 0;              ///< °C.
+  bool reached_ = false;               ///< Whether it has reached the target once.
   std::optional<double> behind_since_;
 };
 
-/// "Thermal Runaway, system stopped! Heater_ID: 0", as Marlin 2.1 words it. `id`: "0" or "bed".
+/// The alarm in Marlin 2.1's words, such as "Thermal Runaway".
 const char* sentence(Heater::Alarm alarm);
 
 }  // namespace unicursal::sim

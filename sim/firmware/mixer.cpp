@@ -17,7 +17,7 @@ void Mixer::collect(double feeder, double share) {
   collector_[static_cast<std::size_t>(feeder)] = std::max(share, 0.0);
 }
 
-/// Fractions of a step are cut off, as the firmware's conversion to integers does.
+/// Truncates fractions, as the firmware's conversion to integers does.
 Factors Mixer::factors_for(const PerFeeder<double>& shares) const {
   const double largest = *std::max_element(shares.begin(), shares.end());
   Factors factors{};

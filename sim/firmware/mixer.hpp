@@ -1,5 +1,5 @@
-// Virtual tools of Marlin 2.1's mixing extruder (firmware facts, "Mixing in Marlin 2.1"):
-// M163 fills a collector that persists; M164 copies it into a tool as integers relative to the largest.
+// Virtual tools of Marlin 2.1's mixing extruder (sim/README.md, "Mixing in Marlin"): M163 fills a collector
+// that persists; M164 copies it into a tool as integers relative to the largest share.
 #pragma once
 
 #include <array>
@@ -14,20 +14,19 @@ class Mixer {
  public:
   static constexpr int tools = 16;
 
-  /// `full_scale`: factor of the largest share, 32768 on 32-bit boards and 128 on 8-bit ones.
-  /// Precondition: 1 ≤ feeders ≤ max_feeders. T0, T1… are pure as far as there are feeders, the others
-  /// feeder 1.
+  /// `full_scale` is the factor of the largest share: 32768 on 32-bit boards, 128 on 8-bit boards. The first
+  /// tools are the pure feeders; all others are feeder 1. Precondition: 1 ≤ feeders ≤ max_feeders.
   Mixer(std::size_t feeders, std::int32_t full_scale);
 
-  /// M163. A negative share counts as zero; a feeder that is not there is ignored.
+  /// M163. A negative share counts as zero; a feeder that does not exist is ignored.
   void collect(double feeder, double share);
-  /// M164. A tool that is not there is ignored.
+  /// M164. A tool that does not exist is ignored.
   void store(double tool);
   void store() { store(selected_); }
-  /// M165: the present tool, past the collector. Negative shares count as zero.
+  /// M165: sets the current tool without the collector. Negative shares count as zero.
   void set_current(const PerFeeder<double>& shares);
 
-  bool select(double tool);  ///< false when there is no such tool
+  bool select(double tool);  ///< Returns false if the tool does not exist.
   int selected() const { return selected_; }
   Mix current() const { return {selected_, factors_[static_cast<std::size_t>(selected_)]}; }
 

@@ -7,7 +7,7 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double eight_bit_boot = 1.5;       // s: the boot loader waits for a new firmware first
+constexpr double eight_bit_boot = 1.5;       // s: the boot loader first waits for a new firmware
 constexpr double eight_bit_step_rate = 4e4;  // steps/s
 
 Personality marlin() {
@@ -62,7 +62,8 @@ const Personality& personality(std::string_view name) {
     if (one.name == name) return one;
     names += (names.empty() ? "" : ", ") + std::string(one.name);
   }
-  throw std::invalid_argument("there is no personality \"" + std::string(name) + "\"; there are " + names);
+  throw std::invalid_argument("there is no personality \"" + std::string(name) + "\"; the names are " +
+                              names);
 }
 
 }  // namespace unicursal::sim

@@ -48,7 +48,8 @@ void Repetier::repeated(std::int64_t number) {
   say("ok");
 }
 
-/// Once asked, it swallows what comes until it has the line, and asks again by its own clock.
+/// After the first request it discards all input until it has the line, and repeats the request by its own
+/// clock.
 void Repetier::refuse(LineVerdict::Kind kind) {
   ++(kind == LineVerdict::Kind::wrong_number ? counts_.number_errors : counts_.checksum_errors);
   buffer_.flush();
@@ -120,7 +121,7 @@ void Repetier::report_firmware(const Command&) {
       "EXTRUDER_COUNT:1");
 }
 
-/// P is read as an integer; at once, for everything that is still to be fed.
+/// P is read as an integer, and acts at once on everything that is still to be fed.
 void Repetier::collect_share(const Command& command) {
   const double feeder = command.value_or('S', 0);
   if (feeder < 0 || feeder >= static_cast<double>(machine_.feeders)) return;

@@ -1,8 +1,7 @@
-// What Repetier 1.0.4 does unlike Marlin (firmware facts): it says ok when a line is received; it repeats its
-// requests for a line; repeated lines are skipped with a word; the mixture is the extruder's present one, not
-// the move's, so a change acts on the moves that run; and it tells when it is idle.
-// Departures: the lines that it swallows while it waits for a resend are not limited in number; M112 has the
-// same boot as power-up.
+// Repetier 1.0.4, as far as it differs from Marlin (sim/README.md, "Repetier"): it says ok when a line is
+// received; it repeats its requests for a line; it answers repeated lines with `skip`; the mixture belongs to
+// the extruder and not to a move, so a change affects moves that already run; and it reports that it is idle.
+// Departures: it discards any number of lines while it waits for a resend; M112 boots as at power-up.
 #pragma once
 
 #include <memory>
@@ -50,12 +49,12 @@ class Repetier final : public Firmware {
   Factors live_{};
   std::array<Factors, tools> tools_{};
   int selected_ = 0;
-  bool waits_for_line_ = false;  ///< that it has asked for
-  double ask_at_ = 0;            ///< again
-  double idle_at_ = 0;           ///< when to say that it waits
+  bool waits_for_line_ = false;  ///< Whether it has asked for a line.
+  double ask_at_ = 0;            ///< Time of the next request.
+  double idle_at_ = 0;           ///< Time of the next "wait".
 };
 
-/// The family that the personality belongs to.
+/// Makes a firmware of the personality's family.
 std::unique_ptr<Firmware> make_firmware(const Machine& machine, const Personality& personality,
                                         MoveSink& sink, Firmware::Reply reply);
 

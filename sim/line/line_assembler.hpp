@@ -1,6 +1,6 @@
-// Bytes to lines, as Marlin's input stage does it: a line ends with CR or LF; `;` starts a comment that
-// reaches to the end of the line (and swallows a checksum behind it); a backslash keeps the byte behind it
-// from starting one; 95 characters are kept and the rest of a longer line is dropped, its checksum included.
+// Splits bytes into lines as Marlin's input stage does: a line ends with CR or LF; `;` starts a comment that
+// extends to the end of the line (and swallows a checksum behind it), unless a backslash precedes it; the
+// first 95 characters are kept, and the rest of a longer line is dropped, its checksum included.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace unicursal::sim {
 
 class LineAssembler {
  public:
-  static constexpr std::size_t longest = 95;  ///< characters kept of a line
+  static constexpr std::size_t longest = 95;  ///< Characters of a line that are kept.
 
-  /// Returns the finished line when `byte` ends one that holds anything but spaces.
+  /// Returns the finished line if `byte` ends a line that is not blank.
   std::optional<std::string> push(char byte);
-  /// Forgets the line begun.
+  /// Discards the unfinished line.
   void reset();
 
-  std::uint64_t too_long() const { return too_long_; }  ///< lines that lost characters
+  std::uint64_t too_long() const { return too_long_; }  ///< Lines that lost characters.
 
  private:
   std::optional<std::string> finish();

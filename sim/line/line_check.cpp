@@ -11,7 +11,7 @@ namespace unicursal::sim {
 namespace {
 
 constexpr std::int64_t repetier_modulus = 65536, repetier_repeats = 40;
-/// Longer numbers end here, so that no arithmetic on them overflows.
+/// Larger numbers are clamped to this, so that no arithmetic on them overflows.
 constexpr std::int64_t largest_line_number = 1'000'000'000'000;
 
 std::string_view without_leading_spaces(std::string_view text) {
@@ -19,7 +19,7 @@ std::string_view without_leading_spaces(std::string_view text) {
   return first == std::string_view::npos ? std::string_view{} : text.substr(first);
 }
 
-/// The integer at the start of the text, 0 when there is none: what C's own conversion would give.
+/// The integer at the start of the text, or 0 if there is none, as C's strtol() gives it.
 std::int64_t leading_integer(std::string_view text) {
   text = without_leading_spaces(text);
   if (text.starts_with('+')) text.remove_prefix(1);

@@ -1,6 +1,10 @@
-// Line numbers and checksums, judged when a line is received and in the order in which Marlin 2.1 does it:
-// number first, then checksum. The checksum is the exclusive or of every byte before the last `*`. Repetier
-// compares numbers modulo 65536, and takes the last forty for repeated ones.
+// Checks the line number and checksum of a received line in Marlin 2.1's order: number first, then checksum.
+// The checksum is the exclusive or of all bytes before the last `*`. Repetier compares numbers modulo 65536,
+// and treats the last forty as repeated.
+//
+// This code shares nothing with the framing in host/link/ledger.hpp, on purpose: a mistake on one side must
+// not hide in the other. (firmware_gcode/review/line_check.hpp checks what lines do, not how they are
+// framed.)
 #pragma once
 
 #include <cstdint>
@@ -13,23 +17,23 @@ namespace unicursal::sim {
 struct LineVerdict {
   enum class Kind {
     accepted,
-    repeated,      ///< one of the last numbers again: not to be executed
-    wrong_number,  ///< not the last number + 1
+    repeated,      ///< One of the last numbers again: not to be executed.
+    wrong_number,  ///< Not the last number + 1.
     wrong_checksum,
-    no_checksum,  ///< a number, but no checksum
+    no_checksum,  ///< A number without a checksum.
   };
   Kind kind = Kind::accepted;
-  std::optional<std::int64_t> number;  ///< of a numbered line
-  std::string body;                    ///< an accepted line without number and checksum
+  std::optional<std::int64_t> number;  ///< nullopt if the line has none.
+  std::string body;                    ///< An accepted line without number and checksum; otherwise empty.
 };
 
-/// What a firmware that errs takes a sound line for.
+/// An error that a fault makes the firmware commit with a sound line.
 enum class Misreading {
   none,
   damaged,
   misnumbered,
   unchecked,
-  forgotten,  ///< it takes the line and does not know it afterwards
+  forgotten,  ///< It accepts the line, and then asks for it again.
 };
 
 class LineCheck {
@@ -40,7 +44,7 @@ class LineCheck {
 
   LineVerdict check(std::string_view line);
 
-  std::int64_t last() const { return last_; }  ///< the number accepted last
+  std::int64_t last() const { return last_; }  ///< The last accepted number.
   void set_last(std::int64_t number) { last_ = number; }
 
  private:
@@ -53,7 +57,7 @@ class LineCheck {
 };
 
 std::uint8_t checksum(std::string_view bytes);
-/// The sentence that follows "Error:" for a refused line, with the number of the last good one.
+/// The text after "Error:" for a refused line; `last` is the number of the last good line.
 std::string refusal(LineVerdict::Kind kind, std::int64_t last);
 
 }  // namespace unicursal::sim

@@ -1,5 +1,5 @@
-// The firmware's serial receive buffer: a ring in which one place always stays free. What does not fit is
-// lost without a word, as on the real board (firmware facts: capacity, overrun).
+// The firmware's serial receive buffer: a ring in which one place always stays free. Bytes that do not fit
+// are lost silently, as on a real board (sim/README.md, "Marlin 2.1": capacity, overrun).
 #pragma once
 
 #include <array>
@@ -13,24 +13,24 @@ namespace unicursal::sim {
 
 class ReceiveBuffer {
  public:
-  static constexpr std::size_t size = 128;           ///< bytes
-  static constexpr std::size_t capacity = size - 1;  ///< bytes that can really wait
+  static constexpr std::size_t size = 128;           ///< Bytes.
+  static constexpr std::size_t capacity = size - 1;  ///< Bytes that can wait.
 
-  /// Takes the byte if it fits; otherwise it is counted as lost, and the next one marked as damaged.
+  /// Stores the byte if it fits; otherwise counts it as lost and marks the next stored byte as damaged.
   void push(WireByte byte);
   std::optional<WireByte> pop();
-  /// Forgets everything that waits, as the firmware does when a line is damaged.
+  /// Discards all waiting bytes, as the firmware does when a line is damaged.
   void flush();
 
   bool empty() const { return used_ == 0; }
   std::size_t room() const { return capacity - used_; }
-  std::uint64_t lost() const { return lost_; }        ///< bytes that found no room
-  std::uint64_t flushed() const { return flushed_; }  ///< bytes that were thrown away by flush()
+  std::uint64_t lost() const { return lost_; }        ///< Bytes that did not fit.
+  std::uint64_t flushed() const { return flushed_; }  ///< Bytes that flush() discarded.
 
  private:
   std::array<WireByte, size> bytes_{};
   std::size_t first_ = 0, used_ = 0;
-  bool gap_ = false;  ///< bytes were lost behind the last one taken
+  bool gap_ = false;  ///< Whether bytes were lost after the last stored one.
   std::uint64_t lost_ = 0, flushed_ = 0;
 };
 

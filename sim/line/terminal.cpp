@@ -26,7 +26,7 @@ Descriptor open_slave(const std::string& path) {
   return slave;
 }
 
-/// Whether a new link may take this one's place.
+/// Whether a new link may replace this file.
 bool replaceable(const std::filesystem::path& link) {
   if (!std::filesystem::is_symlink(std::filesystem::symlink_status(link))) return false;
   return !std::filesystem::exists(link) || std::filesystem::is_character_file(link);
@@ -60,7 +60,7 @@ Terminal::Terminal(std::optional<std::filesystem::path> link)
     termios settings{};
     ::tcgetattr(slave.get(), &settings);
     ::cfmakeraw(&settings);
-    settings.c_cflag |= HUPCL;  // as a real port has it, unless a host says otherwise
+    settings.c_cflag |= HUPCL;  // the default of a real port
     if (::tcsetattr(slave.get(), TCSANOW, &settings) != 0) fail("cannot make " + path_ + " raw");
   }
   if (openings() < 0 || ::inotify_add_watch(openings(), path_.c_str(), IN_OPEN) < 0)

@@ -1,5 +1,5 @@
-// The pseudo-terminal at whose other end the host sits. The simulator holds the master; it never reads while
-// no host has the slave open, so it never meets the error that an orphaned master gives.
+// The pseudo-terminal that connects simulator and host. The simulator holds the master side. It never reads
+// while no host has the slave side open, so it never gets the error of a master without a slave.
 #pragma once
 
 #include <filesystem>
@@ -24,28 +24,28 @@ class Descriptor {
 
 class Terminal {
  public:
-  /// `link`: a symbolic link to make to the terminal. One that is in the way is replaced when it is a link to
-  /// a terminal or to nothing. Throws std::system_error when a file is in the way or nothing can be made.
+  /// `link` is a symbolic link to make to the terminal. An existing link to a terminal and a dangling link
+  /// are replaced. Throws std::system_error if another file is in the way or the terminal cannot be made.
   explicit Terminal(std::optional<std::filesystem::path> link);
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
   ~Terminal();
 
-  /// What a host opens: /dev/pts/N.
+  /// The path that a host opens: /dev/pts/N.
   const std::string& path() const { return path_; }
   int master() const { return master_.get(); }
-  /// Becomes readable when somebody opens the terminal.
+  /// A descriptor that becomes readable when a host opens the terminal.
   int openings() const { return openings_.get(); }
   void forget_openings();
-  /// A host has the terminal open, or has left something to read.
+  /// Whether a host has the terminal open, or has left bytes to read.
   bool host_present() const;
-  /// What the host has sent, empty when there is nothing now; nothing when it has hung up and all was read.
+  /// Returns the bytes that the host has sent, perhaps none; nullopt if it has hung up and all were read.
   std::optional<std::string> read();
-  /// Hands over what fits and takes it off `bytes`.
+  /// Writes as many bytes as fit and removes them from `bytes`.
   void write(std::string& bytes);
-  /// Whether the line drops DTR when it is closed, so that the next opening resets many boards.
+  /// Whether closing the line drops DTR, so that the next opening resets many boards.
   bool drops_dtr() const;
-  /// Drops what a host has left unread, so that the next one starts afresh.
+  /// Discards the bytes that a host has not read, so that the next host does not get them.
   void clear();
 
  private:

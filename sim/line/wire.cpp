@@ -38,7 +38,7 @@ void Wire::speak(double now, std::string_view bytes) {
   }
 }
 
-/// How many of the waiting bytes make the next packet.
+/// The number of waiting bytes that form the next packet.
 std::size_t Wire::packet_size() const {
   if (model_.usb == Usb::ftdi) return std::min(up_.size(), ftdi_packet);
   const auto newline =

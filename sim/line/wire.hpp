@@ -1,10 +1,10 @@
 // The cable: ten bits for each byte at the line's baud rate, one byte after the other, in both directions;
-// and the USB chip, which collects what the printer says and hands it to the computer in packets. Bytes carry
-// a mark when something was lost or changed on the way, so that damage which the firmware does not notice can
-// be counted. Printer seconds.
+// and the USB chip, which hands the printer's bytes to the computer in packets. A byte is marked as damaged
+// if it was changed or bytes before it were lost, so that damage which the firmware does not notice can be
+// counted. Printer seconds.
 //
-// Departure: an FTDI chip's timer runs freely; here it starts with the first byte of a packet, which is the
-// slowest that it can be. What the computer sends leaves at once (USB's frames are short against a line).
+// Departures: an FTDI chip's timer runs freely; here it starts with the first byte of a packet, which is the
+// worst case. Bytes from the computer leave at once, since a USB frame is short compared with a line.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +17,17 @@
 namespace unicursal::sim {
 
 enum class Usb {
-  none,  ///< every finished line, or what there is when the printer pauses, is handed over at once
-  cdc,   ///< at the next frame of 1 ms
-  ftdi,  ///< when 62 bytes are there, or 16 ms after the first
+  none,  ///< Delivers every line at once when it is complete, or what there is when the printer pauses.
+  cdc,   ///< Delivers at the next frame of 1 ms.
+  ftdi,  ///< Delivers when 62 bytes are there, or 16 ms after the first.
 };
 
 struct WireModel {
-  double baud = 0;  ///< bits/s; 0: bytes take no time
+  double baud = 0;  ///< bits/s; 0 = bytes take no time.
   Usb usb = Usb::none;
 };
 
-/// A byte and whether the line did something to it or just before it.
+/// A byte, and whether it or a byte just before it was damaged on the line.
 struct WireByte {
   char value = 0;
   bool damaged = false;
@@ -37,34 +37,35 @@ class Wire {
  public:
   explicit Wire(const WireModel& model) : model_(model) {}
 
-  /// The computer writes; bytes follow those still on their way.
+  /// The computer writes; the bytes follow those still in transit.
   void write(double now, const std::vector<WireByte>& bytes);
-  /// When the printer next has a whole line more, or all that is on its way.
+  /// The time at which the next complete line, or else the last byte in transit, reaches the printer.
   std::optional<double> next_arrival() const;
-  /// Those bytes that are there by `now`, in order.
+  /// Returns the bytes that have reached the printer by `now`, in order.
   std::vector<WireByte> arrive(double now);
 
-  /// The printer speaks.
+  /// The printer sends bytes.
   void speak(double now, std::string_view bytes);
-  /// When the computer next gets something.
+  /// The time of the next delivery to the computer.
   std::optional<double> next_delivery() const;
-  /// What it gets by `now`, at most `longest` bytes; the rest stays.
+  /// Returns the bytes delivered to the computer by `now`. It stops after the packet that reaches `longest`
+  /// bytes; the rest stays.
   std::string deliver(double now, std::size_t longest);
 
-  /// Forgets everything on its way.
+  /// Discards everything in transit.
   void cut();
 
  private:
   struct Travelling {
     WireByte byte;
-    double at = 0;  ///< when it arrives
+    double at = 0;  ///< Time of arrival.
   };
 
   double byte_seconds() const { return model_.baud > 0 ? 10 / model_.baud : 0; }
   std::size_t packet_size() const;
 
   WireModel model_;
-  std::deque<Travelling> down_, up_;  ///< to the printer, to the computer
+  std::deque<Travelling> down_, up_;  ///< Bytes to the printer, and to the computer.
   double down_free_ = 0, up_free_ = 0;
 };
 

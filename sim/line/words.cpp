@@ -24,7 +24,7 @@ class Reader {
     while (peek() == ' ') ++at_;
   }
 
-  /// A number at this place; nothing, and no step, when there is none.
+  /// Reads a number here; if there is none, returns nullopt and does not advance.
   std::optional<double> number() {
     const std::size_t start = at_;
     const bool negative = peek() == '-';
@@ -49,7 +49,7 @@ class Reader {
     while (is_digit(peek())) value = value * 10 + (take() - '0');
     return at_ - start;
   }
-  /// Digits beyond a double's precision are passed over.
+  /// Skips digits beyond the precision of a double.
   std::size_t read_fraction(double& value) {
     constexpr double finest = 1e17;
     const std::size_t start = at_;

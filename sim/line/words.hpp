@@ -1,7 +1,7 @@
-// A command line taken apart into its words: `G1 X10 Y-2.5` is G 1 with X = 10 and Y = −2.5. This is the
-// printer's own reading of the text; nothing is shared with the host that writes it.
+// Parses a command line into its words: `G1 X10 Y-2.5` is G 1 with X = 10 and Y = −2.5. The parser shares
+// nothing with the code that writes the lines, on purpose (sim/README.md).
 // Grammar: G, M or T and a number; then upper-case letters, each with or without a decimal number, spaces
-// optional. Exponents are not read (E is a word). Lower case makes a line unknown, as in Marlin's default.
+// optional. There are no exponents (E is a word). A lower-case command is unknown, as in Marlin by default.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ class Command {
   int code() const { return code_; }
   bool is(char letter, int code) const { return letter_ == letter && code_ == code; }
 
-  /// Whether the word was there, with or without a number.
+  /// Whether the line has this word, with or without a number.
   bool has(char letter) const { return (seen_ & bit(letter)) != 0; }
   std::optional<double> value(char letter) const;
   double value_or(char letter, double otherwise) const { return value(letter).value_or(otherwise); }
@@ -37,10 +37,10 @@ class Command {
   std::array<double, 26> values_{};
 };
 
-/// Numbers are held within ± this, so that no text can overflow the arithmetic of steps.
+/// Numbers are clamped to ± this, so that no text can overflow the arithmetic of steps.
 inline constexpr double largest_number = 1e9;
 
-/// Nothing when the text does not start with G, M or T and a number.
+/// Returns nullopt if the text does not start with G, M or T and a number.
 std::optional<Command> parse_command(std::string_view text);
 
 }  // namespace unicursal::sim

@@ -17,7 +17,7 @@ PerFeeder<std::int64_t> FeederSplit::split(std::int64_t steps, const Factors& fa
     given[i] = static_cast<std::int64_t>(std::floor(owed_[i]));
     owed_[i] -= static_cast<double>(given[i]);
   }
-  // Rounding down leaves a few steps over: they go to those feeders of the mixture that are owed most.
+  // Rounding down leaves a few steps: they go to the feeders of the mixture that are owed the most.
   std::int64_t left = steps - std::accumulate(given.begin(), given.end(), std::int64_t{0});
   for (; left != 0; left -= left > 0 ? 1 : -1) {
     std::size_t chosen = max_feeders;

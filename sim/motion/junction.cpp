@@ -8,9 +8,9 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double hardly_faster =
-    0.99;  // of the corner's speed: from here on a start from rest takes its place
-constexpr double straight = 0.999999;     // cosines beyond this are no corner, or a complete turn
+/// Part of the corner's speed from which a start from rest replaces it.
+constexpr double hardly_faster = 0.99;
+constexpr double straight = 0.999999;     // cosines beyond this mean a straight line, or a complete reversal
 constexpr double short_move = 1;          // mm
 constexpr double slight_turn = -0.70711;  // cosine between the way back and the way on: a turn of 45°
 
@@ -33,7 +33,7 @@ double jump(double before, double after) {
   return before * after < 0 ? std::max(std::abs(before), std::abs(after)) : std::abs(after - before);
 }
 
-/// The acceleration along `direction` at which no axis exceeds its own.
+/// Limits `acceleration` along `direction` so that no axis exceeds its own limit.
 double within(const PerAxis<double>& limits, const Direction& direction, double acceleration) {
   for (std::size_t i = 0; i < axes; ++i) {
     if (direction[i] != 0) acceleration = std::min(acceleration, limits[i] / std::abs(direction[i]));

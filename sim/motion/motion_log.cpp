@@ -7,10 +7,10 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double bin = 0.005;             // logarithm of the flow
-constexpr std::size_t most_spans = 4096;  // joined in pairs beyond
+constexpr double bin = 0.005;             // width in the logarithm of the flow
+constexpr std::size_t most_spans = 4096;  // more are joined in pairs
 constexpr std::size_t most_starvations = 100;
-constexpr int ramp_parts = 8;  // a ramp's flow is taken at so many speeds
+constexpr int ramp_parts = 8;  // number of speeds at which the flow of a ramp is taken
 constexpr double second = 1;   // s over which flow is averaged
 
 int bin_of(double flow) {
@@ -46,7 +46,7 @@ void MotionLog::each_span(double from, double to, const Use& use) {
   while (from < to) {
     MotionSpan& span = span_at(from);
     const double next = first_ + (std::floor((from - first_) / span_seconds_) + 1) * span_seconds_;
-    // Where rounding would leave the time where it is, it goes on by the least there is.
+    // Rounding may yield no progress; then advance by the smallest step.
     const double end = std::min(to, std::max(next, std::nextafter(from, to)));
     use(span, end - from);
     from = end;
@@ -74,7 +74,7 @@ void MotionLog::moved(const ExecutedMove& move) {
   length_ += length;
   add_flow(move, volume);
   add_second(volume, time);
-  // A long move reaches over several spans; its speed is taken as even.
+  // A long move extends over several spans; its speed is treated as constant.
   each_span(move.start, move.end, [&](MotionSpan& span, double part) {
     span.seconds += part;
     span.length += part / time * length;
@@ -83,7 +83,7 @@ void MotionLog::moved(const ExecutedMove& move) {
   });
 }
 
-/// The ramps up and down in a few steps of equal time, the plateau whole.
+/// Divides the ramps into steps of equal time; the plateau is one step.
 void MotionLog::add_flow(const ExecutedMove& move, double volume) {
   const Trapezoid& speed = move.speed;
   const double per_mm = volume / speed.length, top = speed.peak();

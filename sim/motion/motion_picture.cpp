@@ -19,7 +19,7 @@ using picture::Colour;
 constexpr Colour paper{255, 255, 255}, frame{120, 120, 120}, grid{228, 228, 228}, words{70, 70, 70};
 constexpr Colour strong{38, 96, 196}, pale{178, 204, 240}, alarm{214, 40, 40};
 constexpr std::size_t width = 1600, strip = 220, gap = 50, left = 90, right = 20;
-constexpr std::size_t dot = 2;  // pixels of a label's dot
+constexpr std::size_t dot = 2;  // pixels of a dot of the labels' font
 constexpr std::size_t plot = width - left - right;
 
 using Value = std::function<std::optional<double>(const MotionSpan&)>;
@@ -29,7 +29,7 @@ struct Curve {
   Colour colour;
 };
 
-/// 1, 2 or 5 times a power of ten, so that a range has two to five steps.
+/// Returns 1, 2 or 5 times a power of ten, so that a range has two to five steps.
 double step_for(double range) {
   const double rough = std::pow(10, std::floor(std::log10(range / 2)));
   for (const double factor : {5.0, 2.0}) {
@@ -101,7 +101,7 @@ class Diagram {
     }
   }
 
-  /// Several spans to a pixel are drawn over one another.
+  /// Spans that share a pixel are drawn over one another.
   void draw(const Curve& curve) {
     std::optional<std::pair<double, double>> last;
     for (std::size_t i = 0; i < log_.spans().size(); ++i) {

@@ -1,6 +1,6 @@
-// motion.png: three diagrams over the time of the print, from the first bead on. Speed of laying beads (mean
-// in blue, the fastest instant pale), the volume pushed per second, and the queue (mean moves in blue, the
-// fewest in red). Starvations are red lines from top to bottom.
+// motion.png: three diagrams over the time of the print, from the first bead on: the speed of laying beads
+// (mean in blue, maximum in pale blue), the flow, and the number of queued moves (mean in blue, minimum in
+// red). Starvations are vertical red lines.
 #pragma once
 
 #include "core/picture/image.hpp"

@@ -1,4 +1,4 @@
-// Hands everything that the machine does to several takers, in the order of the list.
+// Passes everything that the machine does to several sinks, in the order of the list.
 #pragma once
 
 #include <utility>

@@ -9,11 +9,11 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double slowest = 0.05;           // mm/s: what a move ends at when nothing follows
+constexpr double slowest = 0.05;           // mm/s: exit speed of a move without a successor
 constexpr std::int64_t fewest_steps = 6;   // a move with fewer joins the next one
-constexpr double first_block_delay = 0.1;  // s that a first block waits for company
-constexpr std::size_t company = 3;         // blocks with which it waits no longer
-constexpr std::size_t short_queue_from = 2, short_queue_to = 7;  // waiting blocks that count as short
+constexpr double first_block_delay = 0.1;  // s that a first block waits for others
+constexpr std::size_t company = 3;         // number of blocks with which it waits no longer
+constexpr std::size_t short_queue_from = 2, short_queue_to = 7;  // waiting blocks: the queue counts as short
 
 bool extrudes_along(const PerAxis<std::int64_t>& steps) {
   return steps[axis_e] > 0 && (steps[axis_x] != 0 || steps[axis_y] != 0);
@@ -110,8 +110,8 @@ double Planner::first_speed(const Block& block) const {
   return limits_.junction_deviation > 0 ? slowest : speed_from_rest(block.shape(), limits_.jerk);
 }
 
-// Backwards, every block may enter only as fast as it can still brake; forwards, only as fast as it can get.
-// A block that runs is fixed, and so is the entry of the one behind it.
+// The backward pass limits each entry speed to what the block can still brake from; the forward pass limits
+// each exit speed to what the block can reach. A running block is fixed, and so is the entry of the next one.
 void Planner::look_ahead() {
   double exit = std::min(slowest, blocks_.back().speed.nominal);
   for (auto block = blocks_.rbegin(); block != blocks_.rend() && !block->started; ++block) {
@@ -141,7 +141,7 @@ void Planner::advance_to(double now) {
     Block& block = blocks_.front();
     const double end = block.start + block.speed.seconds();
     if (stuck_ || end > now) return;
-    tell(block, 1, end);
+    report(block, 1, end);
     last_end_ = end;
     last_alone_ = block.alone;
     blocks_.pop_front();
@@ -172,9 +172,9 @@ Position Planner::place() const {
   return {mm(axis_x), mm(axis_y), mm(axis_z)};
 }
 
-/// Tells the sink what it has not had yet of the part `done` of the block (0…1), which is over now.
-void Planner::tell(Block& block, double done, double now) {
-  if (done <= block.told) return;
+/// The part `done` of the block (0…1) has been carried out by `now`: passes what is new of it to the sink.
+void Planner::report(Block& block, double done, double now) {
+  if (done <= block.reported) return;
   const auto part_of = [](std::int64_t steps, double share) {
     return static_cast<std::int64_t>(std::trunc(static_cast<double>(steps) * share));
   };
@@ -182,20 +182,20 @@ void Planner::tell(Block& block, double done, double now) {
   move.from = place();
   PerAxis<std::int64_t> steps{};
   for (std::size_t i = 0; i < axes; ++i) {
-    steps[i] = part_of(block.steps[i], done) - part_of(block.steps[i], block.told);
+    steps[i] = part_of(block.steps[i], done) - part_of(block.steps[i], block.reported);
     executed_[i] += steps[i];
   }
   move.to = place();
   move.mix = block.mix;
-  move.filament = block.filament * (done - block.told);
+  move.filament = block.filament * (done - block.reported);
   if (steps[axis_e] != 0) move.feeder_steps = split_.split(steps[axis_e], block.mix.factors);
   for (std::size_t i = 0; i < max_feeders; ++i) feeder_steps_[i] += move.feeder_steps[i];
-  move.start = block.told > 0 ? block.told_at : block.start;
+  move.start = block.reported > 0 ? block.reported_at : block.start;
   move.end = now;
-  const bool whole = block.told == 0 && done == 1;
+  const bool whole = block.reported == 0 && done == 1;
   move.speed = whole ? block.speed : block.speed.part(move.start - block.start, now - block.start);
-  block.told = done;
-  block.told_at = now;
+  block.reported = done;
+  block.reported_at = now;
   last_laid_ = lays_bead(move);
   sink_.moved(move);
 }
@@ -204,7 +204,7 @@ void Planner::abort(double now) {
   advance_to(now);
   if (!blocks_.empty() && blocks_.front().started && !stuck_) {
     Block& block = blocks_.front();
-    tell(block, block.done_by(now), now);
+    report(block, block.done_by(now), now);
   }
   if (!blocks_.empty()) sink_.queue_changed(now, 0);
   blocks_.clear();
@@ -223,7 +223,7 @@ void Planner::remix(const Mix& mix, double now) {
   advance_to(now);
   if (stuck_) return;
   for (Block& block : blocks_) {
-    if (block.started) tell(block, block.done_by(now), now);
+    if (block.started) report(block, block.done_by(now), now);
     block.mix = mix;
   }
 }

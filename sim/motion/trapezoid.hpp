@@ -1,5 +1,5 @@
-// The speed along one move: up from the entry speed, on at the nominal speed, down to the exit speed, at one
-// acceleration. Where the move is too short to reach the nominal speed the plateau is missing.
+// The speed along one move: it rises from the entry speed to the nominal speed, stays there, and falls to the
+// exit speed, all at one acceleration. A move that is too short to reach the nominal speed has no plateau.
 // mm, mm/s, mm/s², s.
 #pragma once
 
@@ -10,17 +10,18 @@ struct Trapezoid {
   double entry = 0, nominal = 0, exit = 0;
   double acceleration = 0;
 
-  /// The highest speed reached.
+  /// The highest speed of the move.
   double peak() const;
   double seconds() const;
-  /// How far the move has come `time` seconds after its start.
+  /// The distance covered `time` seconds after the start.
   double distance(double time) const;
   double speed_at(double time) const;
-  /// What happens between two times, as a trapezoid of its own.
+  /// The part between two times, as a trapezoid of its own.
   Trapezoid part(double from, double to) const;
 };
 
-/// The speed from which `length` suffices to reach `end`, either way round.
+/// The highest speed from which the move can brake to `end` within `length`; equally, the highest speed that
+/// it can reach from `end`.
 double reachable_speed(double end, double acceleration, double length);
 
 }  // namespace unicursal::sim

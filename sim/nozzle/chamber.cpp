@@ -9,12 +9,12 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double arrived = 0.95;     // of a new mixture: the end of the mixing volume
-constexpr double piece = 0.125;      // of a tank's volume: an outflow is cut to no more
-constexpr int most_pieces = 64;      // of one feed
-constexpr double same_share = 1e-9;  // slugs that differ less are one
+constexpr double arrived = 0.95;     // share of a new mixture at the end of the mixing volume
+constexpr double piece = 0.125;      // longest piece of an outflow, in tank volumes
+constexpr int most_pieces = 64;      // pieces of one feed
+constexpr double same_share = 1e-9;  // slugs that differ by less are merged
 
-/// What has passed n tanks in row when x tank volumes have: 1 − e^−x·Σ_{j<n} x^j/j!
+/// Share of the new mixture behind n tanks in series after x tank volumes: 1 − e^−x·Σ_{j<n} x^j/j!
 double gamma_response(std::size_t tanks, double x) {
   double term = std::exp(-x), rest = 0;
   for (std::size_t j = 0; j < tanks; ++j) {
@@ -71,7 +71,7 @@ Chamber::Chamber(const ChamberSize& size, std::size_t feeders)
   if (tank_volume_ > 0) tanks_.assign(size.tanks, equal);
 }
 
-/// Between the moments at which an inlet's void is full, the inflow is of one mixture.
+/// Divides the feed at the moments at which an inlet's void is full: in between, the mixture is constant.
 std::vector<Outflow> Chamber::feed(const Shares& volume) {
   std::vector<Outflow> out;
   std::vector<double> moments{0, 1};
@@ -129,8 +129,9 @@ void Chamber::append(const Shares& shares, double volume) {
     pipe_.push_back({volume, shares});
 }
 
-/// Exact for an inflow of constant shares: with x = volume ÷ tank, the deviation of tank k from the inflow is
-/// e^−x·Σ_{j≤k} x^(k−j)/(k−j)! times that of tank j before; what leaves is what balances the books.
+/// Exact for an inflow of constant shares: with x = volume ÷ tank volume, the deviation of tank k from the
+/// inflow becomes Σ_{j≤k} e^−x·x^(k−j)/(k−j)! · (deviation of tank j before). The outflow follows from the
+/// balance of volumes.
 PerFeeder<double> Chamber::through_tanks(const Shares& shares, double volume) {
   Shares leaving{};
   const double x = tank_volume_ > 0 ? volume / tank_volume_ : 0;

@@ -1,17 +1,20 @@
-// The melt between the feeders and the nozzle's opening, by what comes out of it when something goes in.
+// The melt between the feeders and the nozzle's opening (sim/README.md, Physics): tanks in series.
 //
-// Model: the inlets join, the plastic passes a pipe of the dead volume unmixed (plug flow), then a row of
-// equal, well-stirred tanks, whose last one is the opening. It is linear in the mixture and keeps every
-// feeder's volume: what goes in comes out or is inside. Inflow of one mixture is solved exactly, so the
-// result does not depend on how a move is cut into pieces.
+// Model: the inlets join; the plastic passes a pipe of the dead volume unmixed (plug flow), then equal,
+// perfectly stirred tanks in series. The model is linear in the mixture and keeps every feeder's volume: what
+// goes in comes out or is inside. A constant inflow is solved exactly, so the result does not depend on how a
+// move is cut into pieces.
 //
-// `dead_volume` passes before the first trace of a new mixture, `mixing_volume` from there to 95 % of it; so
-// one tank holds mixing_volume ÷ the 95 % point of the gamma distribution whose shape is the number of tanks.
+// `dead_volume` passes before the first trace of a new mixture, `mixing_volume` from there to 95 % of it. One
+// tank therefore holds mixing_volume ÷ the 95 % quantile of the gamma distribution whose shape is the number
+// of tanks.
 //
-// Retraction opens a void in the inlets that are drawn back; what is fed next fills it before anything comes
-// out. An inlet's own content is one filament and delays nothing. Departure from a real hot end: no pressure,
-// no oozing, no flow between inlets. At power-up the chamber is full of equal shares of all feeders.
-// mm³.
+// A retraction opens a void in the inlets that are drawn back; the next feed fills it before anything comes
+// out. An inlet holds one filament only, so it adds no delay. Departures from a real hot end: no pressure, no
+// oozing, no flow between inlets. At power-up the chamber is full of equal shares of all feeders. mm³.
+//
+// firmware_gcode/mixing/chamber.hpp has the same model for planning. The two share no code on purpose: the
+// simulator is independent of the program that it checks.
 #pragma once
 
 #include <cstddef>
@@ -24,13 +27,13 @@ namespace unicursal::sim {
 
 struct ChamberSize {
   double dead_volume = 2.1;
-  double mixing_volume = 4.0;  ///< 0: no tanks
-  std::size_t tanks = 2;       ///< 1 to 8
+  double mixing_volume = 4.0;  ///< 0 = no tanks.
+  std::size_t tanks = 2;       ///< 1 to 8.
 };
 
-/// Plastic that came out, uniform enough to be one bead.
+/// Plastic that has left the nozzle, uniform enough to be one bead.
 struct Outflow {
-  double from = 0, to = 0;  ///< parts of the feed, 0…1, during which it came out
+  double from = 0, to = 0;  ///< Part of the feed during which it came out, 0…1.
   PerFeeder<double> volume{};
 
   double total() const;
@@ -39,18 +42,18 @@ struct Outflow {
 /// The volume of one tank.
 double tank_volume(const ChamberSize& size);
 
-/// What has arrived of a new mixture, 0…1, when `volume` has passed since it was switched to.
+/// The share of a new mixture in the outflow, 0…1, when `volume` has passed since the switch.
 double step_response(const ChamberSize& size, double volume);
 
 class Chamber {
  public:
   Chamber(const ChamberSize& size, std::size_t feeders);
 
-  /// Feeds each feeder's volume (negative: draws it back), all at constant rates; gives what came out, in
-  /// pieces short enough that the mixture hardly changes within one.
+  /// Feeds each feeder's volume (negative = retracts it), all at constant rates. Returns the outflow, in
+  /// pieces so short that the mixture hardly changes within one.
   std::vector<Outflow> feed(const PerFeeder<double>& volume);
 
-  /// What is inside, voids counted as missing.
+  /// The volume inside by feeder, less the voids.
   PerFeeder<double> content() const;
 
  private:
@@ -67,8 +70,8 @@ class Chamber {
 
   ChamberSize size_;
   double tank_volume_;
-  std::deque<Slug> pipe_;      ///< the oldest in front
-  std::vector<Shares> tanks_;  ///< shares in each
+  std::deque<Slug> pipe_;      ///< The oldest slug is in front.
+  std::vector<Shares> tanks_;  ///< Shares in each tank.
   Shares voids_{};
 };
 

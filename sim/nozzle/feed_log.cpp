@@ -29,7 +29,7 @@ void FeedLog::moved(const ExecutedMove& move) {
 
 MixtureUse& FeedLog::use_of(const Mix& mix) {
   const auto same = [&mix](const MixtureUse& use) { return use.mix.factors == mix.factors; };
-  // The mixture in use is most often the newest.
+  // The current mixture is most often the newest.
   const auto found = std::find_if(mixtures_.rbegin(), mixtures_.rend(), same);
   if (found != mixtures_.rend()) return *found;
   mixtures_.push_back({mix, 0, {}});

@@ -1,5 +1,5 @@
-// What the feeders were asked to push, by mixture: the moves that print apart from those that only retract,
-// prime or purge in place. mm of filament, steps.
+// The filament that the feeders were asked to feed, by mixture. Moves that print are counted apart from those
+// that only retract, prime or purge in place. mm of filament, steps.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace unicursal::sim {
 
 struct MixtureUse {
-  Mix mix;  ///< with the first virtual tool that had these factors
+  Mix mix;  ///< The factors, and the first virtual tool that had them.
   double extruded = 0;
   PerFeeder<std::int64_t> feeder_steps{};
 };
@@ -19,12 +19,13 @@ class FeedLog : public MoveSink {
  public:
   void moved(const ExecutedMove& move) override;
 
-  /// One for each distinct set of factors among the moves that lay a bead, in order of first use.
+  /// One entry for each distinct set of factors among the moves that lay a bead, in the order of first use.
   const std::vector<MixtureUse>& mixtures() const { return mixtures_; }
-  double extruded() const { return extruded_; }          ///< by moves that lay a bead
-  double fed_in_place() const { return fed_in_place_; }  ///< forward, without a bead
-  double retracted() const { return retracted_; }        ///< backward, as a positive length
-  const PerFeeder<std::int64_t>& idle_steps() const { return idle_steps_; }  ///< of the moves without a bead
+  double extruded() const { return extruded_; }          ///< Fed by moves that lay a bead.
+  double fed_in_place() const { return fed_in_place_; }  ///< Fed forward without a bead.
+  double retracted() const { return retracted_; }        ///< Fed backward, as a positive length.
+  /// Steps of moves without a bead.
+  const PerFeeder<std::int64_t>& idle_steps() const { return idle_steps_; }
 
  private:
   MixtureUse& use_of(const Mix& mix);

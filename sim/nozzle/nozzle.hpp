@@ -1,6 +1,6 @@
-// Between the feeders and the bed: what leaves the nozzle, where and of which mixture. Moves come in, beads
-// go out; what leaves is what the chamber gives, so one move may give several beads. Within a move the feed
-// goes with the way. mm, mm³, printer seconds.
+// Turns moves into beads: the place, volume and mixture of the plastic that leaves the nozzle. The chamber
+// determines the mixture, so one move can give several beads. Within a move the feed is proportional to the
+// distance. mm, mm³, printer seconds.
 #pragma once
 
 #include "sim/motion/move.hpp"
@@ -8,20 +8,20 @@
 
 namespace unicursal::sim {
 
-/// A straight strand laid on the bed; a drop where it begins and ends at one place.
+/// A straight strand on the bed; a drop if it begins and ends at the same place.
 struct Bead {
   Position from, to;
   double volume = 0;
-  PerFeeder<double> shares{};  ///< of the feeders in the plastic that arrived; they add up to 1
-  double start = 0, end = 0;   ///< within a move at even speed
+  PerFeeder<double> shares{};  ///< Shares of the feeders in the plastic; the sum is 1.
+  double start = 0, end = 0;   ///< Times, as if the move had a constant speed.
 };
 
-/// Takes beads in the order in which they are laid, and moves that lay nothing.
+/// Receives beads in the order in which they are laid, and movements without a bead.
 class BedSink {
  public:
   virtual ~BedSink() = default;
   virtual void laid(const Bead& bead) = 0;
-  /// The nozzle went from one place to another in the plane without laying anything.
+  /// The nozzle moved in the xy plane without laying anything.
   virtual void travelled(const Position& from, const Position& to) = 0;
 };
 
@@ -32,10 +32,10 @@ class Nozzle : public MoveSink {
 
   void moved(const ExecutedMove& move) override;
 
-  /// mm² of filament.
+  /// Cross-section of the filament, mm².
   double filament_area() const { return filament_area_; }
   const Chamber& chamber() const { return chamber_; }
-  /// All that was fed, less what was drawn back.
+  /// Volume fed less volume retracted, by feeder.
   const PerFeeder<double>& fed() const { return fed_; }
 
  private:

@@ -241,14 +241,14 @@ void measure(const char* file, const Options& options) {
   host::PreparedJob job = host::prepare(host::load_job(file));
   const Curves curves = plan(job, options);
   if (curves.length == 0) throw std::runtime_error(std::string(file) + ": no curve to lay");
-  if (options.speed) job.job.flow = *options.speed * curves.width() * curves.height;
-  const double nominal = job.job.flow / (curves.width() * curves.height);
+  if (options.speed) job.job.print.flow = *options.speed * curves.width() * curves.height;
+  const double nominal = job.job.print.flow / (curves.width() * curves.height);
   fmt::print(
       "\n{}: {} layers, {:.0f} mm of bead {:.3f} mm apart (deviation {:.1f} %), {:.2f} mm³/s, nominally "
       "{:.2f} "
       "mm/s\n",
-      file, curves.layers.size(), curves.length, curves.width(), 100 * curves.width_variation(), job.job.flow,
-      nominal);
+      file, curves.layers.size(), curves.length, curves.width(), 100 * curves.width_variation(),
+      job.job.print.flow, nominal);
   const Laying own = lay(job, curves, options);
   print("own area", own);
   job.job.line_width = curves.width();

@@ -69,7 +69,7 @@ class Judges : public sim::RasterSink {
       const host::JudgedLayer judged = host::judge(target, raster.frame(), rows, materials_, draw);
       result_.findings += judged.findings;
       if (draw) {
-        const char* how = job_.job.look_ahead ? "ahead" : "none";
+        const char* how = job_.job.print.look_ahead ? "ahead" : "none";
         picture::write_png(
             pictures_ / fmt::format("{}-{}-{}.png", job_.job.file.stem().string(), target.index, how),
             *judged.mixtures);
@@ -207,8 +207,8 @@ void measure(const char* file, const Options& options) {
   const Result ahead = lay(job, layers, options);
   fmt::print("\n{}: {} layers, chamber of {:g} + {:g} mm³, {} tanks\n", file, layers.size(),
              job.job.profile.printer.dead_volume, job.job.profile.printer.mixing_volume, options.tanks);
-  if (job.job.materials.size() > 1 || job.job.materials[0].gradient) {
-    job.job.look_ahead = false;
+  if (job.job.print.materials.size() > 1 || job.job.print.materials[0].gradient) {
+    job.job.print.look_ahead = false;
     const Result late = lay(job, layers, options);
     print("look-ahead", ahead, width);
     print("none", late, width);

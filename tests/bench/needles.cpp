@@ -21,6 +21,10 @@ using namespace unicursal::core;
 constexpr double near_the_field = 0.3;  ///< rad
 constexpr int runs = 5;
 
+bool inner(const CellGraph& graph, EdgeIndex e) {
+  return graph.face(PlanarGraph::forward(e)) != outside && graph.face(PlanarGraph::backward(e)) != outside;
+}
+
 struct Sample {
   std::string name;
   Polygon domain;
@@ -55,11 +59,9 @@ Sample square() {
 /// Share of the length of inner edges near the field, and their mean squared angle to it, rad².
 std::pair<double, double> alignment(const CellGraph& graph, const DirectionField& field) {
   double total = 0, near = 0, squared = 0;
-  for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph.edge_count()); ++e) {
-    if (graph.face(2 * e) == outside || graph.face(2 * e + 1) == outside) continue;
-    Ring line{graph.position[static_cast<std::size_t>(graph.origin(2 * e))]};
-    graph.append_bends(2 * e, line);
-    line.push_back(graph.position[static_cast<std::size_t>(graph.target(2 * e))]);
+  for (const EdgeIndex e : graph.edges()) {
+    if (!inner(graph, e)) continue;
+    const Ring line = graph.line(PlanarGraph::forward(e));
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const Vec2 u = line[k + 1] - line[k], asked = field.at((line[k] + line[k + 1]) / 2);
       if (asked.norm() < 0.1) continue;
@@ -74,17 +76,15 @@ std::pair<double, double> alignment(const CellGraph& graph, const DirectionField
 
 void draw(const CellGraph& graph, const std::string& file) {
   constexpr double scale = 20;
-  const Box box = bounds(graph.position);
+  const Box box = bounds(graph.position.values());
   const Vec2 size = scale * box.size() + Vec2(20, 20);
   picture::Image image(static_cast<std::size_t>(size.x()), static_cast<std::size_t>(size.y()),
                        {255, 255, 255});
   const auto pixel = [&](const Vec2& p) {
     return Vec2(10 + scale * (p.x() - box.min.x()), size.y() - 10 - scale * (p.y() - box.min.y()));
   };
-  for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph.edge_count()); ++e) {
-    Ring line{graph.position[static_cast<std::size_t>(graph.origin(2 * e))]};
-    graph.append_bends(2 * e, line);
-    line.push_back(graph.position[static_cast<std::size_t>(graph.target(2 * e))]);
+  for (const EdgeIndex e : graph.edges()) {
+    const Ring line = graph.line(PlanarGraph::forward(e));
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const Vec2 a = pixel(line[k]), b = pixel(line[k + 1]);
       image.stroke(a.x(), a.y(), b.x(), b.y(), 2, {30, 60, 120});
@@ -106,9 +106,8 @@ void measure(const Sample& sample, const std::string& variant, const GraphOption
     near += share;
     squared += angle;
     nodes += static_cast<double>(graph->node_count());
-    for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph->edge_count()); ++e) {
-      const bool inner = graph->face(2 * e) != outside && graph->face(2 * e + 1) != outside;
-      if (inner && !graph->via[static_cast<std::size_t>(e)].empty()) ++bent;
+    for (const EdgeIndex e : graph->edges()) {
+      if (inner(*graph, e) && !graph->via[e].empty()) ++bent;
     }
     ++graphs;
     if (run == 0 && !folder.empty()) draw(*graph, folder + "/" + sample.name + "-" + variant + ".png");

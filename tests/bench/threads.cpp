@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-#include "host/cli/commands.hpp"
+#include "host/cli/arguments.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/job/load_job.hpp"
 

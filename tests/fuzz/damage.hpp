@@ -1,4 +1,4 @@
-// Files with random damage: bytes changed, lost and doubled, numbers made extreme.
+// Random damage to files: bytes are changed, lost or doubled, numbers become extreme.
 #pragma once
 
 #include <array>

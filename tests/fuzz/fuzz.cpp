@@ -1,11 +1,11 @@
-// Damaged files for the readers and what comes of them for the planner, and damaged input for the simulated
-// printer: read or refused, nothing else.
+// Fuzzing: damaged files for the readers and the planner, and damaged input for the simulated printer, the
+// link and the daemon. Input must be accepted or refused; anything else is a defect.
 //
 //   fuzz FOLDER TARGET SECONDS [FIRST]
 //
-// Round number k is the same whenever it is run; FIRST is the first one. The round's files stay in FOLDER
-// until the next: after a crash, a fault or a hang (a round of more than two minutes) they are what caused
-// it.
+// A round depends only on its number; FIRST is the number of the first round. The files of a round stay in
+// FOLDER until the next round, so after a crash, a fault or a hang (a round of more than two minutes) they
+// are the cause.
 #include <unistd.h>
 
 #include <chrono>
@@ -153,7 +153,7 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"conversation", test::converse},
     {"http", test::http}};
 
-/// True for a file that was read, false for one that was refused as it should be.
+/// Returns true if the file was read, and false if it was properly refused.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
               std::uint64_t number) {
   core::Random random(number);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace host;
 
-/// The daemon without a printer, on a thread of its own for as long as the program runs.
+/// A daemon without a printer, on a thread of its own until the program ends.
 class Target {
  public:
   explicit Target(const fs::path& folder) : folder_(prepared(folder)), state_(folder_ / "state") {
@@ -141,14 +141,14 @@ void http(const std::filesystem::path& folder, core::Random& random) {
   const bool known = random.below(2) == 0;
   std::string bytes = random.below(20) == 0 ? noise(random, 40000) : request(target, random, known);
   if (random.below(3) != 0) bytes = damaged(bytes, random);
-  if (random.below(4) == 0) bytes += noise(random, 300);  // frames, or a request behind
+  if (random.below(4) == 0) bytes += noise(random, 300);  // frames, or a second request
   std::string answer;
   {
     RawConnection connection(target.port());
     const std::size_t cut = random.below(bytes.size() + 1);
     connection.send(bytes.substr(0, cut));
     connection.send(bytes.substr(cut));
-    if (random.below(8) != 0) {  // otherwise it leaves without listening
+    if (random.below(8) != 0) {  // otherwise the client leaves without reading
       connection.finish_sending();
       answer = connection.read_all();
     }

@@ -1,4 +1,4 @@
-// The daemon's HTTP surface, over real sockets, under requests that are damaged, cut, forged or noise.
+// The daemon's HTTP interface over real sockets: requests that are damaged, cut, forged or random.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace unicursal::test {
 
-/// One conversation. Throws core::DataError when it was refused, and std::runtime_error when the daemon has
-/// done what it must not: answer strangers, answer something that is no HTTP, or make files elsewhere.
+/// One conversation. Throws core::DataError if it was refused, and std::runtime_error if the daemon did
+/// something that it must not do: answer a stranger, send something other than HTTP, or make files elsewhere.
 void http(const std::filesystem::path& folder, core::Random& random);
 
 }  // namespace unicursal::test

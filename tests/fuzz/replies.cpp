@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/text/file_bytes.hpp"
+#include "core/text/printable.hpp"
 #include "firmware_gcode/reply/identity.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 #include "host/doctor/examine.hpp"
@@ -40,7 +41,7 @@ std::string damaged_transcript(const fs::path& folder, core::Random& random) {
   return bytes;
 }
 
-/// Cuts bytes as a serial line does: anywhere.
+/// Cuts bytes anywhere, as a serial line does.
 template <class Take>
 void in_pieces(std::string_view bytes, core::Random& random, Take&& take) {
   while (!bytes.empty()) {
@@ -60,7 +61,7 @@ bool is_printable(std::string_view text) {
 
 void check(const std::string& line) {
   require(line.size() <= host::LineSplitter::longest, "a line grew beyond its bound");
-  require(is_printable(gcode::printable(line)), "text was shown that cannot be");
+  require(is_printable(core::printable(line)), "text was shown that cannot be");
   const gcode::Reply reply = gcode::parse_reply(line);
   const auto* ok = std::get_if<gcode::reply::Ok>(&reply);
   const auto* report = std::get_if<gcode::reply::TemperatureReport>(&reply);
@@ -75,7 +76,7 @@ void check(const std::string& line) {
   }
 }
 
-/// The other end: a piece of what it has to say for everything that it hears, then nothing any more.
+/// The other end: answers everything that it hears with a piece of its text, and then falls silent.
 void say(int descriptor, const std::vector<std::string>& pieces) {
   std::array<char, 4096> heard;
   for (const std::string& piece : pieces) {
@@ -135,7 +136,7 @@ void converse(const fs::path& folder, core::Random& random) {
           co_await link.send(lines);
           co_await link.drain();
         } catch (const host::LinkError&) {
-          // What this printer says makes no sense, so this is as good an end as any.
+          // This printer's replies make no sense, so a LinkError is a proper end.
         }
       },
       [&](std::exception_ptr thrown) {

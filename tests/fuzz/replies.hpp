@@ -1,4 +1,4 @@
-// What printers said (tests/data/replies, of simulated ones), damaged: for what reads it, and for the link.
+// Damaged replies of simulated printers (tests/data/replies), for their readers and for the link.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace unicursal::test {
 
-/// The line splitter, the vocabulary of replies, the answers to M115 and M503. Throws std::runtime_error for
-/// what must not come of any bytes.
+/// Exercises the line splitter, the parser of replies, and the readers of M115 and M503. Throws
+/// std::runtime_error if a result is impossible for any input.
 void read_replies(const std::filesystem::path& folder, core::Random& random);
 
-/// A link that has such a printer at its other end, which says its lines whatever it is told. It may end well
-/// or with a LinkError.
+/// Connects a link to a printer that sends such replies, whatever it is sent. The link may finish or throw
+/// LinkError.
 void converse(const std::filesystem::path& folder, core::Random& random);
 
 }  // namespace unicursal::test

@@ -42,7 +42,7 @@ std::string sound_print(std::size_t moves) {
   return text + "M105\nM114\nM115\n";
 }
 
-/// Lets the printer work until it has nothing to do. Only so much can come of so little text.
+/// Lets the printer work until it is idle; so little text can only cause a limited number of events.
 void work_off(sim::Printer& printer) {
   constexpr std::uint64_t most_steps = 200'000'000;
   constexpr double longest = 1e7;  // s
@@ -70,7 +70,7 @@ void lines(const fs::path& folder, core::Random& random) {
   sim::Nothing nothing;
   const auto firmware = sim::make_firmware(sim::Machine{}, sim::personality(some_firmware(random)), nothing,
                                            [](std::string_view) {});
-  // As a real host would, little at a time, so that not everything is lost to a full buffer.
+  // In small pieces, as a real host does, so that the buffer does not overflow at once.
   for (std::size_t at = 0; at < text.size(); at += 64) {
     firmware->receive(std::string_view(text).substr(at, 64));
     for (int i = 0; i < 100 && firmware->blocked() && firmware->next_event(); ++i) {
@@ -109,7 +109,7 @@ void control(const fs::path& folder, core::Random& random) {
   kept(folder / "control.txt", message);
   const auto wait = sim::parse_wait(message);
   if (!wait) throw core::DataError("control.txt", "", "is no message", "");
-  constexpr double countable = 1e6;  // s; beyond some of them a double tells no single ns
+  constexpr double countable = 1e6;  // s; beyond this a double does not resolve 1 ns
   if (std::isfinite(wait->until) && wait->until > countable) return;
   const std::string until =
       std::isfinite(wait->until) ? std::to_string(std::llround(wait->until * 1e9)) : "-1";

@@ -1,6 +1,5 @@
-// Damaged input for the simulated printer: what its line carries, what a file of faults holds, and what a
-// host says on the control socket. Refused input is told by core::DataError, anything amiss by another
-// exception.
+// Damaged input for the simulated printer: on its line, in a file of faults, and on the control socket.
+// Refused input throws core::DataError; any other exception is a defect.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +10,11 @@ namespace unicursal::test {
 
 /// A whole life of a printer: nearly commands, at random times, with random faults.
 void printer(const std::filesystem::path& folder, core::Random& random);
-/// A sound print with damage done to its text.
+/// A sound print whose text is damaged.
 void lines(const std::filesystem::path& folder, core::Random& random);
-/// A file of faults; those that can be read are let loose on a short print.
+/// A file of faults; if it can be read, its faults are applied to a short print.
 void faults(const std::filesystem::path& folder, core::Random& random);
-/// What a host says on the control socket.
+/// Messages on the control socket.
 void control(const std::filesystem::path& folder, core::Random& random);
 
 }  // namespace unicursal::test

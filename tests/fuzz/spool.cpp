@@ -19,7 +19,7 @@ fs::path write(const fs::path& file, const std::string& bytes) {
   return file;
 }
 
-/// A journal or chunks whose records are damaged, mostly below a checksum that says that they are sound.
+/// A journal or chunks with damaged records, most of which have a valid checksum.
 std::string damaged_records(const std::vector<std::string>& contents, core::Random& random) {
   std::string bytes;
   for (const std::string& content : contents) {

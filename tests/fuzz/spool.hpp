@@ -1,4 +1,4 @@
-// What is read back of a print that was cut short: damaged journals and chunks.
+// Damaged journals and chunks of an interrupted print.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A printer on the bench: lines in, replies and executed moves out, with the clock in the test's hand.
+// A printer on a test bench: lines in, replies and executed moves out; the test controls the clock.
 #pragma once
 
 #include <string>
@@ -23,15 +23,15 @@ struct Bench {
                            [this](std::string_view line) { replies.emplace_back(line); })) {}
   explicit Bench(std::string_view who) : Bench(Machine{}, who) {}
 
-  /// One line as it is, with its newline; what the printer answered to it without time passing.
+  /// Sends one line with its newline; returns what the printer answers without time passing.
   Replies send(const std::string& line) {
     replies.clear();
     firmware.receive(line + "\n");
     return replies;
   }
-  /// With number and a right checksum.
+  /// The same, with a line number and a correct checksum.
   Replies send(std::int64_t number, const std::string& command) { return send(numbered(number, command)); }
-  /// As a host of a printer that leaps does: waits until the command is done.
+  /// Sends a line and waits until the command is done, as a host of a leaping printer does.
   Replies finish(const std::string& line) {
     send(line);
     leap();

@@ -1,4 +1,4 @@
-// A simulator in a process of its own, and a plain host at the other end of a real pseudo-terminal.
+// A simulator in a process of its own, and a simple host at the other end of a real pseudo-terminal.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -21,7 +21,7 @@ namespace unicursal::sim {
 
 inline constexpr int patience = 20000;  // ms before a test gives up on a silent child
 
-/// A running simulator. Ends it with SIGTERM unless it has ended before.
+/// A running simulator. The destructor ends it with SIGTERM unless it has ended already.
 class Child {
  public:
   explicit Child(const SimulatorOptions& options) {
@@ -53,7 +53,7 @@ class Child {
  private:
   static int serve(const SimulatorOptions& options, int told) {
     try {
-      bool first = true;  // a cable that comes back has another path, behind the same link
+      bool first = true;  // the terminal of a cable that returns has another path, behind the same link
       return run_simulator(options, [told, &first](const std::string& path) {
         if (!std::exchange(first, false)) return;
         const std::string line = path + "\n";
@@ -69,7 +69,7 @@ class Child {
   std::string path_;
 };
 
-/// A host that keeps a window of 127 bytes.
+/// A host with a window of 127 bytes.
 class Host {
  public:
   explicit Host(const std::string& path) : port_(::open(path.c_str(), O_RDWR | O_NOCTTY)) {
@@ -83,7 +83,7 @@ class Host {
   void write(const std::string& text) {
     REQUIRE(::write(port_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
   }
-  /// Whether the line has died, once everything said before has been read.
+  /// Reads everything that is left, and returns whether the line is dead.
   bool lost() {
     pollfd wait{port_, POLLIN, 0};
     std::array<char, 4096> bytes;
@@ -113,10 +113,10 @@ class Host {
     while (read_line() != wanted) {
     }
   }
-  /// Sends commands[first…last) as lines first + 1, first + 2…, and returns when all have their ok.
+  /// Sends commands[first…last) as lines first + 1, first + 2…, and returns when all are acknowledged.
   void stream(const std::vector<std::string>& commands, std::size_t first, std::size_t last) {
     std::size_t used = 0;
-    std::deque<std::size_t> in_flight;  // bytes of each line
+    std::deque<std::size_t> in_flight;  // length of each line in bytes
     while (first < last || !in_flight.empty()) {
       std::string burst;
       for (; first < last; ++first) {

@@ -1,4 +1,4 @@
-// A folder of the test's own that goes away with it.
+// A folder for one test, which is removed at its end.
 #pragma once
 
 #include <cstdlib>

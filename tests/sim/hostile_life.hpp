@@ -1,5 +1,5 @@
-// Anything at all as a printer's input. A life is the same whenever it is lived: its number is all that it
-// depends on. What must hold is told by an exception.
+// Random input for a printer. A life depends only on its number, so it can be repeated. A violated condition
+// throws an exception.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct Nothing : MoveSink {
   void moved(const ExecutedMove&) override {}
 };
 
-/// Texts that are nearly commands, and damage done to them.
+/// Texts that are nearly commands, with damage.
 class Writer {
  public:
   explicit Writer(std::uint64_t seed) : random_(seed) {}
@@ -112,7 +112,7 @@ inline void demand(bool held, const char* what) {
   if (!held) throw std::runtime_error(what);
 }
 
-/// The printer came through: whatever it was told, its numbers are numbers.
+/// Checks that the printer has survived: all its numbers are finite.
 inline void demand_sound(const Firmware& firmware) {
   const Coordinates& at = firmware.coordinates();
   demand(firmware.planner().queued() <= Planner::usable_blocks, "more moves are queued than there is room");
@@ -125,7 +125,7 @@ inline void demand_sound(const Firmware& firmware) {
   demand(firmware.counts().accepted <= firmware.counts().received, "more lines were taken than came");
 }
 
-/// One printer's life. Time is bounded by events, so that a printer which never comes to rest shows.
+/// One printer's life. The number of events is bounded, so that a printer that never comes to rest is found.
 inline void live(std::uint64_t seed) {
   constexpr std::uint64_t most_portions = 1'000'000;
   Writer writer(seed);

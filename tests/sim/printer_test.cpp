@@ -1,4 +1,4 @@
-// The whole printer with its cable, and every fault at work in it.
+// The whole printer with its cable, and every fault.
 #include "sim/printer.hpp"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using namespace unicursal::sim;
 
 namespace {
 
-/// A printer that has booted, and a host that writes and listens.
+/// A printer that has booted, and a host that writes and reads.
 class Desk {
  public:
   explicit Desk(const std::vector<std::string>& faults = {}, std::string_view who = "marlin",
@@ -23,7 +23,7 @@ class Desk {
     heard.clear();
   }
 
-  /// For so many printer seconds.
+  /// Lets `seconds` of printer time pass.
   void listen(double seconds) {
     const double until = printer.now() + seconds;
     while (printer.now() < until && !printer.unplugged()) {
@@ -69,7 +69,7 @@ class Desk {
 
 // ---- cable and boot
 
-TEST_CASE("what is sent while the board boots is lost") {
+TEST_CASE("input while the board boots is lost") {
   MoveList moves;
   Printer printer(Machine{}, personality("marlin-8bit"), {250000, Usb::none}, {}, moves);
   printer.opened();
@@ -84,7 +84,7 @@ TEST_CASE("what is sent while the board boots is lost") {
   CHECK(printer.firmware().counts().while_booting == 4);
 }
 
-TEST_CASE("an answer takes the line's time both ways, and the chip's") {
+TEST_CASE("an answer takes the time of the line in both directions, and that of the chip") {
   const auto seconds = [](const WireModel& wire) {
     Desk desk({}, "marlin", wire);
     const double before = desk.printer.now();
@@ -99,8 +99,7 @@ TEST_CASE("an answer takes the line's time both ways, and the chip's") {
   CHECK(seconds({250000, Usb::cdc}) <= 0.00128);
 }
 
-TEST_CASE(
-    "300 lines without waiting: most bytes are lost in silence, and the next newline provokes a resend") {
+TEST_CASE("300 lines without waiting: most bytes are lost silently, and the next newline causes a resend") {
   Desk desk;
   std::string blast;
   for (int i = 1; i <= 300; ++i) blast += Bench::numbered(i, fmt::format("G1 X{} F600", i % 2 * 150)) + "\n";
@@ -114,7 +113,7 @@ TEST_CASE(
   CHECK(desk.said("Resend: "));
 }
 
-TEST_CASE("a board with its reset on DTR resets when DTR rises, others do not") {
+TEST_CASE("only a board with its reset on DTR resets when DTR rises") {
   Desk eight_bit({}, "marlin-8bit"), thirty_two({}, "marlin");
   for (Desk* desk : {&eight_bit, &thirty_two}) {
     desk->printer.opened(false);
@@ -127,7 +126,7 @@ TEST_CASE("a board with its reset on DTR resets when DTR rises, others do not") 
   CHECK_FALSE(thirty_two.said("start"));
 }
 
-TEST_CASE("time may pass in any portions") {
+TEST_CASE("it does not matter in which steps time advances") {
   const auto story = [](double portion) {
     Desk desk({"bitflip:0.002", "noise:0.05"}, "marlin-advanced-ok");
     desk.printer.write("M155 S1\nM104 S50\nG28\nG1 X20 F1200\nM105\n");
@@ -145,8 +144,7 @@ TEST_CASE("time may pass in any portions") {
 
 // ---- faults on the way to the printer
 
-TEST_CASE(
-    "bit flips: damaged lines are asked for again, unless the checksum cannot see it; those are counted") {
+TEST_CASE("bit flips: damaged lines are requested again, and those with a matching checksum are counted") {
   Desk desk({"bitflip:0.02"});
   std::uint64_t sent = 0;
   for (std::int64_t number = 1; desk.struck("bitflip") < 3000; ++sent) {
@@ -155,12 +153,12 @@ TEST_CASE(
     if (number > 100000) number = 1;
   }
   CHECK(desk.lines().checksum_errors > 500);
-  CHECK(desk.lines().disguised > 0);      // an N that became another letter
-  CHECK(desk.lines().unseen_damage > 0);  // two flips of the same bit
+  CHECK(desk.lines().disguised > 0);      // an N became another letter
+  CHECK(desk.lines().unseen_damage > 0);  // the same bit was flipped twice
   CHECK(desk.lines().unseen_damage < sent / 100);
 }
 
-TEST_CASE("damage that an 8-bit exclusive or cannot see is taken, and counted apart") {
+TEST_CASE("damage that an 8-bit exclusive or cannot detect is accepted, and counted separately") {
   std::string line = Bench::numbered(1, "G1 X12 Y12") + "\n";
   std::vector<WireByte> bytes;
   for (const char byte : line) bytes.push_back({byte, false});
@@ -177,16 +175,16 @@ TEST_CASE("damage that an 8-bit exclusive or cannot see is taken, and counted ap
   CHECK(moves.moves.at(0).to.x == 2);
 }
 
-TEST_CASE("lost bytes: the line no longer fits its checksum") {
+TEST_CASE("lost bytes: the line no longer matches its checksum") {
   Desk desk({"lostbyte@line=1"});
   desk.send(1, "G90");
-  desk.send(2, "M83");  // its first byte is the one that is lost, so that it looks like a line without number
+  desk.send(2, "M83");  // its first byte is lost, so that it looks like a line without a number
   CHECK(desk.struck("lostbyte") == 1);
   CHECK(desk.lines().accepted == 1);
   CHECK(desk.lines().disguised == 1);
 }
 
-TEST_CASE("merged lines: one that lost its end takes the next one with it") {
+TEST_CASE("merged lines: a line that lost its newline spoils the next one") {
   Desk desk({"merge@line=1"});
   desk.send(1, "G90");
   desk.send(2, "M83");
@@ -197,7 +195,7 @@ TEST_CASE("merged lines: one that lost its end takes the next one with it") {
   CHECK(desk.said("Resend: 2"));
 }
 
-TEST_CASE("false alarms: a good line is asked for again") {
+TEST_CASE("false alarms: a good line is requested again") {
   Desk desk({"falsealarm@line=2"});
   desk.send(1, "G90");
   desk.send(2, "M83");
@@ -206,7 +204,7 @@ TEST_CASE("false alarms: a good line is asked for again") {
   CHECK(desk.lines().accepted == 2);
 }
 
-TEST_CASE("a good line is refused for a number that was right, or a checksum that was there") {
+TEST_CASE("a good line is refused for its correct number, or for its checksum that is there") {
   const auto [fault, reason] = GENERATE(table<std::string, std::string>({
       {"falsenumber@line=2", "Line Number is not Last Line Number+1"},
       {"falsemissing@line=2", "No Checksum with line number"},
@@ -220,7 +218,7 @@ TEST_CASE("a good line is refused for a number that was right, or a checksum tha
   CHECK(desk.lines().accepted == 2);
 }
 
-TEST_CASE("rewind: a line is taken and asked for once more, so that it is executed twice") {
+TEST_CASE("rewind: a line is accepted and requested again, so that it is executed twice") {
   const std::string who = GENERATE("marlin", "repetier");
   Desk desk({"rewind@line=3"}, who);
   desk.send(1, "G91");
@@ -246,7 +244,7 @@ TEST_CASE("oks are lost, doubled, misspelt") {
   CHECK(desk.count("ok") == oks);
 }
 
-TEST_CASE("a misspelt ok is none") {
+TEST_CASE("a misspelt ok does not count as ok") {
   Desk desk({"brokenok:1"});
   for (int i = 1; i <= 40; ++i) desk.send(i, "G90");
   CHECK(desk.struck("brokenok") == 40);
@@ -254,7 +252,7 @@ TEST_CASE("a misspelt ok is none") {
   CHECK(desk.lines().accepted == 40);
 }
 
-TEST_CASE("the next ok reads as one pleases") {
+TEST_CASE("the next ok reads as the fault says") {
   Desk desk({"answer:ok 17 ready@line=2"});
   for (int i = 1; i <= 3; ++i) desk.send(i, "G90");
   CHECK(desk.heard == "ok\nok 17 ready\nok\n");
@@ -293,7 +291,7 @@ TEST_CASE("bytes of replies are flipped or lost") {
   CHECK(lost.heard.size() > 210);
 }
 
-TEST_CASE("slow replies come up to so many seconds late, in order") {
+TEST_CASE("slow replies are late by up to the given time, and stay in order") {
   Desk desk({"slow:2"});
   const double before = desk.printer.now();
   for (int i = 0; i < 20; ++i) desk.printer.write("M114\n");
@@ -303,9 +301,9 @@ TEST_CASE("slow replies come up to so many seconds late, in order") {
   CHECK(before > 0);
 }
 
-// ---- things that happen to the printer
+// ---- faults of the printer itself
 
-TEST_CASE("a stall: nothing is read or answered, moves go on, then all is made up for") {
+TEST_CASE("a stall: nothing is read or answered, but moves continue; afterwards everything is answered") {
   Desk desk({"stall:5@line=2"});
   desk.send(1, "G91");
   desk.send(Bench::numbered(2, "G1 X10 F600") + "\n", 0.01);
@@ -318,7 +316,7 @@ TEST_CASE("a stall: nothing is read or answered, moves go on, then all is made u
   CHECK(desk.said("X:10.00"));
 }
 
-TEST_CASE("silence: it never answers again") {
+TEST_CASE("silence: the printer never answers again") {
   Desk desk({"silence@line=2"});
   desk.send(1, "G90");
   desk.send(2, "G90");
@@ -328,7 +326,7 @@ TEST_CASE("silence: it never answers again") {
   CHECK(desk.heard.empty());
 }
 
-TEST_CASE("a cable that is pulled loses what was on its way, while the printer works on") {
+TEST_CASE("a pulled cable loses the bytes in transit, while the printer continues") {
   Desk desk({"disconnect:10@line=2"});
   desk.send(1, "G91");
   desk.send(Bench::numbered(2, "G1 X10 F600") + "\n", 5);
@@ -342,7 +340,7 @@ TEST_CASE("a cable that is pulled loses what was on its way, while the printer w
   desk.printer.plug_in();
   desk.heard.clear();
   desk.send("M114\n");
-  CHECK(desk.said("X:10.00"));  // a 32-bit board on USB has not been reset by that
+  CHECK(desk.said("X:10.00"));  // this has not reset a 32-bit board on USB
 }
 
 TEST_CASE("a reset in mid-print: it says start and has forgotten the line number") {
@@ -355,7 +353,7 @@ TEST_CASE("a reset in mid-print: it says start and has forgotten the line number
   CHECK(desk.said("Last Line: 0\nResend: 1\nok\n"));
 }
 
-TEST_CASE("heaters and thermistor break at their moment, and the firmware stops itself with the reason") {
+TEST_CASE("heaters and thermistor fail at their moment, and the firmware stops itself with the reason") {
   const auto [fault, reason] = GENERATE(table<std::string, std::string>({
       {"heaterfail@t=400", "Error:Thermal Runaway, system stopped! Heater_ID: 0"},
       {"bedfail@t=400", "Error:Thermal Runaway, system stopped! Heater_ID: bed"},
@@ -370,14 +368,14 @@ TEST_CASE("heaters and thermistor break at their moment, and the firmware stops 
   CHECK(desk.count("//action:poweroff") == 1);
 }
 
-TEST_CASE("filament runs out, and the host is told so by actions") {
+TEST_CASE("filament runs out, and the printer announces it with host actions") {
   Desk desk({"runout@line=2"});
   desk.send(1, "G90");
   desk.send(2, "G90");
   CHECK(desk.count("//action:out_of_filament T0") == 1);
 }
 
-TEST_CASE("words and ends of one's own, at every command of a kind") {
+TEST_CASE("say and fatal take any text, at every command of a kind") {
   Desk desk({"say://action:pause@command=G28", "fatal:Fan stopped@t=100"});
   desk.send("G28\n", 10);
   desk.send(Bench::numbered(1, "G28 X") + "\n", 10);
@@ -387,7 +385,7 @@ TEST_CASE("words and ends of one's own, at every command of a kind") {
   CHECK(desk.said("Error:Fan stopped\nError:Printer halted. kill() called!\n"));
 }
 
-TEST_CASE("the same seed strikes the same way, another one does not, and one fault more changes nothing") {
+TEST_CASE("the same seed gives the same faults, and an additional fault does not change the others") {
   const auto errors = [](const std::vector<std::string>& faults, std::uint64_t seed) {
     Desk desk(faults, "marlin", {250000, Usb::none}, seed);
     std::vector<std::string> heard;
@@ -397,7 +395,7 @@ TEST_CASE("the same seed strikes the same way, another one does not, and one fau
   CHECK(errors({"lostok:0.1"}, 3) == errors({"lostok:0.1"}, 3));
   CHECK(errors({"lostok:0.1"}, 3) != errors({"lostok:0.1"}, 4));
   CHECK(errors({"lostok:0.1"}, 3) == errors({"lostok:0.1", "replyflip:0"}, 3));
-  // An alarm at every line keeps the next kind from striking, not its dice from being thrown.
+  // An alarm at every line keeps the next kind from striking, but its random numbers are still drawn.
   const auto forgotten = [](const std::vector<std::string>& faults) {
     Desk desk(faults);
     for (int i = 1; i <= 100; ++i) desk.send(i, "G90");

@@ -1,4 +1,4 @@
-// Hosts that come and go, cables that do, and time in lockstep: over real pseudo-terminals and sockets.
+// Hosts and cables that come and go, and time in lockstep, over real pseudo-terminals and sockets.
 #include <catch2/catch.hpp>
 
 #include <sys/ioctl.h>
@@ -58,7 +58,7 @@ class Clock {
 
 }  // namespace
 
-TEST_CASE("a cable that is pulled ends the host's line, and comes back behind the same link") {
+TEST_CASE("a pulled cable ends the host's line, and returns behind the same link") {
   const Folder folder;
   SimulatorOptions options = in(folder);
   options.faults = {"disconnect:2@line=2"};
@@ -78,7 +78,7 @@ TEST_CASE("a cable that is pulled ends the host's line, and comes back behind th
   CHECK(report_of(options)["lines"]["accepted"] == 2);
 }
 
-TEST_CASE("a cable that never comes back ends the simulation, report and all") {
+TEST_CASE("a cable that never returns ends the simulation, with a report") {
   const Folder folder;
   SimulatorOptions options = in(folder);
   options.faults = {"disconnect@line=1"};
@@ -92,11 +92,11 @@ TEST_CASE("a cable that never comes back ends the simulation, report and all") {
 }
 
 TEST_CASE(
-    "a printer that has fallen silent in mid-command, or loses its cable while it boots, ends with its "
+    "a printer that falls silent in mid-command, or loses its cable while it boots, ends with its "
     "host") {
   const Folder folder;
   SimulatorOptions options = in(folder);
-  SECTION("silent while it heats") {
+  SECTION("silence while it heats") {
     options.faults = {"silence@line=2"};
     Child child(options);
     Host host(options.link->string());
@@ -115,7 +115,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("opening the port resets a board with its reset on DTR, unless the host before has cleared HUPCL") {
+TEST_CASE(
+    "opening the port resets a board with its reset on DTR, unless the previous host has cleared HUPCL") {
   const Folder folder;
   SimulatorOptions options = in(folder);
   options.once = false;
@@ -124,7 +125,7 @@ TEST_CASE("opening the port resets a board with its reset on DTR, unless the hos
   Child child(options);
   const auto visit = [&](std::int64_t second, bool clear_hupcl) {
     Clock clock(*options.control);
-    clock.ask(fmt::format("wait {} 0", second * 1'000'000'000));  // a boot, if there is one, is over
+    clock.ask(fmt::format("wait {} 0", second * 1'000'000'000));  // a boot, if any, is over
     Host host(options.link->string());
     termios settings{};
     ::tcgetattr(host.port(), &settings);
@@ -133,13 +134,13 @@ TEST_CASE("opening the port resets a board with its reset on DTR, unless the hos
     host.hang_up();
   };
   visit(10, false);
-  visit(20, true);  // DTR had dropped: a reset
-  visit(30, true);  // it had not
+  visit(20, true);  // DTR had dropped, so the board resets
+  visit(30, true);  // DTR had not dropped
   REQUIRE(child.stop() == 0);
   CHECK(report_of(options)["resets"] == 1);
 }
 
-TEST_CASE("in lockstep time passes only as far as the host says, or to what it can read") {
+TEST_CASE("in lockstep, time advances only as far as the host says, or to the next bytes for it") {
   const Folder folder;
   SimulatorOptions options = in(folder);
   options.control = folder.path() / "clock";
@@ -159,19 +160,20 @@ TEST_CASE("in lockstep time passes only as far as the host says, or to what it c
     CHECK(clock.ask("wait -1 0") == "at 2000000000" + told + " idle");
     host.write("G4 P1500\n");
     CHECK(clock.ask("wait 3000000000 9") == "at 3000000000" + told);
-    CHECK(clock.ask("wait 9000000000 9").starts_with("at 3500480000 "));  // nine bytes there, three back
+    CHECK(clock.ask("wait 9000000000 9")
+              .starts_with("at 3500480000 "));  // nine bytes to the printer, three back
     host.expect("ok");
   }
   CHECK(child.wait() == 0);
   CHECK_FALSE(std::filesystem::exists(*options.control));
 }
 
-TEST_CASE("a host that waits for ever, and leaves, holds up nobody; nor does a signal come in vain") {
+TEST_CASE("neither a host that waits for ever and leaves, nor a signal, blocks the simulator") {
   const Folder folder;
   SimulatorOptions options = in(folder);
   options.control = folder.path() / "clock";
   const bool hot = GENERATE(true, false), leaves = GENERATE(true, false);
-  options.once = hot;  // who has written nothing has not used it
+  options.once = hot;  // a host that has written nothing has not used the line
   Child child(options);
   Host host(child.path());
   auto clock = std::make_unique<Clock>(*options.control);
@@ -181,13 +183,13 @@ TEST_CASE("a host that waits for ever, and leaves, holds up nobody; nor does a s
   const std::string written = hot ? "10" : "0";
   while (!clock->ask("wait 30000000000 " + written).starts_with("at 30000000000 ")) {
   }
-  clock->say("wait -1 " + written);  // the heater works on, and nothing will ever be said again
+  clock->say("wait -1 " + written);  // the heater keeps working, and nothing will ever be said again
   if (leaves) clock.reset();
   CHECK((leaves && hot ? child.wait() : child.stop()) == 0);
   CHECK(report_of(options)["printer_seconds"] > 30);
 }
 
-TEST_CASE("a host that talks nonsense on the control socket ends the simulation") {
+TEST_CASE("an invalid message on the control socket ends the simulation") {
   const Folder folder;
   SimulatorOptions options = in(folder);
   options.control = folder.path() / "clock";

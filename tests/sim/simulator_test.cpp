@@ -52,7 +52,7 @@ double volume_of(const RasterFrame& frame, RasterReader& reader) {
 
 }  // namespace
 
-TEST_CASE("a print over a pseudo-terminal: every line once, in order, in spite of a damaged one") {
+TEST_CASE("a print over a pseudo-terminal executes every line once, in order, in spite of a damaged one") {
   const Folder folder;
   SimulatorOptions options;
   options.once = true;
@@ -136,11 +136,11 @@ TEST_CASE("the same bytes give the same report") {
   CHECK(reports[0] == reports[1]);
 }
 
-TEST_CASE("a link to the terminal comes and goes, and never takes the place of a file") {
+TEST_CASE("a link to the terminal comes and goes, and never replaces a file") {
   const Folder folder;
   SimulatorOptions options;
   options.link = folder.path() / "printer";
-  SECTION("new, and gone at the end") {
+  SECTION("a new link is removed at the end") {
     Child child(options);
     CHECK(fs::read_symlink(*options.link) == child.path());
     Host host(*options.link);
@@ -149,7 +149,7 @@ TEST_CASE("a link to the terminal comes and goes, and never takes the place of a
     CHECK(child.stop() == 0);
     CHECK_FALSE(fs::exists(fs::symlink_status(*options.link)));
   }
-  SECTION("a link that leads nowhere is replaced") {
+  SECTION("a dangling link is replaced") {
     fs::create_symlink(folder.path() / "gone", *options.link);
     Child child(options);
     CHECK(fs::read_symlink(*options.link) == child.path());
@@ -169,7 +169,7 @@ TEST_CASE("a link to the terminal comes and goes, and never takes the place of a
   }
 }
 
-TEST_CASE("a printer outlives its hosts: the next one finds it as the last one left it") {
+TEST_CASE("a printer outlives its hosts: the next host finds it as the last one left it") {
   const Folder folder;
   SimulatorOptions options;
   options.report = folder.path() / "report.json";
@@ -185,7 +185,7 @@ TEST_CASE("a printer outlives its hosts: the next one finds it as the last one l
   CHECK(read_json(*options.report)["position"]["x"] == 50.0);
 }
 
-TEST_CASE("a host that leaves at once still counts, and its words are heard") {
+TEST_CASE("the bytes of a host that leaves at once are still executed") {
   const Folder folder;
   SimulatorOptions options;
   options.once = true;
@@ -211,24 +211,24 @@ TEST_CASE("a stopped simulator writes its report") {
   CHECK(read_json(*options.report)["killed"] == true);
 }
 
-TEST_CASE("options that make no printer are refused") {
+TEST_CASE("impossible options are refused") {
   SimulatorOptions options;
-  SECTION("no feeder") {
+  SECTION("without a feeder") {
     options.feeders = 0;
   }
   SECTION("a bed without height") {
     options.bed = {200, 200};
   }
-  SECTION("a speed of nothing") {
+  SECTION("a speed of 0") {
     options.max_speed[1] = 0;
   }
-  SECTION("pixels of nothing") {
+  SECTION("pixels of size 0") {
     options.pixel = 0;
   }
   CHECK_THROWS_AS(run_simulator(options, [](const std::string&) {}), std::invalid_argument);
 }
 
-TEST_CASE("a report that cannot be written is told before anything starts") {
+TEST_CASE("a report that cannot be written is refused before anything starts") {
   SimulatorOptions options;
   options.report = "/nonexistent/folder/report.json";
   Child child(options);
@@ -236,7 +236,7 @@ TEST_CASE("a report that cannot be written is told before anything starts") {
   CHECK(child.wait() == 7);
 }
 
-TEST_CASE("with a paced clock replies come at their printer time") {
+TEST_CASE("with a paced clock replies arrive at their printer time") {
   SimulatorOptions options;
   options.speed = 50;
   Child child(options);

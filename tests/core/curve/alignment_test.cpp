@@ -39,7 +39,7 @@ PlannedCurve planned(const Polygon& island, PatternKind kind, double angle) {
 
 }  // namespace
 
-TEST_CASE("every direction alike is π²/12 from any, parallel lines are 0 or the square of their angle") {
+TEST_CASE("uniform directions give π²/12 against any field, parallel lines the square of their angle") {
   const Polygon island = rectangle(12, 12);
   const DirectionField field = along(0.3, island);
   CHECK(mean_squared_angle(ring(4, 2000), field) ==
@@ -54,18 +54,15 @@ TEST_CASE("every direction alike is π²/12 from any, parallel lines are 0 or th
   CHECK(mean_squared_angle(line(0.8), DirectionField()) == 0);
 }
 
-TEST_CASE("the gradient of the alignment is exact while cells stay") {
+TEST_CASE("the gradient of the alignment is exact as long as cells do not change") {
   const Polygon island = rectangle(12, 12);
   const double turn = 0.4;
   const Lattice lattice = sample(island, 0.23);
   // In the turned frame the field of angle 0.3 − turn is that of angle 0.3.
   const Alignment alignment(lattice, along(0.3, island), turn);
   const Curve curve = ring(4, 60);
-  std::vector<Segment> segments;
-  for (std::size_t i = 0; i < curve.size(); ++i)
-    segments.push_back({curve.vertices[i], curve.vertices[curve.after(i)]});
   LatticeOwners owners(lattice);
-  owners.assign(segments);
+  owners.assign(curve.segments());
   std::vector<Vec2> gradient(curve.size(), Vec2(0, 0)), ignored = gradient;
   REQUIRE(alignment.evaluate(curve, owners, 1, gradient) > 0);
   Random random(4);
@@ -85,34 +82,37 @@ TEST_CASE("the gradient of the alignment is exact while cells stay") {
   }
 }
 
-TEST_CASE("the heaviest perfect matching is that of trying them all") {
+TEST_CASE("the heaviest perfect matching is the best of all matchings") {
   Random random(8);
   for (int trial = 0; trial < 30; ++trial) {
     // A prism over a k-gon: cubic and bridgeless.
-    const int k = 3 + static_cast<int>(random.below(3));
-    std::vector<std::pair<int, int>> edges;
-    for (int i = 0; i < k; ++i) {
-      edges.insert(edges.end(), {{i, (i + 1) % k}, {k + i, k + (i + 1) % k}, {i, k + i}});
+    const std::size_t k = 3 + random.below(3);
+    Per<EdgeIndex, EdgeEnds> edges;
+    for (std::size_t i = 0; i < k; ++i) {
+      const std::size_t next = (i + 1) % k;
+      edges.push_back({NodeIndex(i), NodeIndex(next)});
+      edges.push_back({NodeIndex(k + i), NodeIndex(k + next)});
+      edges.push_back({NodeIndex(i), NodeIndex(k + i)});
     }
-    std::vector<int> weights;
+    Per<EdgeIndex, int> weights;
     for (std::size_t e = 0; e < edges.size(); ++e)
       weights.push_back(static_cast<int>(random.below(200)) - 100);
     int best = -1000000;
     for (unsigned subset = 0; subset < 1U << edges.size(); ++subset) {
-      std::vector<int> touched(static_cast<std::size_t>(2 * k), 0);
+      Per<NodeIndex, int> touched(2 * k, 0);
       int sum = 0;
-      for (std::size_t e = 0; e < edges.size(); ++e) {
-        if ((subset >> e & 1U) == 0) continue;
-        ++touched[static_cast<std::size_t>(edges[e].first)];
-        ++touched[static_cast<std::size_t>(edges[e].second)];
+      for (const EdgeIndex e : edges.indices()) {
+        if ((subset >> e.number() & 1U) == 0) continue;
+        ++touched[edges[e].first];
+        ++touched[edges[e].second];
         sum += weights[e];
       }
-      if (touched == std::vector<int>(touched.size(), 1)) best = std::max(best, sum);
+      if (touched == Per<NodeIndex, int>(2 * k, 1)) best = std::max(best, sum);
     }
-    const std::vector<bool> matched = heaviest_perfect_matching(2 * k, edges, weights);
+    const Per<EdgeIndex, bool> matched = heaviest_perfect_matching(2 * k, edges, weights);
     REQUIRE(matched.size() == edges.size());
     int sum = 0;
-    for (std::size_t e = 0; e < edges.size(); ++e) sum += matched[e] ? weights[e] : 0;
+    for (const EdgeIndex e : edges.indices()) sum += matched[e] ? weights[e] : 0;
     REQUIRE(sum == best);
   }
 }
@@ -129,7 +129,8 @@ TEST_CASE("curves follow the direction that a zone asks for") {
   CHECK(curve.farthest < 1.2 * 0.6);
 }
 
-TEST_CASE("an anisotropic zone runs along its longest way, an isotropic one every way") {
+TEST_CASE(
+    "the curve of an anisotropic zone follows its long axis, that of an isotropic zone all directions") {
   const Polygon strip{{{0, 0}, {20, 20}, {17, 23}, {-3, 3}}, {}};
   const DirectionField long_way = along(std::numbers::pi / 4, strip), x = along(0, strip);
   const auto angles = [&](PatternKind kind, const DirectionField& field) {

@@ -31,21 +31,21 @@ void check_sound(const Curve& curve, const Polygon& island) {
 
 }  // namespace
 
-TEST_CASE("meeting segments are counted, neighbours are not") {
+TEST_CASE("segments that meet are counted, except neighbours") {
   CHECK(self_intersections({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}) == 0);
   CHECK(self_intersections({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}) == 1);
   CHECK(self_intersections({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}}) ==
-        2);  // a touch, seen from both its segments
+        2);  // one vertex touches, and both of its segments count
 }
 
-TEST_CASE("segments outside are counted") {
+TEST_CASE("segments outside the border are counted") {
   const BorderIndex border(square_with_hole(), 1);
   CHECK(segments_outside({{{1, 1}, {11, 1}, {11, 11}, {1, 11}}}, border) == 0);
   CHECK(segments_outside({{{1, 1}, {11, 1}, {11, 11}, {6, 6}, {1, 11}}}, border) == 2);
   CHECK(segments_outside({{{1, 1}, {13, 1}, {11, 11}, {1, 11}}}, border) == 2);
 }
 
-TEST_CASE("a vertex's freedom is its share of the nearest distance by brute force") {
+TEST_CASE("a vertex's freedom is 0.45 of the nearest distance, which brute force confirms") {
   const Polygon island = square_with_hole();
   const Curve curve = first_curve(island, 0.9, 5);
   const BorderIndex border(island, 1.0);
@@ -98,7 +98,7 @@ TEST_CASE("vertices that stay within their freedom cannot make a curve cross its
   }
 }
 
-TEST_CASE("respacing drops and halves without breaking anything") {
+TEST_CASE("respacing removes and adds vertices, and the curve stays simple and inside") {
   const Polygon island = square_with_hole();
   const BorderIndex border(island, 1.0);
   const Curve curve = first_curve(island, 0.9, 6);
@@ -112,8 +112,8 @@ TEST_CASE("respacing drops and halves without breaking anything") {
   CHECK(fine.length() == Approx(spread.length()));
 }
 
-TEST_CASE("vertices that have fallen together are parted again, unless something lies between them") {
-  // A square of 4 mm whose lower side turns by a step of a hundredth of the spacing: next to no clearance.
+TEST_CASE("collapsed vertices are removed unless something lies in the corner that they cut off") {
+  // A square of 4 mm whose lower side has a step of a hundredth of the spacing, and so almost no clearance.
   const Polygon island = rectangle(10, 10);
   const BorderIndex border(island, 1.0);
   Curve curve{{{3, 3}, {5, 3}, {5.001, 3.006}, {7, 3.006}, {7, 7}, {3, 7}}};
@@ -122,7 +122,7 @@ TEST_CASE("vertices that have fallen together are parted again, unless something
   check_sound(thin, island);
   for (std::size_t i = 0; i < thin.size(); ++i)
     CHECK((thin.vertices[thin.after(i)] - thin.vertices[i]).norm() > 0.1);
-  // A thorn of the island's border in the corner that would be cut off.
+  // A thorn of the island's border lies in the corner that would be cut off.
   Polygon thorned = island;
   thorned.holes = {{{5.0004, 3.004}, {5.0004, 3.00401}, {5.00041, 3.004}}};
   Curve around{
@@ -134,7 +134,7 @@ TEST_CASE("vertices that have fallen together are parted again, unless something
     CHECK(std::count(kept.vertices.begin(), kept.vertices.end(), corner) == 1);
 }
 
-TEST_CASE("fairing holds the length, stays inside and simple, and covers well") {
+TEST_CASE("a faired curve has the asked length, is inside and simple, and covers its island well") {
   const Polygon island = GENERATE(rectangle(14, 14), square_with_hole());
   const double w = 0.6;
   FairingOptions options;

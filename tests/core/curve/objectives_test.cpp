@@ -1,4 +1,4 @@
-// Every gradient against central differences.
+// Compares every gradient with central differences.
 #include <catch2/catch.hpp>
 
 #include <functional>
@@ -61,17 +61,17 @@ TEST_CASE("the gradient of the smoothness is exact") {
   CHECK(worst_error(smooth, wavy(random), random, 1e-4) < 1e-8);
 }
 
-TEST_CASE("the gradient of the coverage is that of the lattice") {
+TEST_CASE("the gradient of the coverage agrees with differences of its value on the lattice") {
   Random random(3);
   const Lattice lattice = sample(rectangle(10, 10), 0.11);
   Coverage coverage(lattice);
   const Objective cover = [&](const Curve& c, std::vector<Vec2>& g) { return coverage.evaluate(c, 1, g); };
-  // Owners are found in float precision; the value is summed in double.
+  // Owners are found in single precision; the value is summed in double precision.
   CHECK(worst_error(cover, wavy(random), random, 1e-4) < 2e-3);
 }
 
 TEST_CASE("coverage of a straight strand in a strip is the second moment of its width") {
-  // A long thin loop in the middle of a 40 × 1 strip, ends at the borders: ∫ y² = length · w³/12.
+  // A long thin loop in the middle of a 40 × 1 strip whose ends touch the borders: ∫ y² = length · w³/12.
   const Lattice lattice = sample(rectangle(40, 1), 0.02);
   Coverage coverage(lattice);
   const Curve strand{{{0, 0.5}, {20, 0.5}, {40, 0.5}, {20, 0.5}}};
@@ -79,8 +79,8 @@ TEST_CASE("coverage of a straight strand in a strip is the second moment of its 
   CHECK(coverage.evaluate(strand, 1, gradient) == Approx(40.0 / 12).epsilon(1e-3));
 }
 
-TEST_CASE("with split squares a coarse lattice comes within a part in two hundred of the exact diagram") {
-  // Folds at spacings of about 1, five squares to each, whose borders cut the squares anywhere.
+TEST_CASE("with split squares a coarse lattice is within 0.5 % of the exact diagram") {
+  // Folds with spacings of about 1, five squares each; borders between folds cut the squares anywhere.
   Curve folds;
   for (int k = 0; k < 12; ++k) {
     for (int i = 0; i <= 100; ++i) {
@@ -99,7 +99,7 @@ TEST_CASE("with split squares a coarse lattice comes within a part in two hundre
   Coverage coverage(lattice);
   std::vector<Vec2> gradient(folds.size(), Vec2(0, 0));
   const double value = coverage.evaluate(folds, 1, gradient);
-  // The samples' own spread about their squares' centres, which a point cannot know.
+  // The second moment of the squares about their centres, which point samples do not include.
   const double within = area(island) * 0.2 * 0.2 / 12;
   INFO("exact " << exact << ", sampled " << value << ", within squares " << within);
   CHECK(value + within == Approx(exact).epsilon(0.005));

@@ -25,7 +25,7 @@ Curve wiggle(std::size_t n, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("parallel lines are π²/12 from evenness, whatever their direction; all directions are 0") {
+TEST_CASE("the distance is π²/12 for parallel lines of any direction, and 0 for uniform directions") {
   for (const double angle : {0.0, 0.4, 1.5, 3.1, -2.0}) {
     CHECK(isotropy_distance({{angle, 1}, {angle, 5}, {angle + pi, 0.3}}) == Approx(pi * pi / 12));
   }
@@ -35,7 +35,7 @@ TEST_CASE("parallel lines are π²/12 from evenness, whatever their direction; a
   CHECK(isotropy_distance({}) == 0);
 }
 
-TEST_CASE("k directions of equal length are π²/12k² from evenness") {
+TEST_CASE("the distance of k equally spaced directions of equal length is π²/12k²") {
   for (const int k : {1, 2, 3, 7}) {
     std::vector<Stroke> strokes;
     for (int i = 0; i < k; ++i) strokes.push_back({0.2 + pi * i / k, 1});
@@ -43,7 +43,7 @@ TEST_CASE("k directions of equal length are π²/12k² from evenness") {
   }
 }
 
-TEST_CASE("the distance does not change when everything is turned") {
+TEST_CASE("a rotation of all strokes does not change the distance") {
   Random random(3);
   std::vector<Stroke> strokes;
   for (int k = 0; k < 40; ++k) strokes.push_back({random.uniform(0, pi), random.uniform()});
@@ -73,8 +73,8 @@ TEST_CASE("the gradient of the transport is exact") {
   }
 }
 
-TEST_CASE("the variation of widths is that of windows along the path") {
-  // Four sides of 1 mm, areas 1, 3, 1, 3: windows of a side see widths 1 and 3, of two sides always 2.
+TEST_CASE("the variation of widths is measured over windows along the path") {
+  // Four sides of 1 mm with areas 1, 3, 1, 3: windows of one side have widths 1 and 3, of two sides always 2.
   BeadPath path;
   path.beads = {{{0, 0}, 1, 0}, {{1, 0}, 3, 0}, {{1, 1}, 1, 0}, {{0, 1}, 3, 0}};
   CHECK(width_variation(path, 1) == Approx(0.5));

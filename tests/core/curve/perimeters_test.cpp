@@ -19,7 +19,7 @@ std::vector<Curve> all_rings(const Perimeters& laid) {
   return all;
 }
 
-/// Every ring simple, inside, and apart from the others.
+/// Checks that every ring is simple, inside, and apart from the others.
 void check_rings(const Perimeters& laid, const Polygon& region) {
   const std::vector<Curve> all = all_rings(laid);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -50,7 +50,7 @@ std::pair<double, double> distances(const Curve& curve, const Polygon& region, c
 
 }  // namespace
 
-TEST_CASE("contours of a square with a hole run k - 1/2 bead widths inside every border") {
+TEST_CASE("contour k of a square with a hole runs k - 1/2 bead widths inside every border") {
   const Polygon square = square_with_hole();
   const Perimeters laid = perimeters(square, 3, w, least);
   check_rings(laid, square);
@@ -69,7 +69,7 @@ TEST_CASE("contours of a square with a hole run k - 1/2 bead widths inside every
   }
 }
 
-TEST_CASE("a strip takes as many contours as fit, and leaves nothing narrower than 0.8 bead widths") {
+TEST_CASE("a strip gets as many contours as fit, and the rest is at least 0.8 bead widths wide") {
   const auto count = [](double width) { return perimeters(rectangle(12, width * w), 9, w, least); };
   CHECK(count(0.5).rings.empty());
   CHECK(count(0.7).rings.size() == 1);
@@ -88,7 +88,7 @@ TEST_CASE("strands in a neck lie at a quarter of its width, so that two beads fi
   two = unite(two, {{{{10, 0}, {15, 0}, {15, 5}, {10, 5}}, {}}});
   const Perimeters laid = perimeters(two.front(), 1, w, least);
   check_rings(laid, two.front());
-  REQUIRE(laid.rings.front().size() == 1);  // one ring passes the neck there and back
+  REQUIRE(laid.rings.front().size() == 1);  // one ring passes through the neck, there and back
   CHECK(laid.inside.size() == 2);
   const auto [low, high] = distances(laid.rings[0][0], two.front(), {{6, 0}, {9, 5}});
   CHECK(low == Approx(neck / 4).margin(0.06 * w));
@@ -107,7 +107,7 @@ TEST_CASE("a ring reaches into a spike until two beads no longer fit") {
   CHECK(reach * 3 / 14 == Approx(least).epsilon(0.25));  // the wedge's width there
 }
 
-TEST_CASE("random islands: rings are simple, inside and apart; what they leave is out of their way") {
+TEST_CASE("random islands: rings are simple, inside and apart, and keep clear of the area left to the fill") {
   Random random(5);
   for (int k = 0; k < 40; ++k) {
     const Polygon island = random_island(random, random.uniform(1, 6), 6);

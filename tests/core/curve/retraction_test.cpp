@@ -8,15 +8,15 @@
 namespace unicursal::core {
 namespace {
 
-/// A frame of beads 1 mm wide around a chamber 10 mm long into which `fingers` fingers reach from below; the
-/// chamber is `room` wide.
+/// A frame of beads 1 mm wide around a chamber 10 mm long and `room` wide, into which `fingers` fingers reach
+/// from below.
 struct Lobe {
   Curve curve;
   Polygon island;
 };
 
 Lobe lobe(int fingers, double room) {
-  // Strands stand `pitch` apart in the lobe; below it the curve runs back along a wide foot.
+  // Strands are `pitch` apart in the lobe; below it the curve runs back along a wide foot.
   const double pitch = room / (2 * fingers);
   Ring ring;
   for (int f = 0; f < fingers; ++f) {
@@ -33,7 +33,7 @@ Lobe lobe(int fingers, double room) {
   return result;
 }
 
-/// Half of the distance to either side of a strand, times its length, as areas.
+/// The area of each strand: its length times half the distance to its neighbours on either side.
 std::vector<double> areas_of(const Curve& curve, double room, int fingers) {
   std::vector<double> areas;
   for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -52,7 +52,7 @@ double highest(const Curve& curve, double from, double to) {
   return result;
 }
 
-TEST_CASE("One of two fingers leaves a lobe that has room for one") {
+TEST_CASE("One of two fingers is drawn back from a lobe that has room for one") {
   const double room = 2.3;
   const Lobe crowded = lobe(2, room);
   const BorderIndex border(crowded.island, 1);
@@ -60,12 +60,12 @@ TEST_CASE("One of two fingers leaves a lobe that has room for one") {
   CHECK(result.fingers == 1);
   CHECK(self_intersections(result.curve) == 0);
   CHECK(segments_outside(result.curve, border) == 0);
-  // Two strands of 10 mm are gone, more or less; what is left still reaches the end of the lobe.
+  // About two strands of 10 mm are removed; the rest of the curve still reaches the end of the lobe.
   CHECK(crowded.curve.length() - result.curve.length() == Approx(18).margin(5));
   CHECK(highest(result.curve, 0, room) > 11);
 }
 
-TEST_CASE("Fingers that have room stay") {
+TEST_CASE("Fingers that have enough room stay") {
   const Lobe roomy = lobe(2, 4);
   const BorderIndex border(roomy.island, 1);
   const Retraction result = retracted(roomy.curve, areas_of(roomy.curve, 4, 2), border, 1);
@@ -73,7 +73,7 @@ TEST_CASE("Fingers that have room stay") {
   CHECK(result.curve.vertices == roomy.curve.vertices);
 }
 
-TEST_CASE("The only finger of a narrow lobe stays, since nothing else would fill it") {
+TEST_CASE("The only finger of a narrow lobe stays, since no other strand would fill it") {
   const Lobe narrow = lobe(1, 1.4);
   const BorderIndex border(narrow.island, 1);
   const Retraction result = retracted(narrow.curve, areas_of(narrow.curve, 1.4, 1), border, 1);

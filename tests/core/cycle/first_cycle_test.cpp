@@ -18,12 +18,12 @@ std::set<std::pair<double, double>> positions(const std::vector<Vec2>& points) {
   return result;
 }
 
-/// One closed simple walk that meets every node of the graph.
+/// Checks that the cycle is one closed simple walk through every node of the graph.
 void check_cycle(const Cycle& cycle, const CellGraph& graph) {
   REQUIRE(cycle.nodes ==
           graph.node_count() + graph.face_count() - cycle.unreached_centres + 2 * cycle.doubled_edges);
   REQUIRE(self_intersections(drawn(cycle.tour)) == 0);
-  if (cycle.doubled_edges > 0) return;  // doubled nodes are moved aside
+  if (cycle.doubled_edges > 0) return;  // stops at doubled nodes stand beside them
   const auto visited = positions(drawn(cycle.tour).vertices);
   REQUIRE(visited.size() == drawn(cycle.tour).size());
   for (const Vec2& node : graph.position) REQUIRE(visited.count({node.x(), node.y()}) == 1);
@@ -54,7 +54,7 @@ TEST_CASE("a graph of two cells is one cycle through both centres") {
   CHECK(self_intersections(drawn(cycle->tour)) == 0);
 }
 
-TEST_CASE("random domains: one cycle, always simple") {
+TEST_CASE("random domains: there is one cycle, and it is simple") {
   Random random(33);
   std::size_t reconnected = 0, doubled = 0, joined = 0, failed = 0;
   for (int k = 0; k < 80; ++k) {
@@ -73,7 +73,8 @@ TEST_CASE("random domains: one cycle, always simple") {
     reconnected += cycle->split_and_reconnect;
     doubled += cycle->doubled_edges;
   }
-  // A ring of cells at a dead end may hang on bent edges only, which are not doubled; other seeds then do.
+  // A ring of cells at a dead end may be connected by bent edges only, which are not doubled; then other
+  // seeds help.
   CHECK(joined > 60);
   CHECK(failed <= 2);
   // Table 1 of the paper: with refinement, doubling is the rare exception.

@@ -21,26 +21,21 @@ Tour first_tour(const Polygon& domain, double d, std::uint64_t seed) {
   return std::move(cycle->tour);
 }
 
-std::size_t visited(const Tour& tour) {
-  return static_cast<std::size_t>(
-      std::count_if(tour.next.begin(), tour.next.end(), [](StopIndex s) { return s >= 0; }));
-}
-
-/// Directions that turn, and an isotropic half.
+/// Asks for turning directions on one side; the other side is isotropic.
 Demand swirl(const Vec2& p) {
   Demand demand;
   if (p.x() > 6) {
-    demand.even_zone = 0;
+    demand.even_zone = EvenZoneIndex(0);
   } else {
     demand.direction = doubled(std::atan2(p.y() - 5, p.x() - 5));
   }
   return demand;
 }
 
-/// Carries out `count` operations found at random, looking at the whole tour every `every` of them.
+/// Carries out `count` operations found at random, and checks the whole tour after every `every` operations.
 std::array<std::size_t, 5> walk(EditableTour& tour, Random& random, std::size_t count, std::size_t every) {
   std::array<std::size_t, 5> found{};
-  const std::size_t stops = visited(tour.tour());
+  const std::size_t stops = tour.tour().visited_count();
   for (std::size_t done = 0; done < count;) {
     const auto change = tour.look(tour.random_stop(random), random);
     if (!change) continue;
@@ -48,7 +43,7 @@ std::array<std::size_t, 5> walk(EditableTour& tour, Random& random, std::size_t 
     ++found[static_cast<std::size_t>(change->operation)];
     if (++done % every != 0) continue;
     REQUIRE(tour.consistent());
-    REQUIRE(visited(tour.tour()) == stops);
+    REQUIRE(tour.tour().visited_count() == stops);
     REQUIRE(self_intersections(drawn(tour.tour())) == 0);
     REQUIRE(signed_area(drawn(tour.tour()).vertices) > 0);
   }
@@ -62,7 +57,7 @@ TEST_CASE("local operations of every kind keep one Hamiltonian cycle") {
   Random random(5);
   EditableTour tour(first_tour(domain, 0.9, 11));
   REQUIRE(tour.consistent());
-  // Each operation by itself while few have been carried out: a fault would not hide among others.
+  // At first the tour is checked after every single operation, so that a fault cannot hide among others.
   walk(tour, random, 200, 1);
   const auto found = walk(tour, random, 5000, 50);
   for (const int operation : {1, 2, 3, 4}) {
@@ -85,7 +80,7 @@ TEST_CASE("a million local operations on random graphs keep one Hamiltonian cycl
   }
 }
 
-TEST_CASE("the objective follows change by change") {
+TEST_CASE("the objective is kept up to date change by change") {
   EditableTour tour(first_tour(square_with_hole(), 0.8, 3));
   const auto dear_to_cross = [](const Vec2& a, const Vec2& b) {
     return (a.x() < 4) != (b.x() < 4) ? 5.0 : 0.1 * (b - a).norm();
@@ -98,7 +93,7 @@ TEST_CASE("the objective follows change by change") {
     const auto change = tour.look(tour.random_stop(random), random);
     if (!change) continue;
     const double before = objective.value(), rise = objective.difference(*change);
-    if (random.below(2) == 0) continue;  // refused ones leave no trace
+    if (random.below(2) == 0) continue;  // a refused change must not leave a trace
     objective.accept();
     tour.apply(*change);
     REQUIRE(objective.value() == Approx(before + rise));
@@ -106,13 +101,13 @@ TEST_CASE("the objective follows change by change") {
   }
 }
 
-TEST_CASE("flaws are the free stops that cost more than a good chord would") {
+TEST_CASE("flaws are the free stops that cost more than a good chord would cost") {
   EditableTour tour(first_tour(rectangle(10, 10), 0.8, 4));
   CycleObjective objective(tour, swirl, {}, {});
   const std::size_t at_first = objective.flaws().size();
   CHECK(at_first > 0);
   Random random(2);
-  // Downhill only: flaws get fewer, and the list holds no stop twice.
+  // If only improvements are accepted, flaws become fewer; the list must not hold a stop twice.
   for (int k = 0; k < 400000; ++k) {
     const auto change = tour.look(tour.random_stop(random), random);
     if (!change || objective.difference(*change) >= 0) continue;
@@ -125,34 +120,34 @@ TEST_CASE("flaws are the free stops that cost more than a good chord would") {
   CHECK(std::adjacent_find(flaws.begin(), flaws.end()) == flaws.end());
 }
 
-TEST_CASE("labels keep the order however often one place is used") {
-  // A ring of stops; again and again one is taken out and put behind stop 0, which halves the room there.
-  constexpr StopIndex stops = 12;
+TEST_CASE("labels keep the order however often stops move to the same place") {
+  // A ring of stops. Again and again one of them moves behind stop 0, which halves the room for labels there.
+  constexpr std::size_t stops = 12;
+  constexpr StopIndex zero(0);
   Tour ring;
-  for (StopIndex s = 0; s < stops; ++s) {
-    ring.next.push_back((s + 1) % stops);
-    ring.before.push_back((s + stops - 1) % stops);
+  for (std::size_t s = 0; s < stops; ++s) {
+    ring.next.push_back(StopIndex((s + 1) % stops));
+    ring.before.push_back(StopIndex((s + stops - 1) % stops));
   }
   const auto link = [&](StopIndex a, StopIndex b) {
-    ring.next[static_cast<std::size_t>(a)] = b;
-    ring.before[static_cast<std::size_t>(b)] = a;
+    ring.next[a] = b;
+    ring.before[b] = a;
   };
   TourOrder order(ring);
   Random random(3);
   for (int k = 0; k < 500; ++k) {
-    const auto moved = static_cast<StopIndex>(1 + random.below(stops - 1));
-    const auto m = static_cast<std::size_t>(moved);
-    link(ring.before[m], ring.next[m]);
-    const StopIndex after = ring.next[0];
-    link(0, moved);
+    const StopIndex moved(1 + random.below(stops - 1));
+    link(ring.before[moved], ring.next[moved]);
+    const StopIndex after = ring.next[zero];
+    link(zero, moved);
     link(moved, after);
     order.fit(ring, moved, moved);
-    for (StopIndex s = ring.next[0]; s != 0; s = ring.next[static_cast<std::size_t>(s)]) {
-      const StopIndex next = ring.next[static_cast<std::size_t>(s)];
-      REQUIRE(order.within(0, s, ring.before[0]));
-      if (next != 0) {
-        REQUIRE(order.within(s, next, ring.before[0]));
-        REQUIRE_FALSE(order.within(next, s, ring.before[0]));
+    for (StopIndex s = ring.next[zero]; s != zero; s = ring.next[s]) {
+      const StopIndex next = ring.next[s];
+      REQUIRE(order.within(zero, s, ring.before[zero]));
+      if (next != zero) {
+        REQUIRE(order.within(s, next, ring.before[zero]));
+        REQUIRE_FALSE(order.within(next, s, ring.before[zero]));
       }
     }
   }

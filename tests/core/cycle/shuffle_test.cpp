@@ -47,12 +47,12 @@ double along(const Tour& tour) {
 
 }  // namespace
 
-TEST_CASE("annealing and the paper's rule both turn a cycle into the asked direction") {
+TEST_CASE("annealing and the paper's rule both align a cycle with the asked direction") {
   ShuffleOptions options = quick();
   options.sweeps = 200;
   options.rule = GENERATE(ShuffleOptions::Rule::annealing, ShuffleOptions::Rule::algorithm_1);
   Tour tour = first_tour(4);
-  const auto stops = std::count(tour.next.begin(), tour.next.end(), -1);
+  const auto stops = tour.visited_count();
   const double before = along(tour);
   Random random(1);
   const ShuffleReport report = shuffle(tour, upwards, {}, options, random);
@@ -60,16 +60,17 @@ TEST_CASE("annealing and the paper's rule both turn a cycle into the asked direc
   CHECK(report.accepted > 0);
   CHECK(report.found <= report.looks);
   CHECK(along(tour) > before + 0.15);
-  CHECK(std::count(tour.next.begin(), tour.next.end(), -1) == stops);
+  CHECK(tour.visited_count() == stops);
   CHECK(self_intersections(drawn(tour)) == 0);
 }
 
-TEST_CASE("a stop at any sweep gives a cycle that is no worse, and the same one again") {
+TEST_CASE(
+    "stopped at any sweep, the optimiser returns a cycle that is not worse, and the same one every time") {
   const int most = GENERATE(0, 1, 7, 30);
   const auto run = [&] {
     ShuffleOptions options = quick();
     int left = most;
-    options.another = [&left] { return left-- > 0; };
+    options.may_continue = [&left] { return left-- > 0; };
     Tour tour = first_tour(4);
     Random random(1);
     const ShuffleReport report = shuffle(tour, upwards, {}, options, random);
@@ -79,14 +80,15 @@ TEST_CASE("a stop at any sweep gives a cycle that is no worse, and the same one 
   CHECK(run() == run());
 }
 
-TEST_CASE("a population does not depend on threads and beats its first cycle") {
+TEST_CASE("the result of a population does not depend on threads and is better than its first cycle") {
   ShuffleOptions options = quick();
   options.sweeps = 10;
   options.champions = 3;
   options.candidates = 2;
   options.generations = 3;
-  const auto run = [&](unsigned threads) {
-    options.threads = threads;
+  const auto run = [&](int threads) {
+    Workers workers(threads);
+    options.workers = &workers;
     Tour tour = first_tour(4);
     Random random(1);
     const ShuffleReport report = shuffle(tour, upwards, {}, options, random);
@@ -100,10 +102,10 @@ TEST_CASE("a population does not depend on threads and beats its first cycle") {
   CHECK(run(5) == one);
 }
 
-TEST_CASE("champions are the best cycle and those farthest from it") {
+TEST_CASE("champions are the best cycle and the cycles farthest from those chosen") {
   std::vector<Tour> tours(4, first_tour(4));
   const auto shift = [](Tour& tour, std::size_t count) {
-    for (std::size_t s = 0; s < count; ++s) tour.leave[s] ^= 1;
+    for (const StopIndex s : IndexRange<StopIndex>(count)) tour.leave[s] = PlanarGraph::twin(tour.leave[s]);
   };
   shift(tours[1], 3);
   shift(tours[2], 10);
@@ -111,6 +113,6 @@ TEST_CASE("champions are the best cycle and those farthest from it") {
   CHECK(distance(tours[1], tours[2]) == 7);
   CHECK(diverse(tours, {5, 4, 6, 7}, 2) == std::vector<std::size_t>{1, 2});
   CHECK(diverse(tours, {1, 4, 6, 7}, 3) == std::vector<std::size_t>{0, 2, 1});
-  // The last is equal to the first: no more than three differ.
+  // The last tour equals the first, so only three tours differ.
   CHECK(diverse(tours, {1, 4, 6, 7}, 4).size() == 3);
 }

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/field/direction_field.hpp"
-#include "core/field/grid_distance.hpp"
+#include "core/numeric/grid_distance.hpp"
 #include "tests/core/support/shapes.hpp"
 
 using namespace unicursal::core;
@@ -168,7 +168,7 @@ TEST_CASE("the distance to marked squares is that of brute force") {
   for (int k = 0; k < 30; ++k) {
     std::vector<std::uint8_t> marked(grid.size());
     for (std::size_t n = 1 + random.below(12); n > 0; --n) marked[random.below(grid.size())] = 1;
-    const std::vector<double> found = distance_to_marked(grid, marked);
+    const std::vector<double> found = distance_to_marked(grid.columns, grid.rows, marked);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       double best = 1e9;
       for (std::size_t j = 0; j < grid.size(); ++j) {
@@ -179,5 +179,6 @@ TEST_CASE("the distance to marked squares is that of brute force") {
       REQUIRE(found[i] == Approx(best));
     }
   }
-  CHECK(std::isinf(distance_to_marked(grid, std::vector<std::uint8_t>(grid.size(), 0)).front()));
+  CHECK(std::isinf(
+      distance_to_marked(grid.columns, grid.rows, std::vector<std::uint8_t>(grid.size(), 0)).front()));
 }

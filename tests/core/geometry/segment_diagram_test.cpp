@@ -20,7 +20,7 @@ CellIntegrals total(const SegmentDiagram& diagram) {
   return sum;
 }
 
-/// Folds of a snake, `folds` strands of spacing `w`.
+/// A snake of `folds` strands with spacing `w`.
 Ring snake(double length, double w, int folds) {
   Ring ring;
   for (int k = 0; k < folds; ++k) {
@@ -50,7 +50,7 @@ TEST_CASE("a concentric square's cells have their closed-form areas and moments"
   }
 }
 
-TEST_CASE("parallel strands of spacing w have E_CVT ÷ (A·w²) near 1/12") {
+TEST_CASE("for parallel strands of spacing w, E_CVT ÷ (A·w²) is near 1/12") {
   const double w = 0.5;
   const int folds = 40;
   const Polygon island = rectangle(folds * w, 60);
@@ -61,7 +61,8 @@ TEST_CASE("parallel strands of spacing w have E_CVT ÷ (A·w²) near 1/12") {
 }
 
 TEST_CASE("cells add up to the island and agree with a fine lattice") {
-  // A wavy ring around the hole: parabolas, arcs that the border cuts, cells on both sides of the hole.
+  // A wavy ring around the hole: it has parabolas, arcs that the border cuts, and cells on both sides of the
+  // hole.
   Ring path;
   for (int k = 0; k < 150; ++k) {
     const double turn = 2 * std::numbers::pi * k / 150;
@@ -86,7 +87,8 @@ TEST_CASE("cells add up to the island and agree with a fine lattice") {
   }
   CHECK(sum.second_moment == Approx(moment).epsilon(1e-3));
   for (std::size_t i = 0; i < path.size(); ++i) {
-    // Samples of a vertex's cell go to either neighbour: compare with both of its cells as the outer bounds.
+    // Samples of a vertex's cell may count for either neighbour, so the cells of both vertices bound the
+    // difference.
     const double own = diagram.segments[i].area;
     const double ends = diagram.points[i].area + diagram.points[(i + 1) % path.size()].area;
     REQUIRE(areas[i] > own - 0.01);
@@ -94,8 +96,8 @@ TEST_CASE("cells add up to the island and agree with a fine lattice") {
   }
 }
 
-TEST_CASE("a diagram in pieces is that of the whole curve, with any number of threads") {
-  // Enough vertices for several pieces; the hole makes them non-convex.
+TEST_CASE("a diagram made in pieces equals that of the whole curve, with any number of threads") {
+  // There are enough vertices for several pieces, and the hole makes them non-convex.
   Ring path;
   constexpr int count = 7000;
   for (int k = 0; k < count; ++k) {
@@ -108,7 +110,7 @@ TEST_CASE("a diagram in pieces is that of the whole curve, with any number of th
   const CellIntegrals sum = total(diagram);
   CHECK(sum.area == Approx(area(island)).epsilon(1e-12));
 
-  // The curve and the island look the same turned by a quarter, the pieces do not.
+  // The curve and the island are the same after a quarter turn, but the pieces are not.
   for (std::size_t i = 0; i < path.size(); ++i) {
     const std::size_t turned = (i + count / 4) % count;
     REQUIRE(diagram.segments[i].area == Approx(diagram.segments[turned].area).margin(1e-9));
@@ -118,7 +120,7 @@ TEST_CASE("a diagram in pieces is that of the whole curve, with any number of th
   }
 }
 
-TEST_CASE("collinear and nearly collinear vertices change nothing") {
+TEST_CASE("collinear and nearly collinear vertices do not change the areas") {
   const Ring plain{{2, 2}, {8, 2}, {8, 8}, {2, 8}};
   const Ring dense{{2, 2}, {4, 2}, {5, 2 + 1e-9}, {6, 2}, {8, 2}, {8, 8}, {5, 8}, {2, 8}};
   const CellIntegrals a = total(segment_diagram(plain, rectangle(10, 10)));
@@ -128,8 +130,7 @@ TEST_CASE("collinear and nearly collinear vertices change nothing") {
 }
 
 TEST_CASE("cells add up to the area of a border that overlaps itself within rounding") {
-  // A tail with its sides the wrong way round, as clipping on a grid leaves them behind: its area is
-  // negative.
+  // A tail with its sides reversed, as clipping on a grid may leave it: its area is negative.
   const double width = GENERATE(1e-8, 1e-6, 1e-3, 0.1);
   const Polygon island{{{0, 0}, {10, 0}, {10, 5 + width}, {14, 5.1}, {10, 5 - width}, {10, 10}, {0, 10}}, {}};
   const SegmentDiagram diagram = segment_diagram({{2, 2}, {8, 2}, {8.5, 4.9}, {8, 8}, {2, 8}}, island);
@@ -137,11 +138,11 @@ TEST_CASE("cells add up to the area of a border that overlaps itself within roun
   CHECK(area(island) < 100);
 }
 
-TEST_CASE("cells add up however little neighbours turn and however short they are") {
+TEST_CASE("cells add up to the island however little neighbours turn and however short they are") {
   Random random(11);
   const Polygon island = square_with_hole();
   for (int round = 0; round < 60; ++round) {
-    // A plain ring around the hole, and the same with vertices that hardly leave its sides.
+    // A plain ring around the hole, and the same ring with vertices that hardly leave its sides.
     Ring plain, dense;
     for (int k = 0; k < 9; ++k) {
       const double turn = 2 * std::numbers::pi * k / 9;
@@ -168,7 +169,8 @@ TEST_CASE("cells add up however little neighbours turn and however short they ar
   }
 }
 
-TEST_CASE("cells add up where everything lies on one grid: borders along borders, ties everywhere") {
+TEST_CASE(
+    "cells add up to the island if all vertices lie on one grid, with borders along borders and many ties") {
   Random random(17);
   int checked = 0;
   for (int round = 0; round < 150; ++round) {

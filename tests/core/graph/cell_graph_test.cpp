@@ -16,17 +16,25 @@ using namespace unicursal::core::test;
 
 namespace {
 
-std::vector<std::pair<int, int>> edges_of(const PlanarGraph& graph) {
-  std::vector<std::pair<int, int>> edges;
-  for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph.edge_count()); ++e) {
-    edges.emplace_back(graph.origin(2 * e), graph.target(2 * e));
+Per<EdgeIndex, EdgeEnds> ends_of(const PlanarGraph& graph) {
+  Per<EdgeIndex, EdgeEnds> ends;
+  for (const EdgeIndex e : graph.edges()) {
+    const HalfEdgeIndex h = PlanarGraph::forward(e);
+    ends.push_back({graph.origin(h), graph.target(h)});
   }
-  return edges;
+  return ends;
+}
+
+/// Edges between nodes of these numbers.
+Per<EdgeIndex, EdgeEnds> edges_between(const std::vector<std::pair<std::size_t, std::size_t>>& numbers) {
+  Per<EdgeIndex, EdgeEnds> ends;
+  for (const auto& [a, b] : numbers) ends.push_back({NodeIndex(a), NodeIndex(b)});
+  return ends;
 }
 
 }  // namespace
 
-TEST_CASE("seeds lie inside, about d apart, and leave no place without one") {
+TEST_CASE("seeds lie inside, about d apart, and no point is far from all seeds") {
   Random random(4);
   const Polygon domain = square_with_hole();
   const double d = 0.8;
@@ -45,7 +53,7 @@ TEST_CASE("seeds lie inside, about d apart, and leave no place without one") {
   }
 }
 
-TEST_CASE("no seed falls into a hole, however small") {
+TEST_CASE("no seed lies in a hole, however small the hole is") {
   Random random(15);
   for (int k = 0; k < 200; ++k) {
     Polygon strip = rectangle(12, 0.5);
@@ -55,7 +63,7 @@ TEST_CASE("no seed falls into a hole, however small") {
   }
 }
 
-TEST_CASE("rows of seeds run where they are asked to") {
+TEST_CASE("rows of seeds run in the asked direction") {
   const double rows = GENERATE(0.0, 0.4, 0.9);
   Random random(5);
   const std::vector<Vec2> seeds = place_seeds(rectangle(20, 20), {1.0, rows, 1}, random);
@@ -93,7 +101,7 @@ TEST_CASE("a stretched tiling has as many seeds, farther apart along its rows") 
   CHECK(neighbours_along(stretched) > 1.1 * neighbours_along(plain));
 }
 
-TEST_CASE("cell graphs are cubic, bridgeless, connected and made of discs") {
+TEST_CASE("cell graphs are cubic, bridgeless and connected, and every face is a disc") {
   Random random(1);
   const Polygon domain = GENERATE(rectangle(10, 10), square_with_hole(), rectangle(40, 0.9));
   const double d = GENERATE(0.7, 1.9);
@@ -112,7 +120,7 @@ TEST_CASE("a hole within one cell gets a second seed") {
   check_cell_graph(*graph, domain);
 }
 
-TEST_CASE("without that second seed the hole is told, and there is no graph") {
+TEST_CASE("without a second seed a hole within one cell is reported, and there is no graph") {
   Polygon domain = rectangle(10, 10);
   domain.holes.push_back(circle({2.5, 5}, 0.1, 12, false));
   std::vector<std::size_t> untouched;
@@ -121,8 +129,8 @@ TEST_CASE("without that second seed the hole is told, and there is no graph") {
   CHECK(clip_to_domain({{2.3, 5}, {2.7, 5}, {7.5, 5}}, domain, untouched));
 }
 
-TEST_CASE("a non-convex border that cuts cells in pieces gives one face per piece") {
-  // A comb: seeds only at the back; the teeth belong to cells that reach across the gaps.
+TEST_CASE("a non-convex border that cuts cells into pieces gives one face per piece") {
+  // A comb with seeds near the tips of two teeth only: their cells reach across the gaps to the other teeth.
   const Polygon comb{{{0, 0},
                       {9, 0},
                       {9, 5},
@@ -146,33 +154,33 @@ TEST_CASE("cell graphs have perfect matchings that touch every node once") {
   Random random(9);
   const auto graph = make_cell_graph(square_with_hole(), 0.5, random);
   REQUIRE(graph);
-  const auto edges = edges_of(*graph);
-  const std::vector<bool> matched = perfect_matching(static_cast<int>(graph->node_count()), edges);
-  REQUIRE(matched.size() == edges.size());
-  std::vector<int> touched(graph->node_count(), 0);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
+  const auto ends = ends_of(*graph);
+  const Per<EdgeIndex, bool> matched = perfect_matching(graph->node_count(), ends);
+  REQUIRE(matched.size() == ends.size());
+  Per<NodeIndex, int> touched(graph->node_count(), 0);
+  for (const EdgeIndex e : ends.indices()) {
     if (!matched[e]) continue;
-    ++touched[static_cast<std::size_t>(edges[e].first)];
-    ++touched[static_cast<std::size_t>(edges[e].second)];
+    ++touched[ends[e].first];
+    ++touched[ends[e].second];
   }
-  CHECK(touched == std::vector<int>(graph->node_count(), 1));
+  CHECK(touched.values() == std::vector<int>(graph->node_count(), 1));
 }
 
-TEST_CASE("a graph without perfect matching is told from one with") {
-  CHECK(perfect_matching(2, {{0, 1}, {0, 1}, {0, 1}}).size() == 3);
-  // A bridge of three: three odd blobs hang on one node.
-  CHECK(perfect_matching(4, {{0, 1}, {0, 2}, {0, 3}}).empty());
+TEST_CASE("a graph without a perfect matching is recognised") {
+  CHECK(perfect_matching(2, edges_between({{0, 1}, {0, 1}, {0, 1}})).size() == 3);
+  // A star of three edges: only one of its outer nodes can be matched.
+  CHECK(perfect_matching(4, edges_between({{0, 1}, {0, 2}, {0, 3}})).empty());
 }
 
-TEST_CASE("refined cells are triangles around a centre that sees all of the cell") {
+TEST_CASE("refined cells are triangles around a centre from which the whole cell is visible") {
   Random random(2);
   const auto cells = make_cell_graph(square_with_hole(), 0.9, random);
   REQUIRE(cells);
   const RefinedGraph graph = refine(*cells);
   REQUIRE(graph.node_count() == cells->node_count() + cells->face_count());
   double covered = 0;
-  for (FaceIndex f = 0; f < static_cast<FaceIndex>(graph.face_count()); ++f) {
-    const HalfEdgeIndex start = graph.face_start[static_cast<std::size_t>(f)];
+  for (const FaceIndex f : graph.face_start.indices()) {
+    const HalfEdgeIndex start = graph.face_start[f];
     REQUIRE(graph.next(graph.next(graph.next(start))) == start);
     const double piece = signed_area(graph.outline(f));
     REQUIRE(piece > 0);

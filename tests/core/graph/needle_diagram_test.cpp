@@ -11,7 +11,7 @@ using namespace unicursal::core::test;
 
 namespace {
 
-/// A bit more than 100 needles of random directions, a unit apart, that do not meet.
+/// 120 needles in random directions, a unit apart, that do not meet.
 std::vector<Segment> scattered_needles(Random& random, double longest) {
   std::vector<Segment> needles;
   for (int row = 0; row < 12; ++row) {
@@ -43,24 +43,24 @@ std::vector<Vec2> shaken_grid(int side) {
 
 }  // namespace
 
-TEST_CASE("where three cells of needles meet, their needles are equally far and no other is nearer") {
+TEST_CASE("where three cells of needles meet, their needles are equally far away and no other is nearer") {
   Random random(7);
   const std::vector<Segment> needles = scattered_needles(random, 0.55);
   const Box box{{1, 1}, {8.5, 8.5}};
   const auto diagram = needle_diagram(needles, box);
   REQUIRE(diagram);
   int looked_at = 0;
-  for (std::size_t v = 0; v < diagram->vertices.size(); ++v) {
+  for (const VoronoiVertexIndex v : diagram->vertices.indices()) {
     const VoronoiVertex& vertex = diagram->vertices[v];
     const Vec2& p = vertex.position;
     if ((p - p.cwiseMax(box.min).cwiseMin(box.max)).norm() > 0) continue;
     double nearest = 1e9;
     for (const Segment& needle : needles) nearest = std::min(nearest, distance(needle, p));
-    for (const int e : vertex.edges) {
-      const VoronoiEdge& edge = diagram->edges[static_cast<std::size_t>(e)];
-      REQUIRE((edge.from == static_cast<int>(v) || edge.to == static_cast<int>(v)));
-      for (const int cell : {edge.left, edge.right})
-        REQUIRE(distance(needles[static_cast<std::size_t>(cell)], p) < nearest + 0.02);
+    for (const VoronoiEdgeIndex e : vertex.edges) {
+      const VoronoiEdge& edge = diagram->edges[e];
+      REQUIRE((edge.from == v || edge.to == v));
+      for (const CellIndex cell : {edge.left, edge.right})
+        REQUIRE(distance(needles[cell.number()], p) < nearest + 0.02);
     }
     ++looked_at;
   }
@@ -74,12 +74,12 @@ TEST_CASE("the needle on an edge's left lies to its left") {
   REQUIRE(diagram);
   int looked_at = 0;
   for (const VoronoiEdge& edge : diagram->edges) {
-    const auto known = static_cast<int>(needles.size());
-    if (edge.left >= known || edge.right >= known) continue;
-    const Vec2& p = diagram->vertices[static_cast<std::size_t>(edge.from)].position;
-    const Vec2& q = diagram->vertices[static_cast<std::size_t>(edge.to)].position;
-    const auto middle = [&](int i) {
-      const Segment& needle = needles[static_cast<std::size_t>(i)];
+    const std::size_t known = needles.size();
+    if (edge.left.number() >= known || edge.right.number() >= known) continue;
+    const Vec2& p = diagram->vertices[edge.from].position;
+    const Vec2& q = diagram->vertices[edge.to].position;
+    const auto middle = [&](CellIndex cell) {
+      const Segment& needle = needles[cell.number()];
       return Vec2((needle.a + needle.b) / 2);
     };
     REQUIRE(cross(q - p, middle(edge.left) - middle(edge.right)) > 0);
@@ -99,11 +99,11 @@ TEST_CASE("needles without length are points") {
   const Voronoi plain = voronoi(points, box);
   REQUIRE(diagram->vertices.size() == plain.vertices.size());
   REQUIRE(diagram->edges.size() == plain.edges.size());
-  for (std::size_t v = 0; v < plain.vertices.size(); ++v)
+  for (const VoronoiVertexIndex v : plain.vertices.indices())
     REQUIRE(diagram->vertices[v].position == plain.vertices[v].position);
 }
 
-TEST_CASE("of two needles in one place one has the cell") {
+TEST_CASE("of two needles in the same place only one gets a cell") {
   const std::vector<Segment> needles{
       {{1, 1}, {1, 1}}, {{3, 1}, {3, 1}}, {{3, 1}, {3, 1}}, {{2, 3}, {2, 3.5}}};
   const auto diagram = needle_diagram(needles, {{0, 0}, {4, 4}});
@@ -115,16 +115,17 @@ TEST_CASE("of two needles in one place one has the cell") {
 }
 
 TEST_CASE("a cell between two others keeps the bends that hold its sides apart") {
-  // The middle one of 7 × 7 sites; what is left of it is one group, what is right of it another.
-  std::vector<int> group;
-  for (int k = 0; k < 49; ++k) group.push_back(k == 24 ? 0 : k % 7 < 3 || (k % 7 == 3 && k < 24) ? 1 : 2);
+  // Group 0 is the middle one of 7 × 7 sites; the sites on its left form group 1, those on its right group 2.
+  Per<CellIndex, CellIndex> group;
+  for (int k = 0; k < 49; ++k)
+    group.push_back(CellIndex(k == 24 ? 0 : k % 7 < 3 || (k % 7 == 3 && k < 24) ? 1 : 2));
   const std::vector<Vec2> sites = shaken_grid(7);
   auto diagram = merged(voronoi(sites, {{0, 0}, {6, 6}}), group);
   REQUIRE(diagram);
   straighten(*diagram, 3);
   std::vector<const VoronoiEdge*> sides;
   for (const VoronoiEdge& edge : diagram->edges) {
-    if (edge.left == 0 || edge.right == 0) sides.push_back(&edge);
+    if (edge.left == CellIndex(0) || edge.right == CellIndex(0)) sides.push_back(&edge);
   }
   REQUIRE(sides.size() == 2);
   CHECK(sides[0]->via.size() + sides[1]->via.size() >= 1);
@@ -136,13 +137,13 @@ TEST_CASE("a cell between two others keeps the bends that hold its sides apart")
   check_cell_graph(*graph, domain);
 }
 
-TEST_CASE("a cell that surrounds another is no cell") {
-  std::vector<int> group(49, 1);
-  group[24] = 0;
+TEST_CASE("there is no diagram if a cell surrounds another") {
+  Per<CellIndex, CellIndex> group(49, CellIndex(1));
+  group[CellIndex(24)] = CellIndex(0);
   CHECK_FALSE(merged(voronoi(shaken_grid(7), {{0, 0}, {6, 6}}), group));
 }
 
-TEST_CASE("straightening takes out all bends that nothing needs") {
+TEST_CASE("straightening removes all bends that are not needed") {
   Random random(11);
   const std::vector<Segment> needles = scattered_needles(random, 0.5);
   const auto diagram = needle_diagram(needles, {{0, 0}, {10, 10}});
@@ -152,8 +153,8 @@ TEST_CASE("straightening takes out all bends that nothing needs") {
 
 TEST_CASE("bent edges are clipped by the domain like straight ones") {
   // Groups of 2 × 2 sites, not straightened: chains with bends, which cross the border of a narrow band.
-  std::vector<int> group;
-  for (int k = 0; k < 144; ++k) group.push_back(k / 24 * 6 + k % 12 / 2);
+  Per<CellIndex, CellIndex> group;
+  for (std::size_t k = 0; k < 144; ++k) group.push_back(CellIndex(k / 24 * 6 + k % 12 / 2));
   const auto diagram = merged(voronoi(shaken_grid(12), {{0, 0}, {11, 11}}), group);
   REQUIRE(diagram);
   const double height = GENERATE(0.6, 1.4, 5.0);

@@ -28,7 +28,7 @@ DirectionField uniform_field(const Polygon& domain, double angle) {
   return make_direction_field(whole(domain), {asking(PatternKind::angle, angle)}, 0.2);
 }
 
-/// Directions asked for on the left half of a 12 × 12 square only.
+/// Asks for directions only on the left half of a 12 × 12 square.
 DirectionField half_field(double angle) {
   const Polygon left{{{0, 0}, {6, 0}, {6, 12}, {0, 12}}, {}}, right{{{6, 0}, {12, 0}, {12, 12}, {6, 12}}, {}};
   const Island island{rectangle(12, 12), {{0, {left}}, {1, {right}}}};
@@ -40,13 +40,13 @@ double length(const Segment& needle) {
   return (needle.b - needle.a).norm();
 }
 
-/// Mean squared angle of the inner edges to the field, by length, rad².
+/// Mean squared angle between the inner edges and the field, weighted by length, rad².
 double misalignment(const CellGraph& graph, const DirectionField& field) {
   double total = 0, squared = 0;
-  for (EdgeIndex e = 0; e < static_cast<EdgeIndex>(graph.edge_count()); ++e) {
-    if (graph.face(2 * e) == outside || graph.face(2 * e + 1) == outside) continue;
-    const Vec2& a = graph.position[static_cast<std::size_t>(graph.origin(2 * e))];
-    const Vec2& b = graph.position[static_cast<std::size_t>(graph.target(2 * e))];
+  for (const EdgeIndex e : graph.edges()) {
+    const HalfEdgeIndex h = PlanarGraph::forward(e);
+    if (graph.face(h) == outside || graph.face(PlanarGraph::twin(h)) == outside) continue;
+    const Vec2 &a = graph.position[graph.origin(h)], &b = graph.position[graph.target(h)];
     const Vec2 asked = field.at((a + b) / 2), u = b - a;
     if (asked.norm() < 0.5) continue;
     const double off = std::remainder(std::atan2(u.y(), u.x()) - direction(asked), pi);
@@ -79,7 +79,7 @@ TEST_CASE("a needle has the field's direction and the paper's length") {
   CHECK(inner > 80);
 }
 
-TEST_CASE("needles end within the cell of their seed and within the domain") {
+TEST_CASE("needles end inside the cell of their seed and inside the domain") {
   const Polygon domain = square_with_hole();
   Random random(2);
   const std::vector<Vec2> seeds = place_seeds(domain, 0.8, random);
@@ -93,7 +93,7 @@ TEST_CASE("needles end within the cell of their seed and within the domain") {
       for (const Vec2& other : seeds) REQUIRE((end - seeds[i]).norm() <= (end - other).norm());
     }
   }
-  CHECK(longest > 0.7);  // the cell, not the paper's length of 0.42, is what ends them
+  CHECK(longest > 0.7);  // needles end at the cell's border, not at the paper's length of 0.42
 }
 
 TEST_CASE("where no direction is asked, needles are points") {
@@ -108,7 +108,7 @@ TEST_CASE("where no direction is asked, needles are points") {
 }
 
 TEST_CASE("directions that cancel each other within a cell make a shorter needle") {
-  // Left of x = 6 along x, right of it along y: in doubled angle opposites.
+  // Directions along x and along y are opposite vectors in doubled angle.
   const Polygon left{{{0, 0}, {6, 0}, {6, 12}, {0, 12}}, {}}, right{{{6, 0}, {12, 0}, {12, 12}, {6, 12}}, {}};
   const Island island{rectangle(12, 12), {{0, {left}}, {1, {right}}}};
   const DirectionField field =
@@ -159,7 +159,8 @@ TEST_CASE("the coverage of needles is an integral, and its gradient is one") {
   }
 }
 
-TEST_CASE("relaxing lowers the coverage of points below that of Lloyd's method, and that of needles") {
+TEST_CASE(
+    "relaxation lowers the coverage of points below that of Lloyd's method, and the coverage of needles") {
   const Polygon domain = square_with_hole();
   const double angle = GENERATE(0.0, 0.9);
   Random random(6);
@@ -189,7 +190,7 @@ TEST_CASE("edges of a graph of needles follow the field") {
   CHECK(misalignment(*needles, field) < 0.55);
 }
 
-TEST_CASE("a field that asks for nothing leaves the graph as it is") {
+TEST_CASE("an empty field does not change the graph") {
   const DirectionField nothing;
   GraphOptions options;
   options.field = &nothing;

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/geometry/region.hpp"
+#include "core/model/closed_mesh.hpp"
 #include "model_support.hpp"
 
 using namespace unicursal::core;

@@ -25,7 +25,8 @@ void check_plan(const IslandPlan& plan, const Polygon& outline, double w) {
 
 }  // namespace
 
-TEST_CASE("a square is one curve of the asked spacing, near the limit of coverage, without holes") {
+TEST_CASE(
+    "a square is filled by one curve of the asked spacing, with nearly the best coverage and no holes") {
   const double w = GENERATE(0.45, 0.8);
   const Polygon square = rectangle(14, 14);
   const IslandPlan plan = plan_island(whole(square), one_zone(), options_for(w));
@@ -40,18 +41,18 @@ TEST_CASE("a square is one curve of the asked spacing, near the limit of coverag
   CHECK(curve.farthest < 1.2 * w);
 }
 
-TEST_CASE("islands of a few cells or less get the smallest sensible closed path") {
+TEST_CASE("islands of a few cells or fewer get a contour") {
   const double w = 0.5;
   const double side = GENERATE(0.35, 0.5, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0);
   const Polygon square = rectangle(side, side);
   const IslandPlan plan = plan_island(whole(square), one_zone(), options_for(w));
   check_plan(plan, square, w);
   REQUIRE(plan.curves.size() == 1);
-  // Not shrunk to a point: no bead wider than twice what was asked.
+  // The path has not shrunk to a point: no bead is wider than twice the asked width.
   CHECK(plan.curves.front().path.total_length() > area(square) / w / 2);
 }
 
-TEST_CASE("strips are filled down to the least width, and told below it") {
+TEST_CASE("strips are filled down to the least width; narrower ones are reported as unfilled") {
   const double w = 0.5;
   const double width = GENERATE(0.1, 0.2, 0.26, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0);
   const Polygon strip = rectangle(20, width);
@@ -66,7 +67,7 @@ TEST_CASE("strips are filled down to the least width, and told below it") {
   }
 }
 
-TEST_CASE("a fin too thin to lay is left out and told, the body is filled") {
+TEST_CASE("a fin that is too thin is left out and reported, and the body is filled") {
   const Polygon body = unite({rectangle(10, 10)}, {{{{10, 5}, {25, 5}, {25, 5.1}, {10, 5.1}}, {}}}).front();
   const IslandPlan plan = plan_island(whole(body), one_zone(), options_for(0.5));
   check_plan(plan, body, 0.5);
@@ -74,7 +75,7 @@ TEST_CASE("a fin too thin to lay is left out and told, the body is filled") {
   CHECK(plan.unfilled_area == Approx(1.5).epsilon(0.1));
 }
 
-TEST_CASE("a neck too thin to pass makes two curves") {
+TEST_CASE("a neck that is too thin to pass splits the island into two curves") {
   Region two = unite({rectangle(8, 8)}, {{{{7, 4}, {13, 4}, {13, 4.1}, {7, 4.1}}, {}}});
   two = unite(two, {{{{12, 0}, {20, 0}, {20, 8}, {12, 8}}, {}}});
   REQUIRE(two.size() == 1);
@@ -87,8 +88,8 @@ namespace {
 
 struct Neck {
   double rounds = 0;    ///< length of the curve in the neck ÷ length of the neck
-  double width = 0;     ///< mean, mm, of the beads there
-  double narrow = 0;    ///< mm of all that was planned
+  double width = 0;     ///< mean width of the beads in the neck, mm
+  double narrow = 0;    ///< length of all beads that are too narrow, mm
   double unfilled = 0;  ///< mm²
   std::size_t curves = 0;
 };
@@ -122,8 +123,8 @@ Neck plan_neck(double width, double w) {
 
 }  // namespace
 
-TEST_CASE("a neck is passed there and back with half its width; what cannot be laid is told") {
-  const double w = 0.5;  // at least 0.55 w can be laid
+TEST_CASE("a neck is passed there and back with half its width; beads that cannot be laid are reported") {
+  const double w = 0.5;  // the least width that can be laid is 0.55 w
   const double width = GENERATE(0.5, 0.8, 1.0, 1.5, 2.0);
   const Neck neck = plan_neck(width * w, w);
   INFO(width << " bead widths");
@@ -136,11 +137,11 @@ TEST_CASE("a neck is passed there and back with half its width; what cannot be l
   CHECK(neck.unfilled == Approx(0).margin(1e-6));
   CHECK(neck.rounds == Approx(2).margin(0.15));
   CHECK(neck.width == Approx(width * w / 2).epsilon(0.08));
-  if (width < 1.1) CHECK(neck.narrow == Approx(10).margin(1.5));  // the neck, both ways
+  if (width < 1.1) CHECK(neck.narrow == Approx(10).margin(1.5));  // the neck, there and back
   if (width > 1.1) CHECK(neck.narrow < 1);
 }
 
-TEST_CASE("a ring of one bead is passed once, and nothing of it is too narrow") {
+TEST_CASE("a ring one bead wide is passed once, and no bead is too narrow") {
   const double w = 0.5;
   const Polygon ring{circle({0, 0}, 8.25, 200), {circle({0, 0}, 7.75, 200, false)}};
   const IslandPlan plan = plan_island(whole(ring), one_zone(), options_for(w));
@@ -150,7 +151,7 @@ TEST_CASE("a ring of one bead is passed once, and nothing of it is too narrow") 
   CHECK(plan.curves.front().narrow_length == 0);
 }
 
-TEST_CASE("beads wider than the nozzle lays are told") {
+TEST_CASE("beads wider than the nozzle can lay are reported") {
   // A square of 1.6 bead widths is one small loop.
   const Polygon square = rectangle(0.8, 0.8);
   PlanOptions options = options_for(0.5);
@@ -160,23 +161,23 @@ TEST_CASE("beads wider than the nozzle lays are told") {
   CHECK(curve.wide_length == Approx(curve.path.total_length()));
 }
 
-TEST_CASE("the longer planning may go on, the better the curve; stopped at once it is faired all the same") {
+TEST_CASE("a larger budget gives a better curve; even a spent budget gives a faired one") {
   const Polygon square = rectangle(14, 14);
   const double w = 0.7;
-  double last = 0.1;  // unfaired it is 0.107 and more
+  double last = 0.1;  // an unfaired curve has 0.107 or more
   for (const int steps : {0, 200, 400, 430, 500}) {
     double coverage = 0;
     for (const std::uint64_t seed : {1, 2, 3}) {
       PlanOptions options = options_for(w, seed);
       int left = steps;
-      options.enough = [&left] { return left-- <= 0; };
+      options.budget_spent = [&left] { return left-- <= 0; };
       const IslandPlan plan = plan_island(whole(square), one_zone(), options);
       check_plan(plan, square, w);
       coverage += plan.curves.front().objectives.normalised_coverage / 3;
       const BeadPath& path = plan.curves.front().path;
       CHECK(path.total_length() == Approx(area(square) / w).epsilon(0.02));
-      // What was really spent gives the same again.
-      options.enough = {};
+      // The recorded effort gives the same curve again.
+      options.budget_spent = {};
       options.recorded = plan.effort;
       if (seed == 1 && steps == 0) {
         const IslandPlan again = plan_island(whole(square), one_zone(), options);
@@ -191,8 +192,8 @@ TEST_CASE("the longer planning may go on, the better the curve; stopped at once 
   }
 }
 
-TEST_CASE("thin branches do not starve: the curve reaches their ends") {
-  // A plus of arms 0.7 mm wide, beads of 0.5 mm.
+TEST_CASE("the curve reaches the ends of thin branches") {
+  // A plus with arms 0.7 mm wide, filled with beads of 0.5 mm.
   const Region plus = unite({{{{-10, -0.35}, {10, -0.35}, {10, 0.35}, {-10, 0.35}}, {}}},
                             {{{{-0.35, -10}, {0.35, -10}, {0.35, 10}, {-0.35, 10}}, {}}});
   const IslandPlan plan = plan_island(whole(plus.front()), one_zone(), options_for(0.5));
@@ -201,7 +202,7 @@ TEST_CASE("thin branches do not starve: the curve reaches their ends") {
   CHECK(plan.far_area == Approx(0).margin(0.05));
 }
 
-TEST_CASE("the plan is the same for the same seed and another for another") {
+TEST_CASE("equal seeds give equal plans, different seeds different ones") {
   const Island island = whole(square_with_hole());
   const auto beads = [&](std::uint64_t seed) {
     return plan_island(island, one_zone(), options_for(0.6, seed)).curves.front().path.beads;
@@ -234,13 +235,13 @@ TEST_CASE("beads are cut at the borders of zones and keep their areas") {
   }
   CHECK(in_left == Approx(50).epsilon(0.02));
   CHECK(plan.curves.front().zone_crossings == material_changes(path, zones));
-  CHECK(plan.curves.front().zone_crossings == 2);  // no closed curve through both can do with less
-  zones[1].material = 0;                           // one material zone: nothing to cross
+  CHECK(plan.curves.front().zone_crossings == 2);  // the least number for a closed curve through both
+  zones[1].material = 0;                           // with one material zone there is no border to cross
   CHECK(material_changes(path, zones) == 0);
 }
 
-TEST_CASE("a curve through k pieces of zones crosses 2 (k - 1) times, nested pieces too") {
-  // Two discs in a plate, a third beside them that lies within another zone's ring.
+TEST_CASE("a curve through k pieces of zones crosses borders 2 (k - 1) times, also if pieces are nested") {
+  // Two discs in a plate, and beside them a third disc inside a ring of another zone.
   const Polygon plate = rectangle(24, 12);
   const Region discs = enclosed({circle({6, 6}, 3, 60), circle({17, 6}, 4, 60)}, FillRule::non_zero);
   const Region core = enclosed({circle({17, 6}, 2, 40)}, FillRule::non_zero);
@@ -255,7 +256,7 @@ TEST_CASE("a curve through k pieces of zones crosses 2 (k - 1) times, nested pie
   CHECK(plan.far_area == 0);
 }
 
-TEST_CASE("zones too thin for a curve of their own are crossed by the island's one curve") {
+TEST_CASE("zones too thin for a curve of their own are crossed by a single curve of the island") {
   // Stripes of a third of a bead.
   std::vector<Polygon> even, odd;
   for (int k = 0; k < 60; ++k) {

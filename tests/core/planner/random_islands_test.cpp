@@ -1,4 +1,4 @@
-// Whatever the island, its plan is sound: nothing crashes, leaves the island, meets itself or is lost.
+// The plan of any island is sound: no crash, and no curve leaves the island, meets itself or loses area.
 #include "tests/core/support/random_islands.hpp"
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ PlanOptions options_for(double w, std::uint64_t seed) {
   return options;
 }
 
-/// Each island has a seed of its own, so that one that fails can be made again alone.
+/// Each island has its own seed, so that an island that fails can be reproduced alone.
 void check_islands(std::uint64_t first, std::uint64_t count, double largest) {
   for (std::uint64_t k = first; k < first + count; ++k) {
     Random random(k);
@@ -70,15 +70,15 @@ void require_same(const IslandPlan& a, const IslandPlan& b) {
 
 }  // namespace
 
-TEST_CASE("random islands of every kind: sound plans, nothing lost") {
+TEST_CASE("random islands of every kind: plans are sound, and no area is lost") {
   check_islands(1'000'000, 70, 4);
 }
 
-TEST_CASE("random zones, patterns and materials: sound plans, nothing lost") {
+TEST_CASE("random zones, patterns and materials: plans are sound, and no area is lost") {
   check_patterned(2'000'000, 35, 4);
 }
 
-TEST_CASE("equal arguments give equal plans, one after another and from two threads at once") {
+TEST_CASE("equal arguments give equal plans, in sequence and from two threads at once") {
   for (const std::uint64_t seed : {3u, 10u, 15u}) {
     const Patterned p = patterned(seed, 4);
     const IslandPlanner planner(p.zones);
@@ -92,10 +92,11 @@ TEST_CASE("equal arguments give equal plans, one after another and from two thre
   }
 }
 
-TEST_CASE("ten thousand random islands: sound plans, nothing lost", "[long]") {
+TEST_CASE("ten thousand random islands: plans are sound, and no area is lost", "[long]") {
   check_islands(0, 10'000, 5);
 }
 
-TEST_CASE("hundreds of random zones, patterns and materials: sound plans, nothing lost", "[long]") {
+TEST_CASE("hundreds of random zones, patterns and materials: plans are sound, and no area is lost",
+          "[long]") {
   check_patterned(0, 700, 7);
 }

@@ -30,7 +30,7 @@ Stages stages_of(const Island& island, const std::vector<Zone>& zones, double w)
   return stages;
 }
 
-/// A plate of two halves: directions are asked for on the right.
+/// A plate of two halves; only the right one asks for directions.
 Island two_halves() {
   const Polygon left = rectangle(6, 9), right{{{6, 0}, {12, 0}, {12, 9}, {6, 9}}, {}};
   return {rectangle(12, 9), {{0, {left}}, {1, {right}}}};
@@ -45,7 +45,7 @@ std::vector<Zone> free_and_aligned(std::size_t second_material) {
 
 }  // namespace
 
-TEST_CASE("the graph has three edges at every node, and the first cycle goes through all of them") {
+TEST_CASE("every node of the kept graph has three edges, and the first cycle visits all nodes") {
   const Stages stages = stages_of(whole(square_with_hole()), one_zone(), 0.7);
   REQUIRE(stages.cycles.size() == 1);
   const CycleStages& cycle = stages.cycles.front();
@@ -56,7 +56,7 @@ TEST_CASE("the graph has three edges at every node, and the first cycle goes thr
     REQUIRE(nodes.count({edge.front().x(), edge.front().y()}) == 1);
     REQUIRE(nodes.count({edge.back().x(), edge.back().y()}) == 1);
   }
-  // Nodes of doubled edges, which are rare, are passed beside.
+  // The cycle passes beside nodes of doubled edges, which are rare.
   std::size_t missed = 0;
   for (const Place& node : nodes) missed += 1 - visited.count(node);
   CHECK(missed <= nodes.size() / 100);
@@ -65,7 +65,7 @@ TEST_CASE("the graph has three edges at every node, and the first cycle goes thr
   CHECK(signed_area(cycle.optimised) > 0);
 }
 
-TEST_CASE("directions are kept where they are asked for") {
+TEST_CASE("the asked directions are kept, and no others") {
   const Stages stages = stages_of(two_halves(), free_and_aligned(0), 0.6);
   CHECK(stages.field.size() == Approx(12 * 9 / (0.9 * 0.9)).epsilon(0.1));
   for (const AskedDirection& here : stages.field) {
@@ -78,7 +78,7 @@ TEST_CASE("directions are kept where they are asked for") {
   }
 }
 
-TEST_CASE("each material leaves stages of its own, and nothing is kept that was thrown away") {
+TEST_CASE("each material has its own stages, and those of discarded curves are not kept") {
   const Stages stages = stages_of(two_halves(), free_and_aligned(1), 0.6);
   REQUIRE(stages.cycles.size() == 2);
   const auto beyond = [](const CycleStages& cycle, bool right) {
@@ -89,7 +89,7 @@ TEST_CASE("each material leaves stages of its own, and nothing is kept that was 
   CHECK(beyond(stages.cycles[1], true) == 0);
 }
 
-TEST_CASE("needles lie along what is asked, points have no length") {
+TEST_CASE("needles lie along the asked direction, and points have no length") {
   std::vector<Zone> zones(1);
   zones[0].pattern.kind = PatternKind::parallel;
   const Stages aligned = stages_of(whole(square_with_hole()), zones, 0.7);

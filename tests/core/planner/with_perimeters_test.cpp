@@ -21,7 +21,7 @@ PlanOptions options_for(int perimeters, std::uint64_t seed = 1) {
   return options;
 }
 
-/// Closed simple curves wholly inside, nothing lost, no holes.
+/// Checks that curves are closed, simple and inside, that no area is lost, and that there are no holes.
 void check_plan(const IslandPlan& plan, const Polygon& outline) {
   double filled = 0;
   for (const PlannedCurve& curve : plan.curves) {
@@ -35,7 +35,8 @@ void check_plan(const IslandPlan& plan, const Polygon& outline) {
   REQUIRE(filled + plan.unfilled_area == Approx(area(outline)).margin(1e-5 * w * w + 1e-9 * area(outline)));
 }
 
-/// The share of the border that a strand follows within 5 % of half a bead width, by length of the strand.
+/// The share of the border along which a strand runs half a bead width inside, within 5 %; by length of the
+/// strand.
 double followed_share(const BeadPath& path, const Polygon& outline) {
   double followed = 0;
   const double step = 0.02;
@@ -58,7 +59,7 @@ std::vector<Zone> two_materials() {
 
 }  // namespace
 
-TEST_CASE("one, two and three contours and the fill are one curve that keeps to the border") {
+TEST_CASE("one, two or three contours and the fill are one curve that follows the border") {
   const int count = GENERATE(1, 2, 3);
   const Polygon square = square_with_hole();
   const IslandPlan plan = plan_island(whole(square), one_zone(), options_for(count));
@@ -69,18 +70,19 @@ TEST_CASE("one, two and three contours and the fill are one curve that keeps to 
   CHECK(plan.far_area == 0);
   CHECK(plan.unfilled_area == 0);
   CHECK(curve.area / curve.path.total_length() == Approx(w).epsilon(0.04));
-  // The ring is shorter than the border by its four corners; it is opened once for each of the two rings.
+  // The ring is shorter than the border at its four corners, and each of the two rings is opened once.
   const double ring = perimeter(square.outer) - 4 * w + perimeter(square.holes[0]) + 3.14 * w;
   CHECK(followed_share(curve.path, square) * perimeter(square) > ring - 2 * w - 0.01 * ring);
 }
 
-TEST_CASE("without contours nothing follows the border that closely") {
+TEST_CASE("without contours no strand follows the border that closely") {
   const IslandPlan plan = plan_island(whole(square_with_hole()), one_zone(), options_for(0));
   CHECK(plan.curves.front().perimeters == 0);
   CHECK(followed_share(plan.curves.front().path, square_with_hole()) < 0.5);
 }
 
-TEST_CASE("more contours than fit: the island is all contours, and the plan tells how many") {
+TEST_CASE(
+    "if more contours are asked for than fit, contours fill the island, and the plan reports how many") {
   const IslandPlan plan = plan_island(whole(rectangle(10, 4)), one_zone(), options_for(20));
   check_plan(plan, rectangle(10, 4));
   REQUIRE(plan.curves.size() == 1);
@@ -88,7 +90,7 @@ TEST_CASE("more contours than fit: the island is all contours, and the plan tell
   CHECK(plan.far_area == 0);
 }
 
-TEST_CASE("specks and strips get what fits") {
+TEST_CASE("specks and strips get as many contours as fit") {
   const double width = GENERATE(0.35, 0.5, 0.8, 1.1, 1.5, 1.9, 2.3, 3.0);
   for (const Polygon& island : {rectangle(width, width), rectangle(15, width)}) {
     const IslandPlan plan = plan_island(whole(island), one_zone(), options_for(2));
@@ -99,7 +101,7 @@ TEST_CASE("specks and strips get what fits") {
   }
 }
 
-TEST_CASE("fills on both sides of a neck are one curve with their contour") {
+TEST_CASE("the fills on both sides of a neck and their contour are one curve") {
   const double neck = GENERATE(0.7, 1.2, 1.9, 2.5) * w;
   Region two = unite({rectangle(7, 7)}, {{{{6, 3}, {11, 3}, {11, 3 + neck}, {6, 3 + neck}}, {}}});
   two = unite(two, {{{{10, 0}, {17, 0}, {17, 7}, {10, 7}}, {}}});
@@ -110,7 +112,7 @@ TEST_CASE("fills on both sides of a neck are one curve with their contour") {
   CHECK(plan.far_area == Approx(0).margin(0.02));
 }
 
-TEST_CASE("each material follows its share of the outline; two crossings for each border") {
+TEST_CASE("each material traces its part of the outline, and each border is crossed twice") {
   const int count = GENERATE(1, 2, 3);
   const Polygon left{{{0, 0}, {8, 0}, {8, 12}, {0, 12}}, {}}, right{{{8, 0}, {16, 0}, {16, 12}, {8, 12}}, {}};
   const Island island{rectangle(16, 12), {{0, {left}}, {1, {right}}}};
@@ -121,14 +123,14 @@ TEST_CASE("each material follows its share of the outline; two crossings for eac
   CHECK(curve.perimeters == (count < 3 ? 2 : 4));
   CHECK(curve.zone_crossings == 2);
   CHECK(plan.far_area == 0);
-  // Four corners, two gaps of a bead at each end of the border, and an opening each.
+  // The strands miss four corners, two gaps of a bead at each end of the border, and one opening each.
   CHECK(followed_share(curve.path, island.outline) * 56 > 56 - 4 * w - 4 * w - 2 * w - 0.6);
   double in_left = 0;
   for (const Bead& bead : curve.path.beads) in_left += bead.zone == 0 ? bead.area : 0;
   CHECK(in_left == Approx(96).epsilon(0.01));
 }
 
-TEST_CASE("a material that lies inside another has no share of the outline") {
+TEST_CASE("a material that lies inside another has no part of the outline") {
   const Polygon plate = rectangle(16, 16);
   const Region disc{{circle({8, 8}, 4, 60), {}}};
   const Island island{plate, {{0, subtract({plate}, disc)}, {1, disc}}};
@@ -140,7 +142,7 @@ TEST_CASE("a material that lies inside another has no share of the outline") {
   CHECK(followed_share(plan.curves.front().path, plate) * 64 > 64 - 4 * w - w - 0.6);
 }
 
-TEST_CASE("stripes too thin for a curve of their own are crossed by contours around them all") {
+TEST_CASE("stripes too thin for a curve of their own are crossed by contours around all of them") {
   std::vector<Polygon> even, odd;
   for (int k = 0; k < 40; ++k) {
     const double x = 0.15 * k;
@@ -155,7 +157,7 @@ TEST_CASE("stripes too thin for a curve of their own are crossed by contours aro
   CHECK(followed_share(plan.curves.front().path, island.outline) * 28 > 28 - 4 * w - w - 0.6);
 }
 
-TEST_CASE("random islands with contours: sound plans, nothing lost, nothing far") {
+TEST_CASE("random islands with contours: plans are sound, no area is lost, and there are no holes") {
   Random random(77);
   int laid = 0;
   for (int k = 0; k < 30; ++k) {
@@ -170,7 +172,7 @@ TEST_CASE("random islands with contours: sound plans, nothing lost, nothing far"
   CHECK(laid > 25);
 }
 
-TEST_CASE("many random islands with contours: sound plans, nothing lost", "[long]") {
+TEST_CASE("many random islands with contours: plans are sound, and no area is lost", "[long]") {
   Random random(79);
   for (int k = 0; k < 1000; ++k) {
     const Polygon island = random_island(random, random.uniform(0.2, 6), 8);

@@ -1,4 +1,4 @@
-// What every cell graph must be.
+// Checks that hold for every cell graph.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -7,24 +7,24 @@
 
 namespace unicursal::core::test {
 
-/// Every node has three edges, every face is a disc to the left of its half-edges, and Euler's formula holds.
+/// Checks that every node has three edges, that every face is a disc to the left of its half-edges, and that
+/// Euler's formula holds.
 inline void check_cell_graph(const CellGraph& graph, const Polygon& domain) {
-  std::vector<int> degree(graph.node_count(), 0);
-  for (const HalfEdge& half : graph.half_edges) ++degree[static_cast<std::size_t>(half.origin)];
+  Per<NodeIndex, int> degree(graph.node_count(), 0);
+  for (const HalfEdge& half : graph.half_edges) ++degree[half.origin];
   for (const int d : degree) REQUIRE(d == 3);
   const auto nodes = static_cast<long>(graph.node_count()), edges = static_cast<long>(graph.edge_count());
   const auto faces = static_cast<long>(graph.face_count());
   // Connected, and the outside of each border ring counts as one face.
   REQUIRE(nodes - edges + faces + 1 + static_cast<long>(domain.holes.size()) == 2);
   double covered = 0;
-  for (FaceIndex f = 0; f < static_cast<FaceIndex>(graph.face_count()); ++f) {
+  for (const FaceIndex f : graph.face_start.indices()) {
     const double piece = signed_area(graph.outline(f));
     REQUIRE(piece > 0);
     covered += piece;
   }
   REQUIRE(covered == Approx(area(domain)).epsilon(1e-9));
-  for (std::size_t h = 0; h < graph.half_edges.size(); ++h) {
-    const auto half = static_cast<HalfEdgeIndex>(h);
+  for (const HalfEdgeIndex half : graph.half_edges.indices()) {
     REQUIRE(graph.face(graph.next(half)) == graph.face(half));
     // No bridge: the two sides of an edge are different cells.
     REQUIRE(graph.face(half) != graph.face(PlanarGraph::twin(half)));

@@ -1,4 +1,4 @@
-// What holds for every plan whatever the island: closed simple curves wholly inside, nothing lost.
+// Checks that hold for the plan of any island: curves are closed, simple and inside, and no area is lost.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace unicursal::core::test {
 
 constexpr double least_relative_area_error = 1e-9;
 
-/// The first thing wrong with a curve; empty for a sound one.
+/// Describes the first fault of a curve; empty for a sound one.
 inline std::string fault_of(const PlannedCurve& curve, const Polygon& outline,
                             const std::vector<Zone>& zones) {
   if (curve.self_intersections != 0) return "the curve meets itself";
@@ -24,17 +24,17 @@ inline std::string fault_of(const PlannedCurve& curve, const Polygon& outline,
   for (const Bead& bead : curve.path.beads) {
     if (!(bead.area >= -1e-9)) return "a bead of negative area: " + std::to_string(bead.area);
     if (!contains(outline, bead.position)) return "a bead outside of the outline";
-    if (bead.zone >= zones.size()) return "a bead in a zone that there is not";
+    if (bead.zone >= zones.size()) return "a bead in a zone that does not exist";
   }
   const CurveObjectives& o = curve.objectives;
   for (const double value : {o.coverage, o.normalised_coverage, o.length, o.smoothness, o.alignment,
                              o.isotropy, o.anisotropy, o.width_variation, curve.farthest}) {
-    if (!(value >= 0 && std::isfinite(value))) return "an objective that is no number";
+    if (!(value >= 0 && std::isfinite(value))) return "an objective that is negative or not finite";
   }
   return "";
 }
 
-/// The first thing wrong with a plan; empty for a sound one. `w` mm is the bead width.
+/// Describes the first fault of a plan; empty for a sound one. `w` mm is the bead width.
 inline std::string fault_of(const IslandPlan& plan, const Polygon& outline, const std::vector<Zone>& zones,
                             double w) {
   double filled = 0;

@@ -1,4 +1,4 @@
-// Islands at random, each kind with its own way of being difficult. Lengths in mm.
+// Random islands; each kind is difficult in its own way. Lengths in mm.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline double random_turn(Random& random) {
   return random.uniform(0, 2 * std::numbers::pi);
 }
 
-/// Even in its logarithm.
+/// A random number whose logarithm is uniform.
 inline double random_scale(Random& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
 }
@@ -30,7 +30,7 @@ inline Polygon largest_of(const Region& region) {
                            [](const Polygon& a, const Polygon& b) { return area(a) < area(b); });
 }
 
-/// Bars of any width down to the clipping grid, across the island or taken out of it.
+/// Bars of any width down to the clipping grid, added to the island or cut from it.
 inline Region with_slivers(Region region, Random& random, double radius) {
   for (std::size_t k = 1 + random.below(6); k > 0; --k) {
     const Vec2 u = unit(random_turn(random)), n = perpendicular(u);
@@ -45,7 +45,7 @@ inline Region with_slivers(Region region, Random& random, double radius) {
   return region;
 }
 
-/// Triangles with a tip as sharp as the grid allows, outwards and inwards.
+/// Triangles with tips as sharp as the grid allows, pointing outwards and inwards.
 inline Region with_spikes(Region region, Random& random, double radius) {
   for (std::size_t k = 1 + random.below(8); k > 0; --k) {
     const double turn = random_turn(random);
@@ -59,7 +59,7 @@ inline Region with_spikes(Region region, Random& random, double radius) {
   return region;
 }
 
-/// Discs taken out that lie as little as 1e-6 mm from one another or from the border, or just touch.
+/// Holes that are only 1e-6 mm from one another or from the border, or just touch.
 inline Region with_close_holes(Region region, Random& random, double radius) {
   Vec2 center = radius * random.uniform(0, 0.6) * unit(random_turn(random));
   double r = radius * random.uniform(0.02, 0.25);
@@ -100,7 +100,7 @@ inline Polygon many_vertices(Random& random, double radius) {
   return {outer, {}};
 }
 
-/// Vertices next to others, as little as 1e-9 mm away, and on straight edges.
+/// Additional vertices as little as 1e-9 mm from others, and on straight edges.
 inline Ring with_tiny_edges(const Ring& ring, Random& random) {
   Ring result;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -117,7 +117,7 @@ inline Ring with_tiny_edges(const Ring& ring, Random& random) {
 
 constexpr int island_kinds = 7;
 
-/// An island of the given kind, about `radius` mm in size; `island_kinds` of them.
+/// An island of the given kind (0 … island_kinds − 1), about `radius` mm in size.
 inline Polygon random_island_of_kind(Random& random, int kind, double radius) {
   const Polygon plain = random_island(random, radius, 5);
   switch (kind) {
@@ -142,7 +142,7 @@ inline Polygon random_island_of_kind(Random& random, int kind, double radius) {
   }
 }
 
-/// The outline cut into zones by up to four random bars and discs.
+/// Zones of the outline, cut by up to four random bars and discs.
 inline Island random_zones(Random& random, const Polygon& outline) {
   const Box box = bounds(outline);
   const double size = box.size().norm() / 2;
@@ -164,7 +164,7 @@ inline Island random_zones(Random& random, const Polygon& outline) {
   return island;
 }
 
-/// Five zones of random patterns and up to three materials. `file` holds directions.
+/// Five zones of random patterns and up to three materials; `file` is a file of directions.
 inline std::vector<Zone> random_patterns(Random& random, const std::string& file) {
   std::vector<Zone> zones(5);
   for (Zone& zone : zones) {

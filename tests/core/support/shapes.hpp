@@ -1,4 +1,4 @@
-// Islands to try things on: some by name, some at random.
+// Islands for tests: some with names, some random.
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ inline Polygon square_with_hole() {
   return polygon;
 }
 
-/// A star-shaped outline with random bumps, with up to `most_holes` discs taken out; the largest piece.
+/// The largest piece of a star-shaped outline with random bumps, from which up to `most_holes` discs are cut.
 inline Polygon random_island(Random& random, double radius, int most_holes) {
   Ring outer;
   const int sides = 5 + static_cast<int>(random.below(60));

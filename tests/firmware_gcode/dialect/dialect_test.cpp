@@ -3,6 +3,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
 
@@ -44,7 +45,7 @@ TEST_CASE("what slipping feeders lack is made up for, feeder by feeder") {
   for (int i = 0; i < 500; ++i) {
     const Mixture wanted({shares(random), shares(random), shares(random)});
     const std::array<double, 3> factor = {factors(random), factors(random), factors(random)};
-    const WrittenTool tool = calibrated(wanted, factor, dialect_named("marlin"));
+    const CalibratedMixture tool = calibrated(wanted, factor, dialect_named("marlin"));
     double fed = 0;
     for (std::size_t f = 0; f < max_feeders; ++f) {
       // The firmware turns feeder f by E times its share; of that 1/factor arrives.
@@ -55,7 +56,7 @@ TEST_CASE("what slipping feeders lack is made up for, feeder by feeder") {
     }
     CHECK(fed == Approx(1));
   }
-  const WrittenTool plain = calibrated(Mixture({2, 1, 1}), {1, 1, 1}, dialect_named("marlin"));
+  const CalibratedMixture plain = calibrated(Mixture({2, 1, 1}), {1, 1, 1}, dialect_named("marlin"));
   CHECK(plain.scale == 1);
   CHECK(plain.written == plain.delivered);
 }

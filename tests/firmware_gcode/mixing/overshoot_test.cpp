@@ -15,7 +15,10 @@ namespace {
 constexpr double floor_share = 0.02;
 
 Palette palette_of(const std::vector<Material>& materials) {
-  return Palette(materials, [](const Mixture& m) { return m.with_floor(floor_share).quantised(4); });
+  return Palette(materials, [](const Mixture& m) {
+    const Mixture written = m.with_floor(floor_share).quantised(4);
+    return CalibratedMixture{written, written};
+  });
 }
 
 const std::vector<Material> three = {{"orange", Mixture({0.5, 0.5, 0})},
@@ -28,12 +31,13 @@ std::vector<WantedBead> pieces_of(const Palette& palette,
                                   const std::vector<std::pair<std::size_t, double>>& visits) {
   std::vector<std::size_t> all(palette.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const Rivals rivals = std::make_shared<const std::vector<std::size_t>>(all);
+  const LayerMaterials layer_materials = std::make_shared<const std::vector<std::size_t>>(all);
   constexpr double bead = 0.1;
-  std::vector<WantedBead> pieces{{20, visits.front().first, 0, 0.02, false, 0, rivals}};  // fills the chamber
+  std::vector<WantedBead> pieces{
+      {20, visits.front().first, 0, 0.02, false, 0, layer_materials}};  // fills the chamber
   for (const auto& [material, volume] : visits) {
     for (double done = 0; done < volume; done += bead)
-      pieces.push_back({bead, material, 0, 1, false, 0, rivals});
+      pieces.push_back({bead, material, 0, 1, false, 0, layer_materials});
   }
   return pieces;
 }
@@ -62,9 +66,8 @@ double loss(const LayerMixing& mixing) {
 }  // namespace
 
 TEST_CASE("a change past a third mixture goes round it") {
-  Palette palette = palette_of(three);
   const ChamberModel nozzle{2.1, 4.0, 2};
-  const Overshoots overshoots(palette, {nozzle, 0.5, floor_share, 15});
+  const auto [palette, overshoots] = with_overshoots(palette_of(three), {nozzle, 0.5, floor_share, 15});
   REQUIRE(overshoots.between(0, 1));
   for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 0}}) {
     const auto pieces = pieces_of(palette, {{from, 20}, {to, 20}});
@@ -77,9 +80,8 @@ TEST_CASE("a change past a third mixture goes round it") {
 }
 
 TEST_CASE("where the mixtures leave room, a change is a third sharper") {
-  Palette palette = palette_of(tints);
   for (const ChamberModel& nozzle : {ChamberModel{2.1, 4.0, 2}, {0.5, 12, 3}}) {
-    const Overshoots overshoots(palette, {nozzle, 0.5, floor_share, 15});
+    const auto [palette, overshoots] = with_overshoots(palette_of(tints), {nozzle, 0.5, floor_share, 15});
     const double room = 3 * (nozzle.dead_volume + nozzle.mixing_volume);
     const auto pieces = pieces_of(palette, {{0, room}, {1, room}, {0, room}});
     const auto plain = laid(palette, pieces, scheduled(palette, pieces, nozzle, nullptr), nozzle);
@@ -91,8 +93,7 @@ TEST_CASE("where the mixtures leave room, a change is a third sharper") {
 }
 
 TEST_CASE("pure mixtures leave nothing to overshoot") {
-  Palette palette = palette_of(pure);
-  const Overshoots overshoots(palette, {{2.1, 4.0, 2}, 0.5, floor_share, 15});
+  const auto [palette, overshoots] = with_overshoots(palette_of(pure), {{2.1, 4.0, 2}, 0.5, floor_share, 15});
   CHECK_FALSE(overshoots.between(0, 1));
   CHECK(palette.added() == 0);
 }
@@ -100,8 +101,8 @@ TEST_CASE("pure mixtures leave nothing to overshoot") {
 TEST_CASE("a nozzle that answers otherwise than its profile loses hardly anything by it") {
   const ChamberModel profile{2.1, 4.0, 2};
   for (const auto& materials : {three, tints, {three[0], three[2]}}) {
-    Palette palette = palette_of(materials);
-    const Overshoots overshoots(palette, {profile, 0.5, floor_share, 15});
+    const auto [palette, overshoots] =
+        with_overshoots(palette_of(materials), {profile, 0.5, floor_share, 15});
     double plain_loss = 0, hurried_loss = 0;
     for (std::size_t to = 1; to < palette.size(); ++to) {
       const auto pieces = pieces_of(palette, {{0, 20}, {to, 20}, {0, 20}});
@@ -123,8 +124,8 @@ TEST_CASE("a nozzle that answers otherwise than its profile loses hardly anythin
 }
 
 TEST_CASE("every pulse is a mixture that the printer may feed") {
-  Palette palette = palette_of(three);
-  const Overshoots overshoots(palette, {{2.1, 4.0, 3}, 0.5, floor_share, 15});
+  const auto [palette, overshoots] =
+      with_overshoots(palette_of(three), {{2.1, 4.0, 3}, 0.5, floor_share, 15});
   CHECK(palette.added() > 0);
   CHECK(palette.size() + palette.added() <= 15);
   CHECK(palette.size() == 3);
@@ -144,8 +145,8 @@ TEST_CASE("every pulse is a mixture that the printer may feed") {
 
 TEST_CASE("there are pulses as far as tools go, and none beside gradients or without mixing") {
   const auto added = [](std::vector<Material> materials, const ChamberModel& nozzle, std::size_t most) {
-    Palette palette = palette_of(materials);
-    const Overshoots overshoots(palette, {nozzle, 0.5, floor_share, most});
+    const auto [palette, overshoots] =
+        with_overshoots(palette_of(materials), {nozzle, 0.5, floor_share, most});
     return palette.added();
   };
   const ChamberModel nozzle{2.1, 4.0, 2};
@@ -153,9 +154,8 @@ TEST_CASE("there are pulses as far as tools go, and none beside gradients or wit
   CHECK(added(three, nozzle, 9) > 0);
   CHECK(added(three, nozzle, 9) <= 6);
   CHECK(added(three, {2.1, 0, 2}, 15) == 0);
-  Palette of_one = palette_of(three);
-  const Overshoots equal(of_one, {nozzle, 0.5, 1.0 / 3, 15});  // a floor that leaves one mixture only
-  CHECK_FALSE(of_one.added() > 1);
+  // A floor share of a third leaves one mixture only.
+  CHECK_FALSE(with_overshoots(palette_of(three), {nozzle, 0.5, 1.0 / 3, 15}).palette.added() > 1);
   CHECK(added({three[0]}, nozzle, 15) == 0);
   std::vector<Material> with_gradient = tints;
   with_gradient.push_back({"fade", Mixture({1, 0, 0}), Gradient{Mixture({0, 1, 0}), {1, 0, 0}, 0, 100}});
@@ -163,9 +163,8 @@ TEST_CASE("there are pulses as far as tools go, and none beside gradients or wit
 }
 
 TEST_CASE("what is decided with pulses does not depend on how the path comes in either") {
-  Palette palette = palette_of(three);
   const ChamberModel nozzle{2.1, 4.0, 2};
-  const Overshoots overshoots(palette, {nozzle, 0.5, floor_share, 15});
+  const auto [palette, overshoots] = with_overshoots(palette_of(three), {nozzle, 0.5, floor_share, 15});
   std::mt19937 random(17);
   std::uniform_real_distribution<double> volume(0.3, 9);
   std::vector<std::pair<std::size_t, double>> visits;

@@ -12,7 +12,9 @@ using namespace unicursal::gcode;
 namespace {
 
 Palette palette_of(const std::vector<Material>& materials) {
-  return Palette(materials, [](const Mixture& mixture) { return mixture.with_floor(0.02); });
+  return Palette(materials, [](const Mixture& mixture) {
+    return CalibratedMixture{mixture.with_floor(0.02), mixture.with_floor(0.02)};
+  });
 }
 
 const std::vector<Material> two = {{"blue", Mixture({1, 0, 0}), {}, false},
@@ -21,7 +23,7 @@ const std::vector<Material> three = {{"orange", Mixture({1, 1, 0}), {}, false},
                                      {"green", Mixture({0, 1, 1}), {}, false},
                                      {"grey", Mixture({1, 1, 1}), {}, false}};
 
-Rivals all_of(const Palette& palette) {
+LayerMaterials all_of(const Palette& palette) {
   std::vector<std::size_t> materials;
   for (std::size_t i = 0; i < palette.size(); ++i) materials.push_back(i);
   return std::make_shared<const std::vector<std::size_t>>(materials);
@@ -38,12 +40,13 @@ struct Visit {
 std::vector<WantedBead> pieces_of(const std::vector<Visit>& visits, const Palette& palette,
                                   double bead = 0.07) {
   std::vector<WantedBead> pieces;
-  const Rivals rivals = all_of(palette);
-  pieces.push_back({primed, visits.front().material, 0, 0.02, false, 0, rivals});
+  const LayerMaterials layer_materials = all_of(palette);
+  pieces.push_back({primed, visits.front().material, 0, 0.02, false, 0, layer_materials});
   for (const Visit& visit : visits) {
     const auto count = static_cast<std::size_t>(std::ceil(visit.volume / bead));
     for (std::size_t i = 0; i < count; ++i) {
-      pieces.push_back({visit.volume / static_cast<double>(count), visit.material, 0, 1, false, 0, rivals});
+      pieces.push_back(
+          {visit.volume / static_cast<double>(count), visit.material, 0, 1, false, 0, layer_materials});
     }
   }
   return pieces;
@@ -76,17 +79,17 @@ double loss_of(const Palette& palette, const std::vector<WantedBead>& pieces,
 TEST_CASE("the response begins after the dead volume and has come to 95 % after the mixing volume") {
   for (std::size_t tanks = 1; tanks <= 6; ++tanks) {
     const ChamberModel chamber{2.1, 4.0, tanks};
-    CHECK(chamber.response(2.1) == Approx(0).margin(1e-12));
-    CHECK(chamber.response(6.1) == Approx(0.95));
-    CHECK(chamber.response(chamber.delay(0.5)) == Approx(0.5));
+    CHECK(chamber.step_response(2.1) == Approx(0).margin(1e-12));
+    CHECK(chamber.step_response(6.1) == Approx(0.95));
+    CHECK(chamber.step_response(chamber.delay(0.5)) == Approx(0.5));
     CHECK(chamber.delay(0) == Approx(2.1));
   }
   const ChamberModel one{0, 3, 1};  // a single tank answers exponentially
-  CHECK(one.response(1) == Approx(1 - std::pow(0.05, 1.0 / 3)));
+  CHECK(one.step_response(1) == Approx(1 - std::pow(0.05, 1.0 / 3)));
   CHECK(one.mean_delay() == Approx(3 / std::log(20)));
   const ChamberModel sharp{1.5, 0, 2};
-  CHECK(sharp.response(1.4) == 0);
-  CHECK(sharp.response(1.6) == 1);
+  CHECK(sharp.step_response(1.4) == 0);
+  CHECK(sharp.step_response(1.6) == 1);
 }
 
 TEST_CASE("tanks at work answer as the closed form says, in whatever pieces") {
@@ -107,7 +110,7 @@ TEST_CASE("tanks at work answer as the closed form says, in whatever pieces") {
     constexpr int parts = 400;
     for (int i = 0; i <= parts; ++i) {
       const double weight = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
-      integral += weight * chamber.response(passed * i / parts) * passed / parts / 3;
+      integral += weight * chamber.step_response(passed * i / parts) * passed / parts / 3;
     }
     CHECK(arrived == Approx(integral).epsilon(1e-6));
   }
@@ -263,7 +266,8 @@ TEST_CASE("a gradient arrives where it is wanted, in steps that nobody sees") {
   CHECK(palette.steps_of(2) == Palette::steps + 1);
   const ChamberModel chamber{2.1, 4.0, 3};
   std::vector<WantedBead> pieces = pieces_of({{0, 20}}, palette);
-  for (int i = 0; i < 1000; ++i) pieces.push_back({0.1, 2, (i + 0.5) / 1000, 1, false, 0, pieces[0].rivals});
+  for (int i = 0; i < 1000; ++i)
+    pieces.push_back({0.1, 2, (i + 0.5) / 1000, 1, false, 0, pieces[0].layer_materials});
   for (const WantedBead& piece : pieces_of({{1, 20}}, palette)) {
     if (piece.weight == 1) pieces.push_back(piece);
   }

@@ -1,4 +1,5 @@
 #include "firmware_gcode/review/line_check.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 
 #include <catch2/catch.hpp>
 

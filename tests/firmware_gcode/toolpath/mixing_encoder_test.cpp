@@ -139,6 +139,61 @@ TEST_CASE("a gradient's shades lie where they belong, with more mixtures than th
   CHECK(std::count_if(lines.begin(), lines.end(), [](const auto& l) { return l.starts_with("M164"); }) > 60);
 }
 
+TEST_CASE("a chunk says from which line on which mixture is fed") {
+  const PrintSettings settings =
+      settings_for({{"sky", Mixture({0.7, 0.3, 0})}, {"rose", Mixture({0, 0.2, 0.8})}});
+  for (const std::string firmware : {"marlin", "repetier"}) {
+    Printer printer;
+    printer.firmware = firmware;
+    printer.flow_factors = {1, 1.05, 1};
+    Encoder encoder(printer, settings);
+    // The name of the mixture by what the firmware has been told: the shares are those of the feeders' steps.
+    const auto fed = [&](const Tanks::Shares& told) -> std::string {
+      Tanks::Shares shares = told;
+      for (std::size_t f = 0; f < max_feeders; ++f) shares[f] /= printer.flow_factors[f];
+      const Mixture mixture(shares);
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (misplaced(mixture.shares(), encoder.intended(i).shares()) < 1e-9)
+          return settings.materials[i].name;
+      }
+      return shares_text(mixture);
+    };
+    std::map<int, Tanks::Shares> tools;
+    Tanks::Shares collector{};
+    std::string expected, name;
+    std::map<std::string, int> seen;
+    const auto check = [&](Chunk chunk) {
+      keep_commands(chunk);
+      std::size_t next = 0;
+      for (std::size_t i = 0; i < chunk.lines.size(); ++i) {
+        std::istringstream stream(chunk.lines[i]);
+        std::string command, word;
+        stream >> command;
+        std::map<char, double> values;
+        while (stream >> word) values[word[0]] = std::atof(word.c_str() + 1);
+        if (command == "M163") collector[static_cast<std::size_t>(values['S'])] = values['P'];
+        if (command == "M164") tools[static_cast<int>(values['S'])] = collector;
+        if (command[0] == 'T') expected = fed(tools.at(std::stoi(command.substr(1))));
+        for (; next < chunk.mixtures.size() && chunk.mixtures[next].line == i; ++next)
+          name = chunk.mixtures[next].name;
+        ++seen[name];
+        REQUIRE(name == expected);
+      }
+      CHECK(next == chunk.mixtures.size());
+    };
+    check(encoder.start());
+    for (std::size_t i = 0; i < 3; ++i)
+      check(encoder.layer({i, 0.2 * static_cast<double>(i + 1), 0.2, {ring(300)}}));
+    check(encoder.rest());
+    CHECK(seen["sky"] > 100);
+    CHECK(seen["rose"] > 100);
+    CHECK(std::any_of(seen.begin(), seen.end(), [](const auto& entry) {
+      return entry.first.starts_with("0.3");  // equal shares: filament is pushed forward
+    }));
+    check(encoder.finish());
+  }
+}
+
 TEST_CASE("every layer's share of the chunks adds up, and each ends once") {
   Encoder encoder({}, settings_for({{"sky", Mixture({0.7, 0.3, 0})}, {"rose", Mixture({0, 0.2, 0.8})}}));
   encoder.start();

@@ -1,4 +1,4 @@
-// Bad input ends with one sentence, exit code 2, and not a byte on the printer's line.
+// Bad input ends with one sentence and exit code 2, and the printer receives nothing.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ using test::sample_job;
 using test::sample_profile;
 using test::TempFolder;
 
-/// A terminal whose other end tells whether anything was ever written to it.
+/// A pseudo-terminal that records whether anything was ever written to it.
 class QuietPrinter {
  public:
   QuietPrinter() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
@@ -70,7 +70,7 @@ std::string stl(std::size_t facets) {
 struct Bad {
   std::string name;
   std::string job = sample_job, drawing = sample_drawing;
-  std::vector<std::string> words;  ///< in the sentence
+  std::vector<std::string> words;  ///< that the sentence must contain
 };
 
 std::string mesh_job(const std::string& file) {
@@ -169,6 +169,9 @@ TEST_CASE("A missing job, an unknown option and a wrong range are refused with c
       {"simulate", "--speed", "inf"},
       {"simulate", "--pixel", "nan"},
       {"plan", job},
+      {"plan", job, "-o", ""},
+      {"queue", "--remove", "-1"},
+      {"curve", job, "--preset", "fast"},
       {"fly"},
       {}};
   for (const auto& command : commands) {
@@ -180,7 +183,7 @@ TEST_CASE("A missing job, an unknown option and a wrong range are refused with c
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
-TEST_CASE("A port that is no printer is told, and nothing is left behind") {
+TEST_CASE("A port that does not exist is reported, and no files are left behind") {
   const TempFolder folder;
   folder.write("bench.toml", sample_profile);
   folder.write("plate.svg", sample_drawing);
@@ -194,13 +197,16 @@ TEST_CASE("A port that is no printer is told, and nothing is left behind") {
   CHECK_FALSE(std::filesystem::exists(folder / "r.json.part"));
 }
 
-TEST_CASE("An unknown command is named") {
+TEST_CASE("An unknown command is named, and the command that it resembles") {
   const Outcome outcome = run({"fly"});
   CHECK(outcome.code == 2);
   CHECK(outcome.err.find("\"fly\"") != std::string::npos);
+  CHECK(outcome.err.find("did you mean") == std::string::npos);
+  CHECK(run({"prnt", "job.toml"}).err.find("did you mean \"print\"?") != std::string::npos);
+  CHECK(run({"queu", "--jobs"}).err.find("did you mean \"queue\"?") != std::string::npos);
 }
 
-TEST_CASE("Outputs never overwrite what the job is made of, nor one another") {
+TEST_CASE("Outputs never overwrite the files of the job or one another") {
   const TempFolder folder;
   const auto profile = folder.write("bench.toml", sample_profile);
   const auto drawing = folder.write("plate.svg", sample_drawing);

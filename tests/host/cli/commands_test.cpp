@@ -1,4 +1,4 @@
-// The commands on sound input, as real processes.
+// The commands with valid input, run as real processes.
 #include <poll.h>
 
 #include <catch2/catch.hpp>
@@ -51,7 +51,7 @@ std::pair<unsigned, unsigned> png_size(const std::filesystem::path& file) {
   return {number(16), number(20)};
 }
 
-/// A simulator names its profile, which lies in the test's own folder.
+/// Finds a simulator by its profile, which lies in the folder of the test.
 bool simulator_runs_on(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     if (test::read_text(entry.path() / "cmdline").find(folder) != std::string::npos) return true;
@@ -61,7 +61,7 @@ bool simulator_runs_on(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("Help and version are answers, not errors") {
+TEST_CASE("Help and version succeed") {
   CHECK(run({"--version"}).out == "unicursal 0.1.0\n");
   for (const char* command : {"dry-run", "plan", "print", "curve", "simulate", "tune", "ports"}) {
     const Outcome outcome = run({command, "--help"});
@@ -103,7 +103,7 @@ TEST_CASE("A dry run prints the whole part on the simulator, and its report says
   CHECK(laid["total"]["area_mm2"].get<double>() == Approx(640).epsilon(0.01));
   CHECK(laid["total"]["gap_fraction"].get<double>() < 0.05);
   CHECK(laid["total"]["overfill_fraction"].get<double>() < 0.05);
-  CHECK(laid["total"]["mixture"]["wrong_mm2"].get<double>() > 0);  // the chamber answers late
+  CHECK(laid["total"]["mixture"]["wrong_mm2"].get<double>() > 0);  // because the chamber answers late
   CHECK(laid["total"]["mixture"]["wrong_mm2"].get<double>() < 4 * 6.1 / 0.2);
   const json& chamber = report["simulator"]["chamber"];
   double fed = 0, deposited = 0, content = 0;
@@ -117,7 +117,7 @@ TEST_CASE("A dry run prints the whole part on the simulator, and its report says
   CHECK(report["motion"]["starvations"] == 0);
   CHECK(report["motion"]["nominal_flow"] == 3.0);
   CHECK(report["motion"]["mean_speed"].get<double>() > 5);
-  CHECK_FALSE(report.contains("peak_memory_mib"));  // it would differ from run to run
+  CHECK_FALSE(report.contains("peak_memory_mib"));  // it differs from run to run
   for (const char* name : {"curve-0000.png", "curve-0001.png", "deposit-0000.png", "deposit-0001.png",
                            "gaps-0001.png", "mixtures-0000.png", "part.png", "motion.png"}) {
     INFO(name);
@@ -147,7 +147,7 @@ TEST_CASE("A thin line deposits its width times its length") {
   CHECK(volume == Approx(0.5 * 0.2 * report["totals"]["length_mm"].get<double>()));
 }
 
-TEST_CASE("A plan is the same text as what a dry run sends, and comes out the same twice") {
+TEST_CASE("A plan has the lines that a dry run sends, and is the same twice") {
   const Workshop shop;
   REQUIRE(run({"plan", shop.job, "-o", shop.path("a.gcode"), "--report", shop.path("r.json")}).code == 0);
   REQUIRE(run({"plan", shop.job, "-o", shop.path("b.gcode")}).code == 0);
@@ -158,11 +158,11 @@ TEST_CASE("A plan is the same text as what a dry run sends, and comes out the sa
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) commands += !line.empty() && line[0] != ';';
   CHECK(read_json(shop.path("r.json"))["lines"] == commands);
-  constexpr std::size_t questions = 2;  // to the printer, before anything is printed
+  constexpr std::size_t questions = 2;  // that the host asks the printer first
   CHECK(read_json(shop.path("d.json"))["link"]["lines"] == commands + questions);
 }
 
-TEST_CASE("A curve's three files and its report belong together") {
+TEST_CASE("The three files of a curve agree with its report") {
   const Workshop shop;
   const Outcome outcome =
       run({"curve", shop.job, "--layer", "1", "-o", shop.path("c.txt"), "-o", shop.path("c.svg"), "-o",
@@ -210,7 +210,7 @@ TEST_CASE("A curve's stages are six pictures of one size, and the bytes do not d
   CHECK(refused.err.find(shop.job) != std::string::npos);
 }
 
-TEST_CASE("Any number of threads plans the same bytes, and a number it must be") {
+TEST_CASE("The number of threads does not change the plan, and must be a number") {
   const Workshop shop;
   REQUIRE(
       run({"plan", shop.job, "--threads", "1", "-o", shop.path("1.gcode"), "--report", shop.path("r.json")})
@@ -225,7 +225,7 @@ TEST_CASE("Any number of threads plans the same bytes, and a number it must be")
   }
 }
 
-TEST_CASE("A simulator that stands alone takes a print, more than one process away") {
+TEST_CASE("A simulator in a process of its own takes a print") {
   const Workshop shop;
   test::Child simulator(
       {"simulate", "--once", "--link", shop.path("printer"), "--report", shop.path("seen.json")});
@@ -236,12 +236,12 @@ TEST_CASE("A simulator that stands alone takes a print, more than one process aw
   const Outcome outcome =
       run({"print", shop.job, "--port", shop.path("printer"), "--report", shop.path("r.json")});
   INFO(outcome.err);
-  REQUIRE(outcome.code == 0);  // else the simulator would wait for a host for ever
+  REQUIRE(outcome.code == 0);  // otherwise the simulator would wait for a host forever
   CHECK(simulator.wait().code == 0);
   CHECK(read_json(shop.path("seen.json"))["last_line"] == read_json(shop.path("r.json"))["link"]["lines"]);
 }
 
-TEST_CASE("Words for people never go into a file or to a printer, not even without standard streams") {
+TEST_CASE("Messages never go into a file or to a printer, even if the standard streams are closed") {
   const Workshop shop;
   const std::string script = "exec 0<&- 1>&- 2>&-; exec \"" UNICURSAL_PROGRAM "\" dry-run \"" + shop.job +
                              "\" --report \"" + shop.path("r.json") + "\"";
@@ -252,7 +252,7 @@ TEST_CASE("Words for people never go into a file or to a printer, not even witho
   CHECK(report["ended"] == "completed");
 }
 
-TEST_CASE("A serial log is no other file of the print") {
+TEST_CASE("A serial log cannot replace another file of the print") {
   const Workshop shop;
   const std::string before = test::read_text(shop.job);
   CHECK(run({"dry-run", shop.job, "--log", shop.job}).code == 2);
@@ -285,7 +285,7 @@ TEST_CASE("A simulator moves no faster than its profile's axes") {
   CHECK((seconds > 100 / 20.0) == !limits.empty());
 }
 
-TEST_CASE("Ctrl-C parks and cools, and the simulator goes with its host") {
+TEST_CASE("Ctrl-C parks and cools, and the simulator ends with its host") {
   const Workshop shop;
   test::Child host({"dry-run", shop.job, "--speed", "60", "--report", shop.path("r.json")});
   while (host.err().find("layer 1 of 2") == std::string::npos) {
@@ -299,13 +299,13 @@ TEST_CASE("Ctrl-C parks and cools, and the simulator goes with its host") {
   const json report = read_json(shop.path("r.json"));
   CHECK(report["ended"] == "stopped");
   CHECK(report["simulator"]["temperatures"]["nozzle"]["target"] == 0);
-  // A stop while it heats is proved by a query of the link's own.
+  // A stop during heating is confirmed by a query that the link adds.
   CHECK(report["simulator"]["last_line"] >= report["link"]["lines"]);
   CHECK(report["simulator"]["executed_lines_in_order"] == true);
   CHECK_FALSE(simulator_runs_on(shop.folder.path().string()));
 }
 
-TEST_CASE("A terminal that takes nothing more does not end a print") {
+TEST_CASE("A full output does not end a print") {
   const Workshop shop;
   test::Child host({"dry-run", shop.job, "--report", shop.path("r.json")}, "/dev/full");
   CHECK(host.wait().code == 0);
@@ -320,14 +320,14 @@ TEST_CASE("A closed terminal ends a print as Ctrl-C does") {
     poll(nullptr, 0, 20);
   }
   kill(host.id(), SIGHUP);
-  kill(host.id(), SIGHUP);  // the shell says so as well
+  kill(host.id(), SIGHUP);  // the shell sends it as well
   CHECK(host.wait().code == 3);
   const json report = read_json(shop.path("r.json"));
   CHECK(report["ended"] == "stopped");
   CHECK(report["simulator"]["temperatures"]["nozzle"]["target"] == 0);
 }
 
-TEST_CASE("Devices and links are written through, not replaced") {
+TEST_CASE("Devices and links are written to, not replaced") {
   const Workshop shop;
   const auto link = shop.folder / "link.json", real = shop.folder / "real.json";
   std::filesystem::create_symlink("real.json", link);  // dangling at first
@@ -340,7 +340,7 @@ TEST_CASE("Devices and links are written through, not replaced") {
   CHECK_FALSE(std::filesystem::exists("/dev/null.part"));
 }
 
-TEST_CASE("A print whose report is lost has failed, but not for its input") {
+TEST_CASE("A print whose report cannot be written has failed, with code 1") {
   const Workshop shop;
   const Outcome outcome = run({"dry-run", shop.job, "--report", "/dev/full"});
   INFO(outcome.err);

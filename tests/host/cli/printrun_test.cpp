@@ -1,5 +1,5 @@
-// The simulated printer under a host that is not ours: printcore, of Debian's package printrun. Where that is
-// not installed there is nothing to show.
+// The simulated printer with a host program that is not ours: printcore from Debian's package printrun. The
+// test passes with a warning if it is not installed.
 #include <poll.h>
 
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@ namespace {
 constexpr const char* printcore = "/usr/bin/printcore";
 constexpr std::size_t lines_to_print = 5000;
 
-/// The commands of a G-code file, without comments, as far as they go.
+/// The first `most` commands of a G-code file, without comments.
 std::vector<std::string> commands_of(const std::string& gcode, std::size_t most) {
   std::vector<std::string> commands;
   std::istringstream text(gcode);
@@ -29,7 +29,7 @@ std::vector<std::string> commands_of(const std::string& gcode, std::size_t most)
   return commands;
 }
 
-/// Runs printcore to its end; 127 when it could not be started.
+/// Runs printcore to its end. Returns its exit code, or 127 if it could not be started.
 int print_file(const std::string& port, const std::string& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -46,7 +46,7 @@ int print_file(const std::string& port, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("printcore prints a file of ours: every command once, in order") {
+TEST_CASE("printcore prints a file that was planned: each command once, in order") {
   if (!std::filesystem::exists(printcore)) {
     WARN("printcore is not installed");
     return;
@@ -76,8 +76,9 @@ TEST_CASE("printcore prints a file of ours: every command once, in order") {
   REQUIRE(simulator.wait().code == 0);
 
   auto executed = commands_of(test::read_text(folder / "executed"), 2 * lines_to_print);
-  std::erase_if(executed,
-                [](const std::string& line) { return line == "M110" || line == "M105"; });  // its own
+  std::erase_if(executed, [](const std::string& line) {
+    return line == "M110" || line == "M105";
+  });  // printcore adds these
   auto wanted = commands;
   std::erase(wanted, "M105");
   CHECK(executed == wanted);

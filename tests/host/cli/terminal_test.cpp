@@ -1,4 +1,4 @@
-// `unicursal print` in a real terminal: what a person types there, and Ctrl-C.
+// `unicursal print` in a real terminal: typed words, and Ctrl-C.
 #include <pty.h>
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@ using test::Child;
 
 namespace {
 
-/// The program with a terminal of its own.
+/// The program in a terminal of its own.
 class Terminal {
  public:
   explicit Terminal(std::vector<std::string> arguments) {
@@ -37,7 +37,7 @@ class Terminal {
   void type(const std::string& text) {
     REQUIRE(write(master_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
   }
-  /// Until the screen has shown it, since the last time; two minutes at most.
+  /// Waits until the screen shows the text after what was awaited before, two minutes at most.
   void await(const std::string& text) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     for (std::size_t at = screen_.find(text); at == std::string::npos; at = screen_.find(text)) {
@@ -47,7 +47,7 @@ class Terminal {
     }
     screen_.erase(0, screen_.find(text) + text.size());
   }
-  /// Its exit code.
+  /// Waits for the end of the program and returns its exit code.
   int wait() {
     while (read_some()) {
     }
@@ -58,7 +58,7 @@ class Terminal {
   }
 
  private:
-  /// False when the program has hung up.
+  /// Returns false if the program has closed the terminal.
   bool read_some() {
     pollfd end{master_, POLLIN, 0};
     poll(&end, 1, 100);
@@ -93,7 +93,7 @@ TEST_CASE("a print is paused, changed, resumed and stopped from its terminal") {
   terminal.type("pause\n");
   terminal.await("paused layer");
   terminal.type("what?\n");
-  terminal.await("say pause, resume, cancel");
+  terminal.await("type pause, resume, cancel");
   terminal.type("resume\n");
   terminal.await("printing layer");
   terminal.type("\x03");

@@ -16,7 +16,7 @@ using test::FakePrinter;
 
 namespace {
 
-/// Answers with more than "ok", by command.
+/// Answers beyond "ok", by command.
 test::FakeBehaviour answering(std::map<std::string, std::vector<std::string>> answers) {
   test::FakeBehaviour behaviour;
   behaviour.instead = [answers](FakePrinter& printer, std::size_t, const std::string& command) {
@@ -49,7 +49,7 @@ std::string weight_of(const json& found, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("doctor: settings are read from what M503 lists, in the forms of any Marlin") {
+TEST_CASE("doctor: settings are read from the lines of M503, in the forms of any Marlin") {
   const MachineSettings now = settings_in(settings);
   CHECK(now.steps_per_mm == std::array<double, 4>{80, 80, 400, 93});
   CHECK(now.max_speed == std::array<double, 4>{150, 150, 10, 25});
@@ -65,7 +65,7 @@ TEST_CASE("doctor: settings are read from what M503 lists, in the forms of any M
   CHECK_FALSE(damaged.volumetric);
 }
 
-TEST_CASE("doctor: what is wrong with a printer is told, and nothing moves or heats") {
+TEST_CASE("doctor: a printer's defects are reported, and nothing moves or heats") {
   const test::TempFolder folder;
   const std::string profile = folder.write("bench.toml", test::sample_profile).string();
   FakePrinter printer(answering({{"M503", settings}, {"M163", unknown}, {"M85", unknown}}));
@@ -89,7 +89,7 @@ TEST_CASE("doctor: what is wrong with a printer is told, and nothing moves or he
   }
 }
 
-TEST_CASE("doctor: a printer that is as it should be is told to be so") {
+TEST_CASE("doctor: a sound printer is reported as sound") {
   std::vector<std::string> sound = settings;
   std::erase_if(sound, [](const std::string& line) { return line.find("M200") != std::string::npos; });
   auto behaviour = answering({{"M503", sound}});
@@ -104,7 +104,7 @@ TEST_CASE("doctor: a printer that is as it should be is told to be so") {
   CHECK(outcome.out.find("15 moves") != std::string::npos);
 }
 
-TEST_CASE("doctor: a profile that promises more than the printer has is told") {
+TEST_CASE("doctor: a profile with higher limits than the printer is reported") {
   Examination found;
   found.mixes = true;
   found.tells_settings = true;
@@ -115,10 +115,10 @@ TEST_CASE("doctor: a profile that promises more than the printer has is told") {
   std::string text;
   for (const Finding& finding : findings(found, 250000, &profile)) text += finding.text + "\n";
   CHECK(text.find("max_acceleration for x is 1000 mm/s², the profile says 1500") != std::string::npos);
-  CHECK(text.find("limits of max_speed leave what the profile says") != std::string::npos);
+  CHECK(text.find("its max_speed is not below that of the profile") != std::string::npos);
 }
 
-TEST_CASE("doctor: where no printer is, it says so in a sentence") {
+TEST_CASE("doctor: without a printer it says so in a sentence") {
   FakePrinter silent({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
   const test::Outcome outcome = test::run({"doctor", "--port", "/dev/no-such-port"});
   CHECK(outcome.code == 2);

@@ -32,15 +32,15 @@ TEST_CASE("What a job says arrives in its fields") {
   CHECK(job.source.files.front().parent_path() == job.file.parent_path());
   CHECK(job.bead_width == 1.0);
   CHECK_FALSE(job.seed_distance);
-  CHECK(job.flow == 3.0);
+  CHECK(job.print.flow == 3.0);
   CHECK(job.place.kind == Placement::Kind::center);
   CHECK_FALSE(job.line_width);
   REQUIRE(job.source.zones.size() == 2);
   CHECK(job.source.zones[0].select == "#0000ff");
   CHECK(job.source.zones[1].pattern.kind == core::PatternKind::none);
-  REQUIRE(job.materials.size() == 2);
-  CHECK(job.materials[job.source.zones[1].material].name == "sun");
-  CHECK(job.materials[0].mixture.share(0) == Approx(0.75));
+  REQUIRE(job.print.materials.size() == 2);
+  CHECK(job.print.materials[job.source.zones[1].material].name == "sun");
+  CHECK(job.print.materials[0].mixture.share(0) == Approx(0.75));
   CHECK(job.profile.baud == 115200);
   CHECK(job.profile.printer.bed[1] == 100);
   CHECK(job.profile.printer.filament_diameter == 1.75);
@@ -76,28 +76,28 @@ TEST_CASE("Patterns are read into their types") {
 }
 
 TEST_CASE("Seams and the share of a change before its border are read") {
-  CHECK(load(sample_job).seam == gcode::Seam::hidden);
-  CHECK(load(sample_job).change_before_border == 0.5);
+  CHECK(load(sample_job).print.seam == gcode::Seam::hidden);
+  CHECK(load(sample_job).print.change_before_border == 0.5);
   const Job job = load(replaced(sample_job, "flow = 3.0", "seam = \"aligned\"\nchange_before_border = 0.8"));
-  CHECK(job.seam == gcode::Seam::aligned);
-  CHECK(job.change_before_border == 0.8);
+  CHECK(job.print.seam == gcode::Seam::aligned);
+  CHECK(job.print.change_before_border == 0.8);
   CHECK(job.warnings.empty());
 }
 
 TEST_CASE("A gradient is a material of its own, and so is a mixture that takes up changes") {
   const std::string gradient = "mixture = { from = \"sun\", to = \"sea\", along = [0, 3, 4] }";
   const Job job = load(replaced(sample_job, "mixture = \"sea\"", gradient));
-  REQUIRE(job.materials.size() == 2);
-  REQUIRE(job.materials[0].gradient);
-  CHECK(job.materials[0].name == "sun to sea");
-  CHECK(job.materials[0].mixture == job.materials[1].mixture);
-  CHECK(job.materials[0].gradient->to == gcode::Mixture({0.6, 0, 0.2}));
-  CHECK(job.materials[0].gradient->along[2] == Approx(0.8));
+  REQUIRE(job.print.materials.size() == 2);
+  REQUIRE(job.print.materials[0].gradient);
+  CHECK(job.print.materials[0].name == "sun to sea");
+  CHECK(job.print.materials[0].mixture == job.print.materials[1].mixture);
+  CHECK(job.print.materials[0].gradient->to == gcode::Mixture({0.6, 0, 0.2}));
+  CHECK(job.print.materials[0].gradient->along[2] == Approx(0.8));
   CHECK(job.warnings.empty());
   const Job same = load(replaced(sample_job, "mixture = \"sea\"", "mixture = \"sun\"\ntransition = true"));
-  REQUIRE(same.materials.size() == 2);
-  CHECK(same.materials[0].transition);
-  CHECK_FALSE(same.materials[1].transition);
+  REQUIRE(same.print.materials.size() == 2);
+  CHECK(same.print.materials[0].transition);
+  CHECK_FALSE(same.print.materials[1].transition);
 }
 
 TEST_CASE("Perimeters are none unless asked for") {
@@ -109,7 +109,7 @@ TEST_CASE("Perimeters are none unless asked for") {
 
 TEST_CASE("Zones of equal mixture share a material, whatever its name and scale") {
   const Job job = load(replaced(sample_job, "sun = [0.0, 1.0, 1.0]", "sun = [3, 0, 1]"));
-  REQUIRE(job.materials.size() == 1);
+  REQUIRE(job.print.materials.size() == 1);
   CHECK(job.source.zones[0].material == job.source.zones[1].material);
 }
 

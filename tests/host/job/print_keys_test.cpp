@@ -43,26 +43,26 @@ std::string complaint(const std::function<void()>& load) {
 
 TEST_CASE("Speed, first layer, skirt, fan and temperatures arrive in their fields") {
   const Job plain = load(sample_job);
-  CHECK_FALSE(plain.automatic_flow);
-  CHECK_FALSE(plain.speed);
-  CHECK(plain.skirt.loops == 0);
-  CHECK(with("flow = \"auto\"").automatic_flow);
+  CHECK_FALSE(plain.print.automatic_flow);
+  CHECK_FALSE(plain.print.speed);
+  CHECK(plain.print.skirt.loops == 0);
+  CHECK(with("flow = \"auto\"").print.automatic_flow);
   CHECK(with("flow = \"auto\"").warnings.empty());
-  CHECK(with("speed = 20").speed == 20);
-  CHECK(with("first_layer_speed = 0.4").first_layer_speed == 0.4);
+  CHECK(with("speed = 20").print.speed == 20);
+  CHECK(with("first_layer_speed = 0.4").print.first_layer_speed == 0.4);
   CHECK(with("first_layer_height = 0.3").source.first_layer_height == 0.3);
-  CHECK(with("skirt = 3").skirt.loops == 3);
+  CHECK(with("skirt = 3").print.skirt.loops == 3);
   const Job skirt = with("skirt = { loops = 2, distance = 7.5 }");
-  CHECK(skirt.skirt.loops == 2);
-  CHECK(skirt.skirt.distance == 7.5);
-  CHECK(with("fan = 80").fan.percent == 80);
-  CHECK(with("fan = { percent = 60, from = 4 }").fan.from == 4);
+  CHECK(skirt.print.skirt.loops == 2);
+  CHECK(skirt.print.skirt.distance == 7.5);
+  CHECK(with("fan = 80").print.fan.percent == 80);
+  CHECK(with("fan = { percent = 60, from = 4 }").print.fan.from == 4);
   const Job warm =
       with("temperatures = [{ layer = 0, nozzle = 215, bed = 65 }, { layer = 3, nozzle = 200 }]");
-  REQUIRE(warm.temperatures.size() == 2);
-  CHECK(warm.temperatures[0].bed == 65);
-  CHECK(warm.temperatures[1].layer == 3);
-  CHECK_FALSE(warm.temperatures[1].bed);
+  REQUIRE(warm.print.temperatures.size() == 2);
+  CHECK(warm.print.temperatures[0].bed == 65);
+  CHECK(warm.print.temperatures[1].layer == 3);
+  CHECK_FALSE(warm.print.temperatures[1].bed);
 }
 
 TEST_CASE("What they may not be is told with the line and the remedy") {

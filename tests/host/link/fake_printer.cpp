@@ -70,7 +70,7 @@ void FakePrinter::run() {
       flush();
       continue;
     }
-    if ((ends[0].revents & POLLIN) == 0) return;  // asked to stop, and everything has been read
+    if ((ends[0].revents & POLLIN) == 0) return;  // it was asked to stop, and everything has been read
     const auto count = ::read(master_, buffer.data(), buffer.size());
     if (count <= 0) return;
     receive({buffer.data(), static_cast<std::size_t>(count)});
@@ -80,7 +80,7 @@ void FakePrinter::run() {
 
 void FakePrinter::receive(std::string_view bytes) {
   longest_burst_ = std::max(longest_burst_, bytes.size());
-  // Damage is done before the bytes are cut into lines, so that it can hit a newline as well.
+  // Damage precedes the splitting into lines, so that it can hit a newline, too.
   while (!bytes.empty()) {
     const auto end = std::min(bytes.find('\n'), bytes.size() - 1) + 1;
     std::string piece(bytes.substr(0, end));
@@ -90,7 +90,7 @@ void FakePrinter::receive(std::string_view bytes) {
   for (auto end = input_.find('\n'); end != std::string::npos; end = input_.find('\n')) {
     const std::string line = input_.substr(0, end);
     input_.erase(0, end + 1);
-    if (!process(line)) input_.clear();  // a firmware flushes its buffer with an error
+    if (!process(line)) input_.clear();  // a firmware flushes its buffer after an error
     if (master_ < 0) return;
   }
 }

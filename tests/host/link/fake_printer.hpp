@@ -1,5 +1,5 @@
 // A small Marlin at the other end of a real pseudo-terminal, in a thread of its own: enough of a firmware to
-// check the link's protocol against, with a hook on every line in either direction.
+// test the link's protocol, with a hook for every line in each direction.
 #pragma once
 
 #include <atomic>
@@ -13,16 +13,16 @@
 namespace unicursal::test {
 
 struct FakeBehaviour {
-  /// What really arrives of a line with its newline; default: all of it.
+  /// Returns what really arrives of a line with its newline; by default all of it.
   std::function<std::string(std::string)> inwards = nullptr;
   /// The same for a reply.
   std::function<std::string(std::string)> outwards = nullptr;
-  /// Instead of executing the n-th (from 1) accepted command; true when it has been dealt with.
+  /// Called instead of executing the n-th (from 1) accepted command; returns true if it has handled it.
   std::function<bool(class FakePrinter&, std::size_t, const std::string&)> instead = nullptr;
-  /// Whenever nothing has come in for 200 ms.
+  /// Called whenever nothing has arrived for 200 ms.
   std::function<void(class FakePrinter&)> on_tick = nullptr;
-  bool boots = true;      ///< chatter at the beginning
-  bool advanced = false;  ///< "ok N… P… B…"
+  bool boots = true;      ///< Whether it sends boot messages.
+  bool advanced = false;  ///< Whether an ok reads "ok N… P… B…".
 };
 
 class FakePrinter {
@@ -31,18 +31,18 @@ class FakePrinter {
   ~FakePrinter();
 
   const std::string& path() const { return path_; }
-  /// Ends the thread and hangs up; afterwards the results may be read.
+  /// Ends the thread and hangs up; the results can be read afterwards.
   void stop();
 
-  /// Accepted commands with a number, in order, queries (M105) and M110 left out.
+  /// Accepted numbered commands in order, without queries (M105) and M110.
   const std::vector<std::string>& executed() const { return executed_; }
   std::size_t errors() const { return errors_; }
   std::size_t dropped_repeats() const { return dropped_repeats_; }
-  /// Most bytes that were seen at once without an answer.
+  /// The most unanswered bytes that were seen at once.
   std::size_t longest_burst() const { return longest_burst_; }
   bool killed() const { return killed_; }
 
-  // For `instead`, in the printer's own thread.
+  // For `instead`, which runs in the printer's thread.
   void reply(std::string_view line);
   void fall_silent() { silent_ = true; }
   void forget_numbers(long last = 0) { last_ = last; }

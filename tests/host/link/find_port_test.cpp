@@ -29,7 +29,7 @@ std::vector<std::string> paths(const std::vector<PortInfo>& ports) {
 
 }  // namespace
 
-TEST_CASE("ports are meant by path, by USB numbers, or as what a printer may hang on") {
+TEST_CASE("a port is chosen by path, by USB numbers, or as a likely port of a printer") {
   using Paths = std::vector<std::string>;
   CHECK(paths(matching_ports(listed, "auto")) == Paths{"/dev/ttyUSB1", "/dev/ttyACM0", "/dev/ttyUSB0"});
   CHECK(paths(matching_ports({listed.back()}, "auto")) == Paths{"/dev/ttyS0"});
@@ -41,7 +41,7 @@ TEST_CASE("ports are meant by path, by USB numbers, or as what a printer may han
   CHECK(matching_ports({}, "auto").empty());
 }
 
-TEST_CASE("among several ports the one that answers as a printer is taken") {
+TEST_CASE("among several ports the one that answers as a printer is chosen") {
   FakePrinter silent({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
   FakePrinter printer({.boots = false});
   FakePrinter modem({.inwards = [](const std::string&) { return std::string("garbage\n"); }, .boots = false});
@@ -52,13 +52,13 @@ TEST_CASE("among several ports the one that answers as a printer is taken") {
   const int port = open_answering_port(ports, 250000);
   const std::string path = "/proc/self/fd/" + std::to_string(port);
   CHECK(std::filesystem::read_symlink(path) == printer.path());
-  // The others are free again.
+  // The other ports are free again.
   ::close(open_port(silent.path(), 250000));
   ::close(open_port(modem.path(), 250000));
   ::close(port);
 }
 
-TEST_CASE("where nobody answers, all ports are named") {
+TEST_CASE("if no port answers, the message names all of them") {
   FakePrinter silent({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
   const std::vector<PortInfo> ports = {{silent.path(), "", "", true, {}}};
   CHECK_THROWS_WITH(open_answering_port(ports, 250000),

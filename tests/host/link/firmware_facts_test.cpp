@@ -1,28 +1,28 @@
-// What real firmwares do, row by row, and that the link lives with it: against the simulated printer, in a
+// The facts of sim/README.md, row by row, and that the link copes with them: with the simulated printer in a
 // process of its own, over a pseudo-terminal, in virtual time.
 //
 //   boot, input lost meanwhile          "a board that boots when its port is opened"
 //   ok when planned; M400               "an ok means planned"
-//   ADVANCED_OK                         "free places are told and used"
-//   M105, M155, M109                    "temperatures come by themselves"; "Repetier is asked for them"
-//   busy                                "a printer at work is not disturbed"
+//   ADVANCED_OK                         "free places are reported and used"
+//   M105, M155, M109                    "temperature reports"; "Repetier is asked for its temperatures"
+//   busy                                "a working printer is not disturbed"
 //   line errors, their order, flushing  "damage of every kind"
-//   repeated line numbers               "a printer that asks for what it has"
-//   M110 acts twice                     "numbers begin anew"
+//   repeated line numbers               "a printer that asks for lines that it has"
+//   M110 acts twice                     "numbering restarts"
 //   no ok at all                        "a command without an ok"
-//   unknown commands, T16               "commands that it does not know"
+//   unknown commands, T16               "unknown commands"
 //   line length                         link_test: "lines that would break the numbering"
 //   capacity                            "damage of every kind" (lost_bytes), simulator_test
 //   overrun                             "a window that is too large"
-//   cold and long extrusion             "what the printer refuses is told"
+//   cold and long extrusion             "refusals are reported"
 //   G90 overrides M83                   firmware_gcode: the job's frame
-//   M114, G28                           "homing speaks before its ok"
+//   M114, G28                           "homing reports before its ok"
 //   M108                                "a cool-down ends heating"
 //   M112, M85                           "a printer that stops itself"
-//   host actions                        "what the printer wants of its host is passed on"
-//   Repetier: ok at receipt, numbered   every test that runs over all personalities
-//   Repetier: wait, busy                "a last ok that is lost"
-//   Repetier: Resend again and again    "damage of every kind", "a printer that asks for what it has"
+//   host actions                        "host actions are passed on"
+//   Repetier: ok on receipt, numbered   every test that runs over all personalities
+//   Repetier: wait, busy                "a lost last ok"
+//   Repetier: repeated Resend           "damage of every kind", "a printer that asks for lines that it has"
 //   Repetier: modulo 65536              "line numbers beyond 16 bits"
 //   Repetier: M112 and reset            "a reset in mid-print"
 #include <fmt/format.h>
@@ -56,8 +56,8 @@ bool holds(const std::vector<std::string>& lines, const std::string& part) {
                      [&](const std::string& line) { return line.find(part) != std::string::npos; });
 }
 
-/// Of the conversation's lines, each was executed once, in order. What damage made of a line is executed as
-/// something else, or as an unknown command.
+/// Checks that each line of the conversation was executed once, in order. A damaged line may also be executed
+/// as another command, or as an unknown one.
 void check_all_executed(VirtualPrinter& printer, const Talk& talk, const std::vector<std::string>& lines) {
   CHECK(talk.error.empty());
   const nlohmann::json report = printer.report();
@@ -78,14 +78,14 @@ TEST_CASE("facts: a board that boots when its port is opened") {
     CHECK(patient.print(moves(20)).error.empty());
     CHECK(patient.report()["lines"]["bytes_while_booting"] == 0);
     LinkOptions options;
-    options.boot = 100ms;  // what is asked then is lost
+    options.boot = 100ms;  // a question during the boot is lost
     CHECK(hasty.print(moves(20), options).error.empty());
     CHECK(hasty.report()["lines"]["bytes_while_booting"] > 0);
     CHECK(hasty.executed() == moves(20));
   }
 }
 
-TEST_CASE("facts: an ok means planned, and M400's means done") {
+TEST_CASE("facts: an ok means planned, and the ok of M400 means done") {
   const std::vector<std::string> way = {"G28", "G1 X100 F3000"};  // 2 s
   VirtualPrinter planned, done;
   const double soon = planned.print(way).seconds;
@@ -94,7 +94,7 @@ TEST_CASE("facts: an ok means planned, and M400's means done") {
   CHECK(done.print(all).seconds > soon + 1.5);
 }
 
-TEST_CASE("facts: free places are told and used") {
+TEST_CASE("facts: free places are reported and used") {
   VirtualPrinter plain({"--baud", "4000000", "--usb", "ftdi"}),
       advanced({"--baud", "4000000", "--usb", "ftdi", "--personality", "marlin-advanced-ok"});
   const auto lines = moves(2000);
@@ -108,7 +108,7 @@ TEST_CASE("facts: free places are told and used") {
   CHECK(advanced.report()["lines"]["lost_bytes"] == 0);
 }
 
-TEST_CASE("facts: temperatures come by themselves, between other lines") {
+TEST_CASE("facts: temperature reports come between other lines") {
   LinkOptions options;
   options.temperatures = 1s;
   std::vector<std::string> lines = {"M104 S60", "M109 S60"};
@@ -140,13 +140,13 @@ TEST_CASE("facts: Repetier is asked for its temperatures") {
   CHECK(talk.temperatures.nozzle == 25.0);
   CHECK(talk.statistics.queries > 2);
   CHECK(talk.statistics.resends == 0);
-  // Each question moves the numbers of the lines behind it by one more.
+  // Each question shifts the numbers of the lines after it by one.
   REQUIRE(shifts.size() >= talk.statistics.queries);
   CHECK(shifts.back().first == shifts.back().second + 1 + talk.statistics.queries);
   check_all_executed(printer, talk, lines);
 }
 
-TEST_CASE("facts: a printer at work is not disturbed, however long it takes") {
+TEST_CASE("facts: a working printer is not disturbed, however long it takes") {
   for (const std::string& who : personalities) {
     VirtualPrinter printer({"--personality", who});
     std::vector<std::string> lines = moves(20);  // more than Repetier's queue takes before its oks stop
@@ -159,9 +159,9 @@ TEST_CASE("facts: a printer at work is not disturbed, however long it takes") {
   }
 }
 
-TEST_CASE("facts: damage of every kind is made good, at rest and at work") {
+TEST_CASE("facts: damage of every kind is repaired, at rest and at work") {
   const std::string who = GENERATE(from_range(personalities));
-  // The byte behind the line of this number is hit; at work the lines in flight wait behind a dwell.
+  // The byte after the line of this number is damaged; at work the lines in flight wait behind a dwell.
   for (const std::string fault :
        {"bitflip@line=40", "lostbyte@line=40", "merge@line=40", "replyflip@line=40", "lostreply@line=40",
         "lostok@line=40", "doubleok@line=40", "brokenok@line=40", "noise@line=40", "badutf8@line=40",
@@ -177,7 +177,7 @@ TEST_CASE("facts: damage of every kind is made good, at rest and at work") {
   }
 }
 
-TEST_CASE("facts: a printer that asks for what it has is given it, and drops it") {
+TEST_CASE("facts: a printer that asks for lines that it has gets them again, and drops them") {
   const std::string who = GENERATE(from_range(personalities));
   VirtualPrinter printer({"--personality", who, "--fault", "falsealarm:0.02", "--fault", "doubleresend:0.5",
                           "--fault", "lostresend:0.2"});
@@ -188,7 +188,7 @@ TEST_CASE("facts: a printer that asks for what it has is given it, and drops it"
   check_all_executed(printer, talk, lines);
 }
 
-TEST_CASE("facts: numbers begin anew before they grow too long, with M110 alone") {
+TEST_CASE("facts: numbering restarts before numbers grow too long, with M110 alone") {
   const std::string who = GENERATE(from_range(personalities));
   const bool noisy = GENERATE(false, true);
   LinkOptions options;
@@ -216,7 +216,7 @@ TEST_CASE("facts: numbers begin anew before they grow too long, with M110 alone"
   check_all_executed(printer, talk, lines);
 }
 
-TEST_CASE("facts: a command without an ok is not waited for until the end of days") {
+TEST_CASE("facts: a command without an ok does not block the link for ever") {
   VirtualPrinter printer;
   std::vector<std::string> lines = moves(50);
   lines.insert(lines.begin() + 20, "M105 T3");  // only "Invalid extruder"
@@ -226,7 +226,7 @@ TEST_CASE("facts: a command without an ok is not waited for until the end of day
   check_all_executed(printer, talk, lines);
 }
 
-TEST_CASE("facts: commands that it does not know do not stop a print") {
+TEST_CASE("facts: unknown commands do not stop a print") {
   for (const std::string& who : personalities) {
     std::vector<std::string> lines = moves(50);
     lines.insert(lines.begin() + 20, {"M9999", "T16", "g28", "FOO"});
@@ -252,20 +252,20 @@ TEST_CASE(
   CHECK(printer.report()["lines"]["lost_bytes"] > 0);
 }
 
-TEST_CASE("facts: what the printer refuses is told") {
+TEST_CASE("facts: refusals are reported") {
   VirtualPrinter printer;
   const Talk talk = printer.print({"M83", "G1 X10 E1 F600"});
   CHECK(talk.error.empty());
   CHECK(holds(talk.messages, "cold extrusion prevented"));
 }
 
-TEST_CASE("facts: homing speaks before its ok") {
+TEST_CASE("facts: homing reports before its ok") {
   for (const std::string& who : personalities) {
     VirtualPrinter printer({"--personality", who});
     const Talk talk = printer.print({"G28", "M114", "M400"});
     INFO(who);
     CHECK(talk.error.empty());
-    // A Repetier says ok at receipt, so that this conversation ends before it is home.
+    // A Repetier says ok on receipt, so this conversation ends before it is homed.
     CHECK((who == "repetier" || holds(talk.messages, "X:0.00 Y:0.00 Z:0.00")));
     CHECK(talk.statistics.resends + talk.statistics.probes == 0);
   }
@@ -278,7 +278,7 @@ TEST_CASE("facts: a cool-down ends heating") {
     if (message.find("W:") != std::string::npos && !std::exchange(cooled, true)) link.cool_down();
   });
   CHECK(talk.error.empty());
-  CHECK(talk.seconds < 30);  // to heat would take a minute
+  CHECK(talk.seconds < 30);  // heating would take a minute
   printer.report();
   CHECK(holds(printer.executed(), "M104 S0"));
 }
@@ -305,7 +305,7 @@ TEST_CASE("facts: a printer that stops itself ends the conversation with its rea
   CHECK(talk.statistics.acknowledged < 5000);
 }
 
-TEST_CASE("facts: what the printer wants of its host is passed on") {
+TEST_CASE("facts: host actions are passed on") {
   VirtualPrinter printer({"--fault", "say://action:pause@line=10", "--fault", "runout@line=20"});
   const auto lines = moves(60);
   const Talk talk = printer.print(lines);
@@ -314,7 +314,7 @@ TEST_CASE("facts: what the printer wants of its host is passed on") {
   check_all_executed(printer, talk, lines);
 }
 
-TEST_CASE("facts: a last ok that is lost is missed within seconds, by what the printer says else") {
+TEST_CASE("facts: a lost last ok is detected within seconds, from other messages of the printer") {
   for (const std::string& who : personalities) {
     VirtualPrinter printer({"--personality", who, "--fault", "lostok@line=50"});
     const auto lines = moves(50);
@@ -326,7 +326,7 @@ TEST_CASE("facts: a last ok that is lost is missed within seconds, by what the p
   }
 }
 
-TEST_CASE("facts: a reset in mid-print ends it, and nothing is sent into the printer's new life") {
+TEST_CASE("facts: a reset in mid-print ends it, and nothing is sent afterwards") {
   const std::string who = GENERATE(from_range(personalities));
   VirtualPrinter printer({"--personality", who, "--fault", "reset@line=40"});
   const Talk talk = printer.print(moves(100));
@@ -348,7 +348,7 @@ TEST_CASE("soak: a hundred thousand lines, faults on one in a thousand each", "[
   const Talk talk = printer.print(lines);
   INFO(who);
   CHECK(talk.statistics.resends > 100);
-  CHECK(printer.report()["lines"]["unseen_damage"] == 0);  // by the luck of this seed
+  CHECK(printer.report()["lines"]["unseen_damage"] == 0);  // with this seed
   check_all_executed(printer, talk, lines);
 }
 

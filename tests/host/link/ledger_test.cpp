@@ -20,22 +20,22 @@ Ledger filled(std::size_t window, int lines) {
 
 }  // namespace
 
-TEST_CASE("what an ok tells of the queue makes room for as many lines more") {
+TEST_CASE("an ok that reports the queue makes room for as many more lines") {
   std::string bytes;
   for (const std::uint32_t queued : {0u, 1u, 2u}) {
     Ledger ledger = filled(66, 9);
     CHECK(ledger.fill(bytes) == 3);
-    REQUIRE(ledger.acknowledge_number(1, queued));  // and lines 2, 3 wait in the queue
+    REQUIRE(ledger.acknowledge_number(1, queued));  // lines 2 and 3 wait in the queue
     CHECK(ledger.fill(bytes) == 1 + queued);
     CHECK(ledger.acknowledged() == 1);
     CHECK(ledger.in_flight());
-    // They are still to be acknowledged, and what has left the buffer is not counted off twice.
+    // They are not acknowledged yet, and lines that have left the buffer are not subtracted twice.
     REQUIRE(ledger.acknowledge_number(2, queued));
     CHECK(ledger.fill(bytes) == 1);
   }
 }
 
-TEST_CASE("a queue that is told larger than what is in flight frees no more than that") {
+TEST_CASE("a queue that is reported larger than the lines in flight frees only those") {
   std::string bytes;
   Ledger ledger = filled(66, 9);
   ledger.fill(bytes);
@@ -45,7 +45,7 @@ TEST_CASE("a queue that is told larger than what is in flight frees no more than
   CHECK(ledger.fill(bytes) == 3);
 }
 
-TEST_CASE("numbers stop at the last one, and begin anew when all is acknowledged") {
+TEST_CASE("numbering stops at the last number, and restarts when all lines are acknowledged") {
   Ledger ledger(1000, 1, 3);
   for (int i = 0; i < 5; ++i) ledger.push("G1 X" + std::to_string(i));
   std::string bytes;

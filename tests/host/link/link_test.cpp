@@ -42,13 +42,13 @@ std::vector<std::string> moves(std::size_t count) {
 }
 
 struct Outcome {
-  std::string error;  ///< of a LinkError, empty when all went well
+  std::string error;  ///< Message of a LinkError; empty after success.
   LinkStatistics statistics;
   std::string firmware;
   std::vector<std::string> messages;
 };
 
-/// Connects, sends, drains, on a loop of its own.
+/// Connects, sends and drains on a loop of its own.
 Outcome stream(const std::string& path, std::vector<std::string> lines, LinkOptions options = impatient(),
                const std::function<void(Link&, const std::string&)>& on_message = {}) {
   asio::io_context loop;
@@ -84,7 +84,7 @@ std::function<std::string(std::string)> bit_flips(unsigned seed, unsigned rarity
   };
 }
 
-/// Replaces the first line that begins with `start` by something else, possibly nothing.
+/// Replaces the first line that begins with `start` by another text, possibly an empty one.
 std::function<std::string(std::string)> replaced(std::string start, std::string by) {
   return [start, by, done = false](std::string line) mutable {
     if (done || !line.starts_with(start)) return line;
@@ -122,7 +122,7 @@ TEST_CASE("every line arrives once and in order, within the window") {
   }
 }
 
-TEST_CASE("a printer that says nothing at boot is asked") {
+TEST_CASE("a printer that is silent at boot is asked") {
   FakePrinter printer({.boots = false});
   CHECK(stream(printer.path(), {"G28"}).error.empty());
   printer.stop();
@@ -143,8 +143,8 @@ TEST_CASE("damaged, lost and merged lines are sent again") {
   CHECK(outcome.statistics.resends + outcome.statistics.probes > 0);
 }
 
-TEST_CASE("the last line of a job is not given up for another's ok") {
-  // Its N is hit: the firmware takes it for an unknown command and says ok.
+TEST_CASE("the ok of another line does not stand in for that of the job's last line") {
+  // Its N is damaged: the firmware reads an unknown command and says ok.
   FakePrinter printer({.inwards = replaced("N100 ", "F100 G1 X0.099 Y99 E.0123*7\n")});
   const auto lines = moves(100);
   CHECK(stream(printer.path(), lines).error.empty());
@@ -163,7 +163,7 @@ TEST_CASE("lost and damaged oks do not stop the stream") {
   CHECK(outcome.statistics.acknowledged == lines.size());
 }
 
-TEST_CASE("a resend that is said twice, wrongly or not at all is survived") {
+TEST_CASE("a resend may come twice, damaged or not at all") {
   const auto instead = GENERATE(as<std::string>{}, "Resend: 40\nok\nResend: 40\n", "Resend: 42\n",
                                 "Resend: 38\n", "Resend: 4000\n", "Rese\x01\x02: 40\n", "");
   FakePrinter printer({.inwards = replaced("N40 ", "N40 G1 X0.039 Y39 E.9123*84\n"),
@@ -176,7 +176,7 @@ TEST_CASE("a resend that is said twice, wrongly or not at all is survived") {
   CHECK((printer.executed() == lines));
 }
 
-TEST_CASE("one in 200 lines with a flipped bit, both ways") {
+TEST_CASE("a bit is flipped in one of 200 lines, in both directions") {
   const auto seed = GENERATE(1u, 2u, 3u);
   FakePrinter printer({.inwards = bit_flips(seed, 200), .outwards = bit_flips(seed + 100, 200)});
   const auto lines = moves(5000);
@@ -217,7 +217,7 @@ TEST_CASE("a kill ends the job with the printer's reason") {
   CHECK(printer.executed().size() == 50);
 }
 
-TEST_CASE("a reset in mid-print is never replayed into") {
+TEST_CASE("after a reset in mid-print no line is sent again") {
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
     if (n != 200) return false;
     p.forget_numbers();
@@ -230,7 +230,7 @@ TEST_CASE("a reset in mid-print is never replayed into") {
   CHECK(printer.executed().size() == 200);
 }
 
-TEST_CASE("a reset whose start is lost is not replayed into either") {
+TEST_CASE("after a reset whose start was lost no line is sent again") {
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
     if (n == 200) p.forget_numbers();
     return n == 200;
@@ -251,12 +251,12 @@ TEST_CASE("a printer that falls silent is probed and then given up") {
   CHECK(outcome.statistics.probes >= 2);
 }
 
-TEST_CASE("a port with nobody behind it is an error, not a hang") {
+TEST_CASE("a port without a printer is an error, not a hang") {
   FakePrinter printer({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
   CHECK_THAT(stream(printer.path(), {"G28"}).error, Catch::Contains("does not answer"));
 }
 
-TEST_CASE("a busy printer is waited for beyond the deadline of silence") {
+TEST_CASE("the link waits for a busy printer beyond the deadline of silence") {
   auto options = impatient();
   options.silence = 1000ms;
   bool homing = false;
@@ -273,7 +273,7 @@ TEST_CASE("a busy printer is waited for beyond the deadline of silence") {
   CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), "echo:busy: processing") == 7);
 }
 
-TEST_CASE("a printer that asks for lines for ever is given up") {
+TEST_CASE("a printer that keeps asking for lines is given up") {
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
     if (n < 50) return false;
     p.reply("Resend: " + std::to_string(40 + n % 5));
@@ -284,7 +284,7 @@ TEST_CASE("a printer that asks for lines for ever is given up") {
   CHECK_THAT(stream(printer.path(), moves(1000)).error, Catch::Contains("too noisy"));
 }
 
-TEST_CASE("pulling the cable is told as such") {
+TEST_CASE("a pulled cable is reported as such") {
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
     if (n == 20) p.hang_up();
     return n == 20;
@@ -296,7 +296,7 @@ TEST_CASE("pulling the cable is told as such") {
 TEST_CASE("an emergency stop overtakes the queue") {
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
     if (n == 30) p.reply("//action:pause");
-    return n >= 30;  // no ok any more: the queue is stuck
+    return n >= 30;  // no further ok: the queue is stuck
   }});
   const Outcome outcome =
       stream(printer.path(), moves(1000), impatient(), [](Link& link, const std::string& message) {
@@ -318,7 +318,7 @@ TEST_CASE("lines that would break the numbering are refused before anything is s
   CHECK(printer.executed().empty());
 }
 
-TEST_CASE("hostile text is made safe before anyone sees it") {
+TEST_CASE("hostile text is made safe before it is shown") {
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t, const std::string&) {
     p.reply("\x1b[2J" + std::string(100000, 'x') + std::string("\0\xff", 2));
     return false;
@@ -331,7 +331,7 @@ TEST_CASE("hostile text is made safe before anyone sees it") {
   }
 }
 
-TEST_CASE("ports that cannot be opened say what to do") {
+TEST_CASE("the message about a port that cannot be opened names the remedy") {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("unicursal-no-port-{}", ::getpid());
   std::ofstream(file) << "text";
   CHECK_THROWS_WITH(open_port("/dev/no-such-port", 250000), Catch::Contains("no such port"));
@@ -339,12 +339,12 @@ TEST_CASE("ports that cannot be opened say what to do") {
   std::filesystem::remove(file);
 }
 
-TEST_CASE("listing ports does not fail where there are none") {
+TEST_CASE("listing ports does not fail if there are none") {
   for (const PortInfo& port : list_ports()) CHECK(port.path.starts_with("/dev/"));
 }
 
-TEST_CASE("a printer that is given up in mid-print is told to cool, and the user to look") {
-  // It finishes nothing any more, but listens and says that it is busy.
+TEST_CASE("when a printer is given up in mid-print, its heaters are switched off and the user is warned") {
+  // It finishes no more commands, but reads and reports that it is busy.
   std::string heard;
   bool stuck = false;
   auto options = impatient();
@@ -382,8 +382,8 @@ TEST_CASE("heating may take longer than any other command") {
   CHECK(stream(printer.path(), {"M109 S210"}, options).error.empty());
 }
 
-TEST_CASE("a cool-down ends every wait for heat, and nothing that had no number yet is sent") {
-  // M190 and M109 wait until M108 comes, as if the target were never reached.
+TEST_CASE("a cool-down ends every wait for heat, and lines without a number are not sent") {
+  // M190 and M109 wait until M108 arrives, as if the target were never reached.
   std::string heard;
   std::size_t waits = 0;
   FakePrinter printer({.inwards =

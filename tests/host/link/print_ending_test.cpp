@@ -1,5 +1,5 @@
-// How `unicursal print` ends when the printer or the user does not go along: the program itself, and a
-// printer that misbehaves on cue.
+// How `unicursal print` ends when the printer fails or the user stops it: the program itself, and a
+// printer that misbehaves on demand.
 #include <poll.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ bool holds(const std::vector<std::string>& lines, const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("a print that fails leaves a report that says why") {
+TEST_CASE("a print that fails leaves a report with the reason") {
   const Job job;
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
     if (n == 60) p.forget_numbers(), p.reply("start");
@@ -55,7 +55,7 @@ TEST_CASE("a print that fails leaves a report that says why") {
   CHECK(report["link"]["acknowledged"].get<int>() <= 60);  // M105 is not among the printer's 60
 }
 
-TEST_CASE("a print that never began is not kept, and nobody is told to go on with it") {
+TEST_CASE("a print that never began is not kept, and the user is not asked to resume it") {
   const Job job;
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t, const std::string&) {
     p.reply("Error:Printer halted. kill() called!");
@@ -72,7 +72,7 @@ TEST_CASE("a print that never began is not kept, and nobody is told to go on wit
   CHECK(std::filesystem::is_empty(kept));
 }
 
-TEST_CASE("a stop while heating ends the heating and claims no park") {
+TEST_CASE("a stop while heating ends the heating, and does not claim to have parked") {
   const Job job;
   std::atomic<bool> heating = false;
   bool waits = false;

@@ -1,4 +1,4 @@
-// Rejoining a printer that another program was talking to when it died, against the project's own simulated
+// Rejoining a printer that another program was printing on when it died, with the project's own simulated
 // printers in a process of their own.
 #include <fmt/format.h>
 #include <poll.h>
@@ -30,7 +30,7 @@ class Printer {
     }
   }
   std::string link() const { return folder_ / "port"; }
-  /// Ends it. What it has run, the link's own questions left out.
+  /// Ends it; returns the commands that it has executed, without the link's own questions.
   std::vector<std::string> executed() {
     kill(child_.id(), SIGTERM);
     child_.wait();
@@ -56,11 +56,11 @@ std::vector<std::string> moves(std::size_t count) {
 LinkOptions impatient() {
   LinkOptions options;
   options.boot = std::chrono::milliseconds(500);
-  options.silence = std::chrono::milliseconds(1000);  // a Repetier whose clock stands may not answer
+  options.silence = std::chrono::milliseconds(1000);  // a Repetier whose clock stands still may not answer
   return options;
 }
 
-/// Runs `talk` with a link to the printer, and hangs up when it is done, whatever is under way.
+/// Runs `talk` with a link to the printer, and then hangs up at once.
 void with_link(const Printer& printer, const std::function<asio::awaitable<void>(Link&)>& talk) {
   asio::io_context loop;
   std::exception_ptr error;
@@ -75,7 +75,7 @@ void with_link(const Printer& printer, const std::function<asio::awaitable<void>
 
 }  // namespace
 
-TEST_CASE("a second program goes on where the first one died, with nothing lost and nothing twice") {
+TEST_CASE("a second program continues where the first one died; no line is lost or executed twice") {
   for (const char* personality : {"marlin", "marlin-advanced-ok", "repetier"}) {
     INFO(personality);
     Printer printer(personality);
@@ -84,7 +84,7 @@ TEST_CASE("a second program goes on where the first one died, with nothing lost 
       co_await link.connect();
       co_await link.send({lines.begin(), lines.begin() + 250});
     });
-    // Half a line, as a program leaves it that is killed while it writes.
+    // Half a line, as from a program that is killed while it writes.
     const int port = open_port(printer.link(), 250000);
     const std::string half = framed(251, lines[250]).substr(0, 9);
     REQUIRE(::write(port, half.data(), half.size()) == static_cast<ssize_t>(half.size()));
@@ -95,7 +95,7 @@ TEST_CASE("a second program goes on where the first one died, with nothing lost 
       next = found.next;
       REQUIRE(next > 200);
       REQUIRE(next <= 251);
-      const std::size_t last = next - 2;  // `next` counts from 1, and is not run yet
+      const std::size_t last = next - 2;  // `next` counts from 1, and has not been executed yet
       REQUIRE(found.position);
       CHECK((*found.position)[0] == Approx(last % 100));
       CHECK((*found.position)[1] == Approx(last % 7));
@@ -108,7 +108,7 @@ TEST_CASE("a second program goes on where the first one died, with nothing lost 
   }
 }
 
-TEST_CASE("asking changes nothing, however often it is done") {
+TEST_CASE("the questions change nothing, however often they are asked") {
   Printer printer("marlin");
   const std::vector<std::string> lines = moves(60);
   with_link(printer, [&](Link& link) -> asio::awaitable<void> {
@@ -125,7 +125,7 @@ TEST_CASE("asking changes nothing, however often it is done") {
   CHECK(printer.executed() == lines);
 }
 
-TEST_CASE("lines that the link puts in shift the numbers, and that is told before they are written") {
+TEST_CASE("lines that the link inserts shift the numbers, which is reported before they are written") {
   Ledger ledger(127, 40);
   for (int i = 0; i < 3; ++i) ledger.push("G1 X1");
   std::string bytes;

@@ -55,7 +55,7 @@ TEST_CASE("a serial log holds every byte, so that it can be read back") {
   CHECK(unescaped(text, '<') == all);
 }
 
-TEST_CASE("a serial log is kept within its size, the newest entries longest") {
+TEST_CASE("a serial log stays within its size, and keeps the newest entries") {
   const test::TempFolder folder;
   {
     SerialLog log(folder / "log", {1000, 3, 1 << 20});
@@ -74,7 +74,7 @@ TEST_CASE("a serial log is kept within its size, the newest entries longest") {
   CHECK(std::count(bytes.begin(), bytes.end(), '\n') > 80);
 }
 
-TEST_CASE("a serial log that cannot follow leaves out, and says so") {
+TEST_CASE("a serial log that is too slow leaves entries out, and says so") {
   const test::TempFolder folder;
   std::uint64_t dropped = 0;
   const std::string big(900, 'x');
@@ -89,11 +89,11 @@ TEST_CASE("a serial log that cannot follow leaves out, and says so") {
   CHECK((dropped == 0 || text.find("bytes left out") != std::string::npos));
 }
 
-TEST_CASE("a log in a folder that is not there is refused before anything is opened") {
+TEST_CASE("a log in a missing folder is refused before anything is opened") {
   CHECK_THROWS_AS(SerialLog("/no/such/folder/log"), core::DataError);
 }
 
-TEST_CASE("the link's log is what the simulated printer heard and said") {
+TEST_CASE("the link's log holds what the simulated printer received and sent") {
   const test::TempFolder folder;
   test::VirtualPrinter printer;
   LinkOptions options;

@@ -1,4 +1,4 @@
-// The link against the project's own simulated printer, in a process of its own.
+// The link with the project's own simulated printer, in a process of its own.
 #include "sim/simulator.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ using namespace unicursal::host;
 
 namespace {
 
-/// A simulator child; ended and reaped with the object.
+/// A simulator in a child process, which the destructor ends.
 class Simulator {
  public:
   explicit Simulator(const std::filesystem::path& report) {
@@ -30,7 +30,7 @@ class Simulator {
     REQUIRE(::pipe(pipe_ends) == 0);
     child_ = ::fork();
     if (child_ == 0) {
-      ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // a test that crashes leaves nobody behind
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // a test that crashes leaves no process behind
       ::_exit(simulate(report, pipe_ends[1]));
     }
     ::close(pipe_ends[1]);
@@ -81,7 +81,7 @@ std::vector<std::string> print_job(std::size_t moves) {
 
 }  // namespace
 
-TEST_CASE("20 000 lines to the simulated printer: none lost, none twice") {
+TEST_CASE("20 000 lines to the simulated printer: none is lost or executed twice") {
   const auto report_file =
       std::filesystem::temp_directory_path() / fmt::format("unicursal-link-{}.json", ::getpid());
   Simulator simulator(report_file);

@@ -19,20 +19,20 @@
 
 namespace unicursal::test {
 
-/// What a conversation came to.
+/// The result of a conversation.
 struct Talk {
-  std::string error;  ///< of a LinkError, empty when all went well
+  std::string error;  ///< Message of a LinkError; empty after success.
   host::LinkStatistics statistics;
   gcode::Identity identity;
   gcode::Temperatures temperatures;
   std::optional<host::PrinterQueues> queues;
   std::vector<std::string> messages;
-  double seconds = 0;  ///< printer time from connection to end
+  double seconds = 0;  ///< Printer time from connection to end.
 };
 
 class VirtualPrinter {
  public:
-  /// `options` of `unicursal simulate`.
+  /// `options` are those of `unicursal simulate`.
   explicit VirtualPrinter(const std::vector<std::string>& options = {}) : child_(arguments(options)) {
     while (child_.out().find('\n') == std::string::npos) {
       if (!child_.running()) throw std::runtime_error("no simulator: " + child_.err());
@@ -40,7 +40,7 @@ class VirtualPrinter {
     }
   }
 
-  /// Connects and lets `say` speak; once.
+  /// Connects and runs `say`. To be called once.
   Talk talk(const std::function<asio::awaitable<void>(host::Link&, host::Clock&)>& say,
             host::LinkOptions options = {},
             const std::function<void(host::Link&, const std::string&)>& on_message = {}) {
@@ -85,7 +85,7 @@ class VirtualPrinter {
     return talk(say, options, on_message);
   }
 
-  /// Waits for its end, which comes with the end of the conversation.
+  /// Waits for the end of the process, which follows the end of the conversation.
   const nlohmann::json& report() {
     if (report_.is_null()) {
       child_.wait();
@@ -94,7 +94,7 @@ class VirtualPrinter {
     return report_;
   }
 
-  /// After report(): what it has executed, without what the link asks for itself.
+  /// To be called after report(): the executed commands, without the link's own questions.
   std::vector<std::string> executed() const {
     std::vector<std::string> lines;
     std::istringstream text(read_text(folder_ / "transcript"));

@@ -1,5 +1,5 @@
-// What may happen to a printer while it prints, at random lines: the print stops safely, tells what has
-// happened, and goes on as it was promised. Real processes on a pseudo-terminal.
+// Faults of a printer at random lines of a print: the print stops safely, reports what has happened, and is
+// resumed. Real processes on a pseudo-terminal.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Mishap {
-  std::string kind;                ///< as the simulator knows it
-  int speed;                       ///< printer seconds per second; 0: as fast as lines come
-  std::vector<std::string> words;  ///< of which the program has to say one
-  Lines more = {};                 ///< options of the simulator
-  std::size_t at_once = 10;        ///< trials that run beside each other, since they mostly wait
+  std::string kind;                ///< The simulator's name of the fault.
+  int speed;                       ///< Printer seconds per second; 0 = as fast as lines arrive.
+  std::vector<std::string> words;  ///< The program must say one of these.
+  Lines more = {};                 ///< Further options of the simulator.
+  std::size_t at_once = 10;        ///< Trials in parallel, since they mostly wait.
 };
 
-/// A print that something happens to.
+/// A print with a fault.
 struct Trial {
   Trial(const Mishap& mishap, std::size_t at)
       : line(at), bench(mishap.speed, options(mishap, at)), host(std::make_unique<Child>(bench.print())) {}
@@ -50,7 +50,7 @@ const Seen& undisturbed() {
   return seen;
 }
 
-/// Up to their last byte.
+/// The same up to their last byte.
 void check_records(const fs::path& file) {
   host::RecordReader reader(file);
   while (reader.next()) {
@@ -75,8 +75,8 @@ void check_told(const Mishap& mishap, const Outcome& cut) {
   CHECK(cut.err.find("unicursal resume") != std::string::npos);
 }
 
-/// Nothing is left out, and no more is laid twice than a printer may have planned (20 lines) and be handed at
-/// once (16). Before the first move the print begins anew.
+/// Checks that nothing is left out, and that no more is laid twice than a printer may have planned (20 lines)
+/// and received at once (16). Before the first move the print starts again.
 void check_continued(const Lines& seen) {
   const Lines& whole = undisturbed().lines;
   const test::Cut place = test::cut_in(seen, whole);
@@ -89,7 +89,7 @@ void check_continued(const Lines& seen) {
     CHECK(static_cast<std::ptrdiff_t>(place.run) <= start + 20 + 16);
 }
 
-/// Lets `times` prints come to it, and calls `after` with each.
+/// Runs `times` prints with the fault, and calls `after` with each.
 template <class After>
 void suffer(const Mishap& mishap, int times, unsigned seed, After after) {
   const std::size_t lines = undisturbed().lines.size();
@@ -117,9 +117,8 @@ void reset(int times, unsigned seed) {
   suffer(mishap, times, seed, [&](Trial& trial) {
     check_told(mishap, trial.cut);
     check_kept(trial.bench.print_folder());
-    const Outcome asked = test::run(trial.bench.resume());  // with nobody to answer
-    const bool anew =
-        asked.code == 0;  // of the first lines none has done anything that would have to be told
+    const Outcome asked = test::run(trial.bench.resume());  // nobody answers the question
+    const bool anew = asked.code == 0;  // the first lines have done nothing that needs a question
     CHECK((anew || asked.code == 2));
     if (!anew) CHECK(asked.err.find("--yes") != std::string::npos);
     resumed(trial);
@@ -132,7 +131,7 @@ void reset(int times, unsigned seed) {
 }
 
 void unplug(int times, unsigned seed) {
-  // One by one: a hundred times as fast, a printer cools after 18 s in which nobody has resumed.
+  // One by one: at a hundredfold speed a printer cools down if nobody resumes within 18 s.
   const Mishap mishap{"disconnect:5", 100, {"cable"}, {}, 1};
   suffer(mishap, times, seed, [&](Trial& trial) {
     check_told(mishap, trial.cut);
@@ -143,7 +142,7 @@ void unplug(int times, unsigned seed) {
   });
 }
 
-/// A heater that fails so late that nobody notices does no harm.
+/// A heater that fails very late does no harm, and is not noticed.
 void run_cold(int times, unsigned seed) {
   const Mishap mishap{"heaterfail", 100, {"Thermal Runaway", "Heating failed", "MINTEMP"}};
   suffer(mishap, times, seed, [&](Trial& trial) {
@@ -156,7 +155,7 @@ void run_cold(int times, unsigned seed) {
   });
 }
 
-/// The host has given up long before somebody presses the button: at a hundredfold speed, after 90 s.
+/// The host gives up long before somebody presses the button, at a hundredfold speed after 90 s.
 void fall_silent(int times, unsigned seed) {
   const Mishap mishap{"silence", 100, {"fallen silent"}, {"--fault", "reset@t=9000"}};
   suffer(mishap, times, seed, [&](Trial& trial) {
@@ -171,15 +170,15 @@ void fall_silent(int times, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("a printer that resets anywhere has its print taken up again") {
+TEST_CASE("after a reset at any line the print is resumed") {
   reset(2, 1);
 }
 
-TEST_CASE("a cable that is pulled anywhere costs nothing") {
+TEST_CASE("a cable that is pulled at any line costs nothing") {
   unplug(2, 2);
 }
 
-TEST_CASE("a heater that fails anywhere ends the print, which another printer can go on with") {
+TEST_CASE("a heater that fails at any line ends the print, which another printer can resume") {
   run_cold(2, 3);
 }
 
@@ -187,7 +186,7 @@ TEST_CASE("50 resets", "[long]") {
   reset(50, 11);
 }
 
-TEST_CASE("50 cables pulled and put back", "[long]") {
+TEST_CASE("50 cables that are pulled and plugged in again", "[long]") {
   unplug(50, 12);
 }
 

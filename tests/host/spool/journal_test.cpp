@@ -11,7 +11,7 @@ using namespace unicursal::host;
 
 namespace {
 
-/// What is read after `write` has run on a fresh journal that was then closed.
+/// Runs `write` on a new journal, closes it, and reads it.
 template <class Write>
 JournalState after(Write write) {
   const test::TempFolder folder;
@@ -24,7 +24,7 @@ JournalState after(Write write) {
 
 }  // namespace
 
-TEST_CASE("a journal tells how far a print has come") {
+TEST_CASE("a journal records how far a print has got") {
   const JournalState state = after([](Journal& journal) {
     journal.begin_leg({});
     journal.begin_session();
@@ -40,23 +40,23 @@ TEST_CASE("a journal tells how far a print has come") {
   CHECK_FALSE(state.place_of(0));
 }
 
-TEST_CASE("each line that the link puts in between shifts the numbers behind it only") {
+TEST_CASE("each line that the link inserts shifts only the numbers after it") {
   const JournalState state = after([](Journal& journal) {
     journal.begin_leg({});
     journal.anchor({1, 0}, true);
-    journal.anchor({51, 49}, false);  // number 50 is the link's own
-    journal.anchor({61, 58}, false);  // and number 60
+    journal.anchor({51, 49}, false);  // number 50 is a line of the link
+    journal.anchor({61, 58}, false);  // number 60 is one, too
     journal.progress(70, 60);
   });
   CHECK(state.place_of(49) == 48);
-  CHECK(state.place_of(50) == 49);  // up to 49 was run: the link's own is what comes next, then place 49
+  CHECK(state.place_of(50) == 49);  // lines up to 49 were executed: the link's line comes next, then place 49
   CHECK(state.place_of(51) == 49);
   CHECK(state.place_of(60) == 58);
   CHECK(state.place_of(61) == 58);
   CHECK(state.place_of(70) == 67);
 }
 
-TEST_CASE("numbers that are told modulo 65536 mean the nearest line") {
+TEST_CASE("numbers modulo 65536 mean the nearest line") {
   const JournalState state = after([](Journal& journal) {
     journal.begin_leg({});
     journal.anchor({1, 0}, true);
@@ -73,7 +73,7 @@ TEST_CASE("numbers that are told modulo 65536 mean the nearest line") {
   CHECK(early.place_of(195) == 194);
 }
 
-TEST_CASE("a new leg forgets what the one before it knew, and counts its lead-in") {
+TEST_CASE("a new leg forgets the state of the previous one, and counts its lead-in") {
   const JournalState state = after([](Journal& journal) {
     journal.begin_leg({});
     journal.anchor({1, 0}, true);
@@ -94,7 +94,7 @@ TEST_CASE("a new leg forgets what the one before it knew, and counts its lead-in
   CHECK(state.leg.line(5) == 73);
 }
 
-TEST_CASE("how a print ended is known, until it goes on") {
+TEST_CASE("the end of a print is known until it is resumed") {
   const auto end = [](Journal& journal) {
     journal.begin_leg({});
     journal.end({Outcome::failed, "the cable was pulled"});
@@ -109,7 +109,7 @@ TEST_CASE("how a print ended is known, until it goes on") {
               }).ended);
 }
 
-TEST_CASE("a journal that is gone on with keeps what it held, and loses a torn end") {
+TEST_CASE("a journal that is continued keeps its contents, and loses a torn end") {
   const test::TempFolder folder;
   {
     Journal journal(folder / "journal", 0);
@@ -127,7 +127,7 @@ TEST_CASE("a journal that is gone on with keeps what it held, and loses a torn e
   CHECK(read_journal(file).anchors.size() == 1);
 }
 
-TEST_CASE("a sound record of a later version is refused in words") {
+TEST_CASE("a sound record of a later version is refused with a message") {
   const test::TempFolder folder;
   const auto file = folder.write("journal", framed_record(std::string(1, '\x63')));
   CHECK_THROWS_WITH(read_journal(file), Catch::Contains("resume with the version"));

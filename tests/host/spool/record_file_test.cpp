@@ -27,12 +27,12 @@ std::string file_of(const std::vector<std::string>& contents) {
 
 }  // namespace
 
-TEST_CASE("the checksum is the one that everybody uses") {
+TEST_CASE("the checksum is the usual CRC-32") {
   CHECK(crc32("123456789") == 0xcbf43926U);  // the check value of the CRC catalogues
   CHECK(crc32("6789", crc32("12345")) == crc32("123456789"));
 }
 
-TEST_CASE("records come back as they were appended") {
+TEST_CASE("records are read as they were appended") {
   const test::TempFolder folder;
   {
     RecordWriter writer(folder / "r", 0);
@@ -43,7 +43,7 @@ TEST_CASE("records come back as they were appended") {
   CHECK(test::read_text(folder / "r") == file_of(three));
 }
 
-TEST_CASE("a record that is dropped was never there") {
+TEST_CASE("a dropped record leaves no trace") {
   const test::TempFolder folder;
   RecordWriter writer(folder / "r", 0);
   writer.append(three[0]);
@@ -55,7 +55,7 @@ TEST_CASE("a record that is dropped was never there") {
   CHECK(test::read_text(folder / "r") == file_of(three));
 }
 
-TEST_CASE("a file torn at any byte gives the whole records before, and can be gone on with") {
+TEST_CASE("a file torn at any byte gives the whole records before, and can be continued") {
   const test::TempFolder folder;
   const std::string whole = file_of(three);
   const std::size_t first = file_of({three[0]}).size(), second = file_of({three[0], three[1]}).size();
@@ -72,7 +72,7 @@ TEST_CASE("a file torn at any byte gives the whole records before, and can be go
   }
 }
 
-TEST_CASE("whatever byte is changed, no wrong record comes out") {
+TEST_CASE("no changed byte yields a wrong record") {
   const test::TempFolder folder;
   const std::string whole = file_of({three[0], three[1]});
   for (std::size_t at = 0; at < whole.size(); ++at) {
@@ -86,12 +86,12 @@ TEST_CASE("whatever byte is changed, no wrong record comes out") {
   }
 }
 
-TEST_CASE("a row of zeros, which a crashed file system may leave, is no record") {
+TEST_CASE("a row of zeros, which a crashed file system may leave, is not a record") {
   const test::TempFolder folder;
   CHECK(records_in(folder.write("r", framed_record("a") + std::string(4096, '\0'))).size() == 1);
 }
 
-TEST_CASE("a record that promises more than the file holds takes no memory") {
+TEST_CASE("a record that claims more than the file holds takes no memory") {
   const test::TempFolder folder;
   std::string bytes = framed_record("a");
   bytes[3] = '\x7f';  // a length of two thousand million

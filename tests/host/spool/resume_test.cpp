@@ -1,5 +1,5 @@
-// Prints that are cut short, and go on: the program itself, killed, stopped, out of disk, or with a printer
-// that resets; the simulated printer is a process of its own and lives on.
+// Prints that are interrupted and resumed: the program is killed, stopped or out of disk, or the printer
+// resets. The simulated printer is a process of its own and survives.
 #include <poll.h>
 #include <sys/resource.h>
 
@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
 
-/// An undisturbed print, and how long it took from its spool's beginning, s.
+/// An undisturbed print, and its duration since the start of its spool, s.
 struct Undisturbed {
   Seen seen;
   double seconds = 0;
@@ -48,7 +48,7 @@ Undisturbed undisturbed(int speed, const std::string& job = test::sample_job) {
   return {bench.seen(), seconds_since(begun)};
 }
 
-/// Lets the program run for so long, then kills it; whether it had still been running.
+/// Lets the program run for a time, then kills it; returns whether it was still running.
 bool kill_after(Child& host, double seconds) {
   const auto begun = Clock::now();
   Bench::wait_for([&] { return seconds_since(begun) >= seconds; }, host);
@@ -58,7 +58,7 @@ bool kill_after(Child& host, double seconds) {
   return running;
 }
 
-/// Kills a print `times` times at random moments, several times in a row when chance will have it so.
+/// Kills a print `times` times at random moments, perhaps several times in a row.
 void kill_and_resume(int speed, int times, std::uint64_t seed, const std::vector<std::string>& faults = {}) {
   const Undisturbed expected = undisturbed(speed);
   std::mt19937_64 random(seed);
@@ -82,30 +82,30 @@ void kill_and_resume(int speed, int times, std::uint64_t seed, const std::vector
   }
 }
 
-/// What a line may do to bytes without a damaged line being taken for a good one, which nobody could see.
+/// Damage on the line that never makes a damaged line look like a good one, since that cannot be detected.
 const std::vector<std::string> garbling{"--fault", "merge:0.002",    "--fault", "falsealarm:0.005",
                                         "--fault", "brokenok:0.005", "--fault", "noise:0.005",
                                         "--fault", "doubleok:0.005"};
 
 }  // namespace
 
-TEST_CASE("a print whose host is killed goes on, nothing lost and nothing twice") {
+TEST_CASE("a print whose host is killed is resumed; no line is lost or executed twice") {
   kill_and_resume(0, 2, 1);
   kill_and_resume(100, 1, 2);
 }
 
-TEST_CASE("the same over a line that garbles what passes") {
+TEST_CASE("the same over a noisy line") {
   kill_and_resume(100, 1, 3, garbling);
 }
 
-TEST_CASE("200 kills at random moments leave the part as it would have been", "[long]") {
+TEST_CASE("200 kills at random moments do not change the part", "[long]") {
   kill_and_resume(0, 60, 11);
   kill_and_resume(60, 50, 12);
   kill_and_resume(200, 50, 13);
   kill_and_resume(100, 40, 14, garbling);
 }
 
-TEST_CASE("a print that is complete says so, and is listed") {
+TEST_CASE("a complete print is reported as such, and is listed") {
   Bench bench(0);
   REQUIRE(test::run(bench.print()).code == 0);
   const Outcome outcome = test::run(bench.resume());
@@ -116,7 +116,7 @@ TEST_CASE("a print that is complete says so, and is listed") {
   CHECK(test::run(list).out.find("completed") != std::string::npos);
 }
 
-TEST_CASE("after a reset the print goes on at the last place that is certain, if one agrees") {
+TEST_CASE("after a reset the print continues at the last certain place, if the user agrees") {
   const Seen whole = undisturbed(0).seen;
   const std::string line = "700";
   Bench bench(0, {"--fault", "reset@line=" + line});
@@ -124,26 +124,26 @@ TEST_CASE("after a reset the print goes on at the last place that is certain, if
   INFO(cut.err);
   REQUIRE(cut.code == 1);
   CHECK(cut.err.find("unicursal resume") != std::string::npos);
-  const Outcome asked = test::run(bench.resume());  // with nobody to answer
+  const Outcome asked = test::run(bench.resume());  // nobody answers the question
   CHECK(asked.code == 2);
-  CHECK(asked.out.find("goes on in layer") != std::string::npos);
+  CHECK(asked.out.find("continues in layer") != std::string::npos);
   CHECK(asked.err.find("--yes") != std::string::npos);
   const Outcome resumed = bench.resume_anyway();
   INFO(resumed.out << resumed.err);
   REQUIRE(resumed.code == 0);
   const Seen seen = bench.seen();
-  // At most what the printer may have planned is laid twice, and nothing is left out.
+  // Nothing is left out, and at most the moves that the printer may have planned are laid twice.
   const auto lead_in = std::find(seen.lines.begin() + 5, seen.lines.end(), "G28 X Y");
   REQUIRE(lead_in != seen.lines.end());
   const test::Cut place = test::cut_in(seen.lines, whole.lines);
   CHECK(place.again <= place.run);
   CHECK(place.run - place.again <= 20 + 16);
-  // Every layer is as high as it was to be: z was found again.
+  // Every layer has its height: z was found again.
   REQUIRE(seen.report["layers"].size() == whole.report["layers"].size());
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
-TEST_CASE("a stop while a lost printer heats again moves nothing, and the print can still go on") {
+TEST_CASE("a stop while a lost printer heats again moves nothing, and the print can still be resumed") {
   const Seen whole = undisturbed(0).seen;
   Bench bench(50, {"--fault", "reset@line=700"});
   REQUIRE(test::run(bench.print()).code == 1);
@@ -169,7 +169,7 @@ TEST_CASE("a stop while a lost printer heats again moves nothing, and the print 
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
-TEST_CASE("a cable that was pulled and put back costs nothing") {
+TEST_CASE("a cable that was pulled and plugged in again costs nothing") {
   const Seen whole = undisturbed(100).seen;
   Bench bench(100, {"--fault", "disconnect:5@line=700"});
   const Outcome cut = test::run(bench.print());
@@ -184,7 +184,7 @@ TEST_CASE("a cable that was pulled and put back costs nothing") {
   check_equal(bench.seen(), whole);
 }
 
-TEST_CASE("a print whose host dies while it is held aside goes on at its height") {
+TEST_CASE("a print whose host dies while the nozzle is aside continues at its height") {
   const Seen whole = undisturbed(0).seen;
   Bench bench(0, {"--fault", "say://action:pause@line=700"});
   Child host(bench.print());
@@ -204,7 +204,7 @@ TEST_CASE("a print whose host dies while it is held aside goes on at its height"
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
-TEST_CASE("a print that was stopped and parked can be taken up again") {
+TEST_CASE("a print that was stopped and parked can be resumed") {
   const Seen whole = undisturbed(0).seen;
   Bench bench(100);
   Child child(bench.print());
@@ -225,7 +225,7 @@ TEST_CASE("a print that was stopped and parked can be taken up again") {
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
 }
 
-TEST_CASE("a print goes on with the job it was begun with, whatever has become of the files") {
+TEST_CASE("a print is resumed with its original job, even if the files have changed") {
   const Undisturbed expected = undisturbed(100);
   Bench bench(100);
   Child host(bench.print());
@@ -240,11 +240,11 @@ TEST_CASE("a print goes on with the job it was begun with, whatever has become o
   check_equal(bench.seen(), expected.seen);
 }
 
-TEST_CASE("when the disk is full the print waits, and goes on when there is room") {
+TEST_CASE("if the disk is full, the print waits until there is room") {
   const Seen expected = undisturbed(0).seen;
   Bench bench(0);
   Child host(bench.print());
-  // A limit on the size of files is a full disk to the program that it is put on.
+  // To the program, a limit on the size of files looks like a full disk.
   const rlimit full{20000, RLIM_INFINITY}, room{RLIM_INFINITY, RLIM_INFINITY};
   REQUIRE(prlimit(host.id(), RLIMIT_FSIZE, &full, nullptr) == 0);
   Bench::wait_for([&] { return host.err().find("make room") != std::string::npos; }, host);
@@ -258,7 +258,7 @@ TEST_CASE("when the disk is full the print waits, and goes on when there is room
   check_equal(bench.seen(), expected);
 }
 
-TEST_CASE("when the disk stays full the nozzle does not stay on the part") {
+TEST_CASE("if the disk stays full, the nozzle does not stay on the part") {
   const std::string tall = test::replaced(test::sample_job, "height = 0.4", "height = 2.0");
   const std::vector<std::string> whole = undisturbed(0, tall).seen.lines;
   Bench bench(0);
@@ -277,7 +277,7 @@ TEST_CASE("when the disk stays full the nozzle does not stay on the part") {
   const Outcome outcome = host.wait();
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
-  // Nothing of the print is lost or twice, and what came in between went aside and back.
+  // No line of the print is lost or executed twice, and the lines in between led the nozzle aside and back.
   const std::vector<std::string> lines = bench.seen().lines;
   const test::Cut place = test::cut_in(lines, whole);
   CHECK(place.again == place.run);
@@ -287,7 +287,7 @@ TEST_CASE("when the disk stays full the nozzle does not stay on the part") {
   CHECK((still - 1)->rfind("G0 X5 Y5", 0) == 0);
 }
 
-TEST_CASE("a new print on the same printer ends the chance to resume the one before") {
+TEST_CASE("after a new print on the same printer the previous one cannot be resumed") {
   const double seconds = undisturbed(100).seconds;
   Bench bench(100);
   {
@@ -301,10 +301,10 @@ TEST_CASE("a new print on the same printer ends the chance to resume the one bef
   arguments.push_back(first);
   const Outcome outcome = test::run(arguments);
   CHECK(outcome.code == 2);
-  CHECK(outcome.err.find("another print was begun") != std::string::npos);
+  CHECK(outcome.err.find("another print has begun") != std::string::npos);
 }
 
-TEST_CASE("a damaged record of a print is refused in words") {
+TEST_CASE("a damaged record of a print is refused with a message") {
   Bench bench(0);
   REQUIRE(test::run(bench.print()).code == 0);
   const fs::path record = bench.print_folder() / "print.json";

@@ -24,19 +24,19 @@ Bead bead(Position from, Position to, double volume) {
 
 }  // namespace
 
-TEST_CASE("a layer's height is the way up from the layer before") {
+TEST_CASE("a layer's height is its distance from the previous layer") {
   Deposit deposit({});
   for (const double z : {0.3, 0.2, 0.4, 0.4, 0.65}) deposit.laid(bead({0, 0, z}, {10, 0, z}, 1));
   REQUIRE(deposit.layers().size() == 4);
   const auto height = [&](std::size_t i) { return deposit.layers()[i].height; };
   CHECK(height(0) == Approx(0.3));
-  CHECK(height(1) == Approx(0.2));  // back down: from the bed
+  CHECK(height(1) == Approx(0.2));  // after a way down it counts from the bed
   CHECK(height(2) == Approx(0.2));
   CHECK(height(3) == Approx(0.25));
   CHECK(deposit.layers()[2].beads == 2);
 }
 
-TEST_CASE("travels are counted when they are longer than one and a half bead widths") {
+TEST_CASE("travels longer than 1.5 bead widths are counted") {
   Deposit deposit({});
   deposit.travelled({0, 0, 5}, {10, 0, 5});
   deposit.laid(bead({10, 0, 0.2}, {20, 0, 0.2}, 0.8));  // 0.4 mm wide
@@ -53,7 +53,7 @@ TEST_CASE("travels are counted when they are longer than one and a half bead wid
   CHECK(deposit.extents().max_x == 40);
 }
 
-TEST_CASE("what is laid is what was fed") {
+TEST_CASE("the laid volume is the fed volume") {
   Deposit deposit({});
   Nozzle nozzle(1.75, Chamber({}, 3), deposit);
   FeedLog feed;
@@ -96,7 +96,7 @@ TEST_CASE("what is laid is what was fed") {
 
 namespace {
 
-/// A picture read back, RGB.
+/// A picture that was read back, RGB.
 struct Pixels {
   std::size_t width = 0, height = 0;
   std::vector<unsigned char> bytes;
@@ -121,8 +121,7 @@ struct Pixels {
 
 }  // namespace
 
-TEST_CASE(
-    "each layer gives a picture with the bead where it lies, all in one frame, which no prime line widens") {
+TEST_CASE("each layer has a picture with the beads in place; all have one frame, without the prime line") {
   const Folder folder;
   const bool apart = GENERATE(true, false);
   {
@@ -151,12 +150,12 @@ TEST_CASE(
   CHECK(first.height == second.height);
   CHECK(first.width - first.height == 100);
   CHECK(first.width < 260);
-  // Of the first layer one bead runs along the lower border; the second's goes upright through the middle.
+  // The first layer's bead runs along the lower border, the second layer's vertically through the middle.
   const std::size_t bottom = first.height - (first.height - 100) / 2;
   CHECK_FALSE(first.same(first.width / 2, bottom, 0, 0));
   CHECK(first.same(first.width / 2, first.height / 2, 0, 0));
   CHECK_FALSE(second.same(second.width / 2, second.height / 2, 0, 0));
   CHECK(second.same(second.width - 1, second.height / 2, 0, 0));
   const Pixels part(folder.path() / "part.png");
-  CHECK(part.width < 700);  // 27 mm across at 16 pixels for a mm
+  CHECK(part.width < 700);  // 27 mm wide at 16 pixels per mm
 }

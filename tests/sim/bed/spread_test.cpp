@@ -24,7 +24,7 @@ struct Sums {
   PerFeeder<double> by_feeder{};
 };
 
-/// Of the pixels whose middle lies in the box.
+/// Sums over the pixels whose centre lies in the box.
 Sums sums(const LayerRaster& raster, double x0 = -1e9, double y0 = -1e9, double x1 = 1e9, double y1 = 1e9) {
   const RasterFrame frame = raster.frame();
   std::vector<RasterPixel> row(frame.columns);
@@ -48,7 +48,7 @@ Sums sums(const LayerRaster& raster, double x0 = -1e9, double y0 = -1e9, double 
 
 }  // namespace
 
-TEST_CASE("every mm³ that is laid lies in the raster, of the feeders it came from") {
+TEST_CASE("every mm³ that is laid is in the raster, with its feeder") {
   Spread spread({60, 60}, pixel);
   spread.begin(height, height);
   std::mt19937 random(4);
@@ -69,13 +69,13 @@ TEST_CASE("every mm³ that is laid lies in the raster, of the feeders it came fr
   for (std::size_t f = 0; f < 3; ++f) CHECK(found.by_feeder[f] == Approx(by_feeder[f]).epsilon(1e-3));
 }
 
-TEST_CASE("on open ground a bead is as wide as its volume says, in any direction") {
+TEST_CASE("on open ground a bead has the width of its volume, in any direction") {
   const double angle = GENERATE(0.0, 0.3, 0.785398, 1.2), width = GENERATE(0.45, 1.3);
   Spread spread({60, 60}, pixel);
   spread.begin(height, height);
   const double dx = std::cos(angle), dy = std::sin(angle);
   spread.lay(bead(30 - 15 * dx, 30 - 15 * dy, 30 + 15 * dx, 30 + 15 * dy, width), width);
-  // How far from its middle line the plastic lies: |distance| has the mean width ÷ 4 for an even strip.
+  // The plastic's mean distance from the centre line is width ÷ 4 for a uniform strip.
   const RasterFrame frame = spread.raster().frame();
   std::vector<RasterPixel> row(frame.columns);
   double covered = 0, moment = 0, sided = 0;
@@ -96,7 +96,7 @@ TEST_CASE("on open ground a bead is as wide as its volume says, in any direction
   CHECK(sided / covered == Approx(0).margin(0.6 * pixel));
 }
 
-TEST_CASE("strands a bead width apart leave no gap, wider ones do, narrower ones heap up") {
+TEST_CASE("strands one bead width apart leave no gap; farther apart they do, and closer they pile up") {
   const double width = 0.5;
   const auto plate = [&](double spacing) {
     Spread spread({60, 60}, pixel);
@@ -116,17 +116,17 @@ TEST_CASE("strands a bead width apart leave no gap, wider ones do, narrower ones
   CHECK(narrow_over > 0.1);
 }
 
-TEST_CASE("plastic gives way beside what lies there already, and only so far") {
+TEST_CASE("plastic moves aside next to an older strand, up to a limit") {
   Spread spread({60, 60}, pixel);
   spread.begin(height, height);
   const double width = 0.8;
-  spread.lay(bead(10, 20, 50, 20, width), width);      // covers y 19.6 to 20.4
-  spread.lay(bead(10, 20.6, 50, 20.6, width), width);  // 0.2 mm less room on its lower side
+  spread.lay(bead(10, 20, 50, 20, width), width);      // covers y from 19.6 to 20.4
+  spread.lay(bead(10, 20.6, 50, 20.6, width), width);  // has 0.2 mm less room on its lower side
   CHECK(sums(spread.raster(), 15, 19.6, 45, 21.15).covered / 30 == Approx(1.55).margin(0.03));
   CHECK(sums(spread.raster(), 15, 21.3, 45, 25).covered == 0);  // reach: 20.6 + 1.5 · 0.4
 }
 
-TEST_CASE("what is laid off the bed is counted, not forgotten") {
+TEST_CASE("plastic outside the bed is counted as lost") {
   Spread spread({50, 50}, pixel);
   spread.begin(height, height);
   const Bead laid = bead(-200, 10, -180, 10, 0.5);
@@ -145,13 +145,13 @@ TEST_CASE("a new layer begins empty") {
   CHECK(sums(spread.raster()).volume == Approx(10 * 0.5 * height));
 }
 
-TEST_CASE("the pixel of a big bed is coarser, so that a layer's memory stays bounded") {
+TEST_CASE("the pixels of a big bed are coarser, so that a layer's memory stays bounded") {
   CHECK(Spread({150, 150}, 0.05).pixel() == 0.05);
   const double coarse = Spread({1000, 1000}, 0.05).pixel();
   CHECK(1020 * 1020 / (coarse * coarse) <= 16.1e6);
 }
 
-TEST_CASE("layers come out of the stream as they went in") {
+TEST_CASE("layers are read from the stream as they were written") {
   const Folder folder;
   const auto file = folder.path() / "rasters";
   std::vector<double> volumes;
@@ -185,7 +185,7 @@ TEST_CASE("layers come out of the stream as they went in") {
   CHECK(layers == 3);
 }
 
-TEST_CASE("a stream that is cut off or none of ours is refused") {
+TEST_CASE("a truncated stream, or one of another format, is refused") {
   const Folder folder;
   const auto file = folder.path() / "rasters";
   {

@@ -9,7 +9,7 @@
 using namespace unicursal::sim;
 using Catch::Contains;
 
-TEST_CASE("faults are read as they are written") {
+TEST_CASE("faults are parsed") {
   const Fault flips = parse_fault("bitflip:1e-4");
   CHECK(flips.kind == FaultKind::bit_flip);
   CHECK(flips.chance == 1e-4);
@@ -29,7 +29,7 @@ TEST_CASE("faults are read as they are written") {
   CHECK(parse_fault("fatal:a@b@t=1").text == "a@b");
 }
 
-TEST_CASE("what is no fault is refused with what to write instead") {
+TEST_CASE("a malformed fault is refused with the correct form") {
   CHECK_THROWS_WITH(parse_fault("gremlin:1"), Contains("bitflip") && Contains("gremlin"));
   CHECK_THROWS_WITH(parse_fault("bitflip"), Contains("chance"));
   CHECK_THROWS_WITH(parse_fault("bitflip:1.5"), Contains("from 0 to 1"));
@@ -52,7 +52,7 @@ TEST_CASE("a file of faults has comments, blank lines and a seed") {
   CHECK_THROWS_WITH(parse_faults("seed x", "cable.txt"), Contains("cable.txt:1"));
 }
 
-TEST_CASE("every kind has a name that is read again, and its line in the help") {
+TEST_CASE("every kind has a name that can be parsed, and a line in the help") {
   const std::string help = fault_help();
   for (int i = 0; i <= static_cast<int>(FaultKind::fatal); ++i) {
     const auto kind = static_cast<FaultKind>(i);
@@ -60,6 +60,6 @@ TEST_CASE("every kind has a name that is read again, and its line in the help") 
   }
 }
 
-TEST_CASE("a file that is not there is told by name") {
+TEST_CASE("the message about a missing file names it") {
   CHECK_THROWS_WITH(read_faults("/nowhere/faults"), Contains("/nowhere/faults"));
 }

@@ -23,7 +23,7 @@ PerFeeder<std::int64_t> feeder_steps(Bench& bench) {
 
 }  // namespace
 
-TEST_CASE("a move is answered when it is planned: the sixteenth waits for a free place") {
+TEST_CASE("a move is acknowledged when it is planned: the sixteenth waits for a free block") {
   Bench bench;
   for (int i = 1; i <= 15; ++i) REQUIRE(bench.send("G1 X" + std::to_string(i) + " F1200") == Replies{"ok"});
   CHECK(bench.firmware.now() == 0);
@@ -57,7 +57,7 @@ TEST_CASE("temperatures") {
   CHECK(bench.send("M105") == Replies{"ok T:25.00 /210.00 B:25.00 /60.00 @:127 B@:127"});
 }
 
-TEST_CASE("M109 reports every second until it is hot and has stayed so") {
+TEST_CASE("M109 reports every second until the nozzle is hot and has stayed hot") {
   Bench bench;
   bench.finish("M109 S210");
   CHECK(bench.replies.back() == "ok");
@@ -91,7 +91,7 @@ TEST_CASE("M108 ends the wait of M109, and both get their ok") {
   CHECK(bench.firmware.now() == 0);
 }
 
-TEST_CASE("M155 reports by itself, between other lines") {
+TEST_CASE("M155 reports automatically, between other lines") {
   Bench bench;
   bench.send("M155 S2");
   bench.replies.clear();
@@ -103,7 +103,7 @@ TEST_CASE("M155 reports by itself, between other lines") {
   CHECK(bench.replies.empty());
 }
 
-TEST_CASE("cold extrusion is refused, XY moves and E advances all the same") {
+TEST_CASE("cold extrusion is prevented, but x and y move and E advances") {
   Bench bench;
   CHECK(bench.send("G1 X10 E5 F1200") == Replies{"echo: cold extrusion prevented", "ok"});
   CHECK(bench.finish("M114").front().starts_with("X:10.00 Y:0.00 Z:0.00 E:5.00"));
@@ -142,7 +142,7 @@ TEST_CASE("relative moves, inches and a shifted origin") {
   CHECK(bench.sink.moves.back().to.y == Approx(25.4));
 }
 
-TEST_CASE("M220 scales speed, M221 scales filament but not what M114 says") {
+TEST_CASE("M220 scales speed; M221 scales filament, but not the E of M114") {
   Bench bench;
   bench.heat();
   bench.finish("M83");
@@ -160,7 +160,7 @@ TEST_CASE("M220 scales speed, M221 scales filament but not what M114 says") {
   CHECK(bench.sink.moves[1].filament == Approx(6));
 }
 
-TEST_CASE("homing takes time, says where it is, and then the bed has edges") {
+TEST_CASE("homing takes time and reports the position; afterwards the bed has edges") {
   Bench bench;
   bench.finish("G1 X50 Y50 F6000");
   const Replies replies = bench.finish("G28");
@@ -173,7 +173,7 @@ TEST_CASE("homing takes time, says where it is, and then the bed has edges") {
   CHECK(bench.firmware.warnings().size() == 1);
 }
 
-TEST_CASE("M400 and G4 are answered when all is done") {
+TEST_CASE("M400 and G4 are acknowledged when all motion has ended") {
   Bench bench;
   bench.send("G1 X60 F3600");
   CHECK(bench.send("M400").empty());
@@ -184,12 +184,12 @@ TEST_CASE("M400 and G4 are answered when all is done") {
   CHECK(bench.firmware.now() == Approx(before + 1.5));
 }
 
-TEST_CASE("a command that runs says so every two seconds") {
+TEST_CASE("a running command reports busy every two seconds") {
   Bench bench;
   CHECK(bench.finish("G4 S5") == Replies{"echo:busy: processing", "echo:busy: processing", "ok"});
 }
 
-TEST_CASE("M410 answers a blocked move first, then itself, and the rest of the queue never happens") {
+TEST_CASE("M410 acknowledges a blocked move first, then itself; the rest of the queue is dropped") {
   Bench bench;
   for (int i = 1; i <= 16; ++i) bench.send("G1 X" + std::to_string(10 * i) + " F1200");
   bench.firmware.advance(0.4);
@@ -200,7 +200,7 @@ TEST_CASE("M410 answers a blocked move first, then itself, and the rest of the q
   CHECK(bench.firmware.coordinates().logical(axis_x) == Approx(bench.sink.moves[0].to.x));
 }
 
-TEST_CASE("M115 names the firmware and what it can do") {
+TEST_CASE("M115 reports the firmware and its capabilities") {
   Bench bench;
   const Replies replies = bench.send("M115");
   CHECK(replies.front().starts_with("FIRMWARE_NAME:Marlin 2.1.2"));
@@ -208,7 +208,7 @@ TEST_CASE("M115 names the firmware and what it can do") {
   CHECK(replies.back() == "ok");
 }
 
-TEST_CASE("M85 switches a forgotten printer off") {
+TEST_CASE("M85 switches an inactive printer off") {
   Bench bench;
   bench.heat();
   bench.finish("M85 S30");
@@ -221,7 +221,7 @@ TEST_CASE("M85 switches a forgotten printer off") {
   CHECK(bench.firmware.nozzle().target() == 0);
 }
 
-TEST_CASE("at power-up the first tools are pure and the others feed from feeder 1") {
+TEST_CASE("at power-up the first tools are pure, and the others are feeder 1") {
   const auto [tool, feeder] = GENERATE(table<int, std::size_t>({{0, 0}, {1, 1}, {2, 2}, {3, 0}, {15, 0}}));
   Bench bench;
   bench.heat();
@@ -250,7 +250,7 @@ TEST_CASE("M163 and M164 define a mixture, whatever the scale of P") {
   CHECK(steps[2] == 0);
 }
 
-TEST_CASE("the collector persists, and M164 without S stores into the tool in use") {
+TEST_CASE("the collector persists, and M164 without S stores into the current tool") {
   Bench bench;
   bench.heat();
   bench.finish("M83");
@@ -260,7 +260,7 @@ TEST_CASE("the collector persists, and M164 without S stores into the tool in us
   CHECK(feeder_steps(bench) == PerFeeder<std::int64_t>{1000, 1000, 2000});
 }
 
-TEST_CASE("a mixture is copied into each move when that is planned") {
+TEST_CASE("a mixture is copied into each move when the move is planned") {
   Bench bench;
   bench.heat();
   bench.finish("M83");
@@ -328,10 +328,10 @@ TEST_CASE("the steps of all feeders add up to E") {
   const auto sum = std::accumulate(steps.begin(), steps.end(), std::int64_t{0});
   CHECK(static_cast<double>(sum) == Approx(asked * 400).margin(6));
   CHECK(static_cast<double>(steps[1]) == Approx(0.02 * asked * 400).margin(3));
-  CHECK(filament(bench.sink) == Approx(asked).epsilon(1e-9));  // what is laid is not rounded to steps
+  CHECK(filament(bench.sink) == Approx(asked).epsilon(1e-9));  // the laid filament is not rounded to steps
 }
 
-TEST_CASE("how the bytes are cut makes no difference") {
+TEST_CASE("it does not matter how the bytes are cut into pieces") {
   const auto portion = GENERATE(std::size_t{1}, std::size_t{7}, std::size_t{60}, std::size_t{120});
   std::string bytes = "M109 S200\nM83\n";
   for (int i = 0; i < 300; ++i) bytes += fmt::format("G1 X{} Y{} E0.1 F1800\n", 20 + i % 7, 30 + i % 11);

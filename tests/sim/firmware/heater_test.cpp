@@ -10,7 +10,7 @@ using Replies = Bench::Replies;
 
 namespace {
 
-/// Lets the control run; the first alarm ends it.
+/// Runs the control until the first alarm.
 std::optional<Heater::Alarm> run(Heater& heater, double& now, double until) {
   for (auto next = heater.next_tick(); next && *next <= until; next = heater.next_tick()) {
     now = *next;
@@ -39,7 +39,7 @@ std::string last_words(const std::string& fault_of, void (*fault)(Heater&, doubl
 
 }  // namespace
 
-TEST_CASE("at full power the block follows its exponential, and the thermometer lags behind") {
+TEST_CASE("at full power the block follows its exponential, and the sensor lags behind") {
   HeaterModel model;
   Heater heater(model);
   heater.set_target(0, 260);
@@ -49,12 +49,12 @@ TEST_CASE("at full power the block follows its exponential, and the thermometer 
   const double ramp = (end - start) / model.time_constant;
   CHECK(heater.temperature(time) < heater.block(time));
   CHECK(heater.block(time) - heater.temperature(time) < ramp * model.sensor_lag);
-  const double step = 1e-4;  // the lag's own equation, by differences
+  const double step = 1e-4;  // the lag's equation, by finite differences
   const double slope = (heater.temperature(time + step) - heater.temperature(time - step)) / (2 * step);
   CHECK(slope == Approx((heater.block(time) - heater.temperature(time)) / model.sensor_lag).epsilon(1e-6));
 }
 
-TEST_CASE("nozzle and bed come to their targets and stay there, with little overshoot") {
+TEST_CASE("nozzle and bed reach their targets and stay there, with little overshoot") {
   const auto [model, target] = GENERATE(table<HeaterModel, double>({{HeaterModel{}, 210.0},
                                                                     {HeaterModel{}, 260.0},
                                                                     {HeaterModel::bed(), 60.0},
@@ -72,7 +72,7 @@ TEST_CASE("nozzle and bed come to their targets and stay there, with little over
   CHECK(heater.power() < 127);
 }
 
-TEST_CASE("an unheated nozzle cools to the room and needs no clock") {
+TEST_CASE("an unheated nozzle cools to room temperature, and has no events") {
   Heater heater{HeaterModel{}};
   double now = 0;
   heater.set_target(0, 200);
@@ -82,7 +82,7 @@ TEST_CASE("an unheated nozzle cools to the room and needs no clock") {
   CHECK(heater.temperature(now + 3600) == Approx(25).margin(0.01));
 }
 
-TEST_CASE("targets beyond what the firmware allows are cut") {
+TEST_CASE("targets above the firmware's limit are lowered to it") {
   Heater heater{HeaterModel{}};
   heater.set_target(0, 900);
   CHECK(heater.target() == 260);
@@ -90,7 +90,7 @@ TEST_CASE("targets beyond what the firmware allows are cut") {
   CHECK(heater.target() == 0);
 }
 
-TEST_CASE("a cartridge that gives no heat is a runaway when hot, and a failed heating when cold") {
+TEST_CASE("a cartridge without heat is a thermal runaway when hot, and failed heating when cold") {
   CHECK(last_words("nozzle", [](Heater& heater, double now) {
           heater.break_down(now, Heater::Defect::open);
         }) == "Error:Thermal Runaway, system stopped! Heater_ID: 0");
@@ -102,12 +102,13 @@ TEST_CASE("a cartridge that gives no heat is a runaway when hot, and a failed he
                   "Error:Heating failed, system stopped! Heater_ID: 0") != bench.replies.end());
 }
 
-TEST_CASE("a bed that gives no heat is told by its name") {
+TEST_CASE("the alarm of a bed without heat names the bed") {
   CHECK(last_words("bed", [](Heater& heater, double now) { heater.break_down(now, Heater::Defect::open); }) ==
         "Error:Thermal Runaway, system stopped! Heater_ID: bed");
 }
 
-TEST_CASE("a heater that cannot be switched off is stopped at the highest temperature, and heats on") {
+TEST_CASE(
+    "a heater that cannot be switched off raises the alarm at the highest temperature, and keeps heating") {
   CHECK(last_words("nozzle", [](Heater& heater, double now) {
           heater.break_down(now, Heater::Defect::closed);
         }) == "Error:MAXTEMP triggered, system stopped! Heater_ID: 0");
@@ -121,7 +122,7 @@ TEST_CASE("a thermistor that falls out is noticed at once") {
         "Error:MINTEMP triggered, system stopped! Heater_ID: 0");
 }
 
-TEST_CASE("a heater that does its work raises no alarm through a day of changes") {
+TEST_CASE("a working heater raises no alarm through a day of changes") {
   Heater heater{HeaterModel{}};
   double now = 0;
   for (const double target : {200.0, 240.0, 180.0, 0.0, 210.0, 215.0, 190.0, 260.0}) {

@@ -1,4 +1,4 @@
-// Replies to good and bad lines, as the firmware facts have them.
+// Replies to good and bad lines (sim/README.md, "Marlin 2.1").
 #include <catch2/catch.hpp>
 
 #include "../bench.hpp"
@@ -9,7 +9,7 @@ using Replies = Bench::Replies;
 TEST_CASE("a board introduces itself") {
   Bench bench;
   bench.firmware.boot();
-  CHECK(bench.send("M105").empty());  // what comes before it is up is lost
+  CHECK(bench.send("M105").empty());  // input during the boot is lost
   bench.firmware.advance(2);
   REQUIRE(bench.replies.size() > 3);
   CHECK(bench.replies.front() == "start");
@@ -17,7 +17,7 @@ TEST_CASE("a board introduces itself") {
   CHECK(std::find(bench.replies.begin(), bench.replies.end(), "Marlin 2.1.2.1") != bench.replies.end());
 }
 
-TEST_CASE("at boot a board may have wishes of its own to the host") {
+TEST_CASE("at boot a board can send host actions") {
   Bench bench("marlin-8bit");
   bench.firmware.boot();
   bench.firmware.advance(2);
@@ -32,7 +32,7 @@ TEST_CASE("numbered lines are answered with ok") {
   CHECK(bench.firmware.last_line() == 2);
 }
 
-TEST_CASE("a damaged line is told with the last good number and asked for again") {
+TEST_CASE("a damaged line is reported with the last good number, and requested again") {
   Bench bench;
   bench.send(1, "G90");
   CHECK(bench.send("N2 M83*1") == Replies{"Error:checksum mismatch, Last Line: 1", "Resend: 2", "ok"});
@@ -46,7 +46,7 @@ TEST_CASE("a damaged line is told with the last good number and asked for again"
   CHECK(bench.firmware.counts().resends == 3);
 }
 
-TEST_CASE("the last two lines sent again are dropped without a word") {
+TEST_CASE("the last two lines are dropped silently when they are sent again") {
   Bench bench;
   bench.send(1, "G90");
   bench.send(2, "M83");
@@ -57,7 +57,7 @@ TEST_CASE("the last two lines sent again are dropped without a word") {
   CHECK(bench.send(1, "G90").front().starts_with("Error:Line Number"));
 }
 
-TEST_CASE("an error empties the receive buffer: what was under way vanishes") {
+TEST_CASE("an error flushes the receive buffer: lines in it vanish") {
   Bench bench;
   bench.firmware.receive(Bench::numbered(1, "G90") + "\nN2 M83*1\n" + Bench::numbered(3, "G91") + "\n");
   CHECK(bench.replies == Replies{"Error:checksum mismatch, Last Line: 1", "Resend: 2", "ok", "ok"});
@@ -65,7 +65,7 @@ TEST_CASE("an error empties the receive buffer: what was under way vanishes") {
   CHECK(bench.firmware.buffer().flushed() > 0);
 }
 
-TEST_CASE("lines that arrive after an error each raise their own, until the one asked for comes") {
+TEST_CASE("lines that arrive after an error each raise their own, until the requested line arrives") {
   Bench bench;
   bench.send(1, "G90");
   bench.send("N2 M83*1");
@@ -75,7 +75,7 @@ TEST_CASE("lines that arrive after an error each raise their own, until the one 
   CHECK(bench.firmware.counts().resends == 4);
 }
 
-TEST_CASE("an error is told when received, before the oks of earlier lines") {
+TEST_CASE("an error is reported on receipt, before the oks of earlier lines") {
   Bench bench;
   bench.send(1, "G4 S5");
   bench.firmware.receive(Bench::numbered(2, "M105") + "\nN3 M105*1\n");
@@ -84,7 +84,7 @@ TEST_CASE("an error is told when received, before the oks of earlier lines") {
   CHECK(bench.replies.back().starts_with("ok T:"));
 }
 
-TEST_CASE("M110 sets the number, with a number and alone") {
+TEST_CASE("M110 sets the line number, in a numbered line and alone") {
   Bench bench;
   CHECK(bench.send("N0 M110 N0*" + std::to_string(checksum("N0 M110 N0"))) == Replies{"ok"});
   CHECK(bench.send(1, "G90") == Replies{"ok"});
@@ -93,7 +93,7 @@ TEST_CASE("M110 sets the number, with a number and alone") {
   CHECK(bench.firmware.counts().executed_in_order);
 }
 
-TEST_CASE("M110 acts again when it is executed, so a line sent behind it at once is asked for again") {
+TEST_CASE("M110 acts again when it is executed, so a line sent right after it is requested again") {
   Bench bench;
   bench.send("G4 P100");
   bench.firmware.receive("N0 M110 N0*125\n" + Bench::numbered(1, "G90") + "\n");
@@ -110,7 +110,7 @@ TEST_CASE("blank lines and comments get no ok") {
   CHECK(bench.firmware.counts().received == 0);
 }
 
-TEST_CASE("what is not known is said, and answered") {
+TEST_CASE("unknown commands are reported and acknowledged") {
   Bench bench;
   CHECK(bench.send("M9999") == Replies{"echo:Unknown command: \"M9999\"", "ok"});
   CHECK(bench.send("g28") == Replies{"echo:Unknown command: \"g28\"", "ok"});
@@ -126,7 +126,7 @@ TEST_CASE("a line beyond 95 characters loses its checksum") {
   CHECK(bench.firmware.assembler().too_long() == 1);
 }
 
-TEST_CASE("bytes that a blocked printer cannot take are lost in silence, and the next newline tells") {
+TEST_CASE("bytes that a blocked printer cannot take are lost silently until the next newline") {
   Bench bench;
   bench.send(1, "G4 S10");
   std::string flood;
@@ -149,7 +149,7 @@ TEST_CASE("127 bytes in flight lose nothing, whatever the printer does") {
   CHECK(bench.firmware.buffer().lost() == 0);
 }
 
-TEST_CASE("a kill is the last word") {
+TEST_CASE("nothing follows a kill") {
   Bench bench;
   CHECK(bench.send("M112") ==
         Replies{"echo:M112 Shutdown", "Error:Printer halted. kill() called!", "//action:poweroff"});
@@ -158,7 +158,7 @@ TEST_CASE("a kill is the last word") {
   CHECK_FALSE(bench.firmware.next_event());
 }
 
-TEST_CASE("a kill behind a full queue is not even read") {
+TEST_CASE("M112 behind a full queue is not read") {
   Bench bench;
   for (int i = 1; i <= 4; ++i) bench.send(i, "G4 S1");
   CHECK(bench.send("M112").empty());

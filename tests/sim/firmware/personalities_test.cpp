@@ -1,4 +1,4 @@
-// What the personalities of Marlin do unlike the plain one.
+// How the personalities of Marlin differ from the plain one.
 #include <catch2/catch.hpp>
 
 #include "../bench.hpp"
@@ -8,7 +8,7 @@ using Replies = Bench::Replies;
 
 namespace {
 
-/// Shares of the first three feeders in what was fed.
+/// Shares of the first three feeders in the fed filament.
 std::array<double, 3> fed_shares(Bench& bench) {
   bench.firmware.run_down();
   const auto& steps = bench.firmware.planner().feeder_steps();
@@ -27,7 +27,7 @@ void mix(Bench& bench, double a, double b, double c) {
 
 }  // namespace
 
-TEST_CASE("ADVANCED_OK tells the number, free places in the planner and in the queue") {
+TEST_CASE("ADVANCED_OK reports the line number and the free places in planner and queue") {
   Bench bench("marlin-advanced-ok");
   CHECK(bench.send("M83") == Replies{"ok P15 B3"});
   CHECK(bench.send(1, "G90") == Replies{"ok N1 P15 B3"});
@@ -45,12 +45,12 @@ TEST_CASE("ADVANCED_OK counts down while the planner and then the queue fill up"
   CHECK(bench.replies == Replies{"ok P0 B0"});
 }
 
-TEST_CASE("a refused line is answered with a plain ok, ADVANCED_OK or not") {
+TEST_CASE("a refused line is answered with a plain ok, with or without ADVANCED_OK") {
   Bench bench("marlin-advanced-ok");
   CHECK(bench.send("N1 G28*0") == Replies{"Error:checksum mismatch, Last Line: 0", "Resend: 1", "ok"});
 }
 
-TEST_CASE("8-bit boards know mixtures in 128 parts: 0.01 becomes 0.78 %, 0.005 nothing") {
+TEST_CASE("8-bit boards have mixtures in 128 parts: 0.01 becomes 0.78 %, and 0.005 becomes 0") {
   Bench bench("marlin-8bit");
   bench.heat();
   mix(bench, 0.01, 0.99, 0);
@@ -66,7 +66,7 @@ TEST_CASE("8-bit boards know mixtures in 128 parts: 0.01 becomes 0.78 %, 0.005 n
   CHECK(fed_shares(other)[0] == 0);
 }
 
-TEST_CASE("32-bit boards feed 10/1/0 as 4545/455 of 5000 steps, and retract alike") {
+TEST_CASE("32-bit boards feed 10/1/0 as 4545/455 of 5000 steps, and retract in the same way") {
   Bench bench;
   bench.heat();
   mix(bench, 10, 1, 0);
@@ -97,7 +97,7 @@ TEST_CASE("8-bit boards cannot step faster than 40 kHz") {
   CHECK(seconds("marlin-8bit") == Approx(2 * seconds("marlin")).epsilon(0.1));
 }
 
-TEST_CASE("M165 writes the tool in use at once, and letters left out are none") {
+TEST_CASE("M165 writes the current tool at once, and omitted letters are 0") {
   Bench bench;
   bench.heat();
   mix(bench, 0, 0, 1);
@@ -108,7 +108,7 @@ TEST_CASE("M165 writes the tool in use at once, and letters left out are none") 
   CHECK(fed_shares(bench)[2] == 0);
 }
 
-TEST_CASE("only a reset helps a killed board; it forgets tools, modes, heat and numbers") {
+TEST_CASE("only a reset revives a killed board; tools, modes, targets and line numbers are lost") {
   Bench bench("marlin-8bit");
   bench.heat();
   bench.send(1, "M83");
@@ -122,13 +122,13 @@ TEST_CASE("only a reset helps a killed board; it forgets tools, modes, heat and 
   REQUIRE(bench.replies.size() > 2);
   CHECK(bench.replies.front() == "start");
   CHECK(bench.send("M105").front().find("/0.00 B:") != std::string::npos);
-  CHECK(bench.send(1, "G1 E5 F600").front() == "ok");  // numbers start afresh; the nozzle is still hot
-  CHECK(bench.send(2, "G1 E5 F600").front() == "ok");  // and E is absolute again
+  CHECK(bench.send(1, "G1 E5 F600").front() == "ok");  // numbers start from 1; the nozzle is still hot
+  CHECK(bench.send(2, "G1 E5 F600").front() == "ok");  // E is absolute again
   bench.firmware.run_down();
   CHECK(bench.firmware.planner().feeder_steps()[0] == 5 * 400);  // T0 is pure again
 }
 
-TEST_CASE("a board that resets in mid-print believes itself at zero, until it is homed") {
+TEST_CASE("after a reset in mid-print a board believes that it is at zero, until it is homed") {
   Bench bench;
   bench.finish("G28");
   bench.finish("G1 X50 Y40 F6000");
@@ -145,7 +145,7 @@ TEST_CASE("a board that resets in mid-print believes itself at zero, until it is
   CHECK(bench.sink.moves.back().to.x == Approx(10));
 }
 
-TEST_CASE("a reset ends even the hang that a mixture of zeros makes") {
+TEST_CASE("a reset also ends the hang of a mixture of zeros") {
   Bench bench;
   bench.heat();
   mix(bench, 0, 0, 0);
@@ -160,7 +160,7 @@ TEST_CASE("a reset ends even the hang that a mixture of zeros makes") {
   CHECK(bench.send("M105").size() == 1);
 }
 
-TEST_CASE("personalities are known by name") {
+TEST_CASE("personalities have names") {
   for (const char* name : {"marlin", "marlin-8bit", "marlin-advanced-ok", "repetier"})
     CHECK(personality(name).name == name);
   CHECK_THROWS_WITH(personality("klipper"), Catch::Contains("marlin-8bit"));

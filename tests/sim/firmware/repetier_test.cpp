@@ -22,13 +22,13 @@ PerFeeder<std::int64_t> fed(const Bench& bench) {
 
 }  // namespace
 
-TEST_CASE("Repetier: ok with the line's number comes at receipt, before the command's own output") {
+TEST_CASE("Repetier: ok with the line's number comes on receipt, before the command's own output") {
   Bench bench = repetier();
   CHECK(bench.send(1, "M105") == Replies{"ok 1", "T:25.00 /0 B:25.00 /0"});
   CHECK(bench.send("M105") == Replies{"ok 1", "T:25.00 /0 B:25.00 /0"});
 }
 
-TEST_CASE("Repetier: the ok of heating and homing does not mean done") {
+TEST_CASE("Repetier: the ok of heating and homing does not mean that they are done") {
   Bench bench = repetier();
   CHECK(bench.send(1, "M109 S200") == Replies{"ok 1"});
   CHECK(bench.firmware.blocked());
@@ -40,7 +40,7 @@ TEST_CASE("Repetier: the ok of heating and homing does not mean done") {
   CHECK(std::count(bench.replies.begin(), bench.replies.end(), "echo:busy: processing") == 0);
 }
 
-TEST_CASE("Repetier: says wait every idle second, and not while it works") {
+TEST_CASE("Repetier: it says wait every idle second, but not while it works") {
   Bench bench = repetier();
   bench.firmware.advance(3.5);
   CHECK(bench.replies == Replies{"wait", "wait", "wait"});
@@ -50,11 +50,11 @@ TEST_CASE("Repetier: says wait every idle second, and not while it works") {
   CHECK(std::count(bench.replies.begin(), bench.replies.end(), "wait") == 0);
 }
 
-TEST_CASE("Repetier: asks for a line every 200 ms until it has it, each time with an ok") {
+TEST_CASE("Repetier: it requests a line every 200 ms until it has it, each time with an ok") {
   Bench bench = repetier();
   bench.send(1, "G90");
   CHECK(bench.send("N2 M83*1") == Replies{"", "Resend:2", "ok"});
-  CHECK(bench.send(3, "M83").empty());  // swallowed: it is not the one
+  CHECK(bench.send(3, "M83").empty());  // discarded: it is not the requested line
   bench.replies.clear();
   bench.firmware.advance(0.5);
   CHECK(bench.replies == Replies{"", "Resend:2", "ok", "", "Resend:2", "ok"});
@@ -64,7 +64,7 @@ TEST_CASE("Repetier: asks for a line every 200 ms until it has it, each time wit
   CHECK(bench.replies.empty());
 }
 
-TEST_CASE("Repetier: repeated lines are skipped with a word, up to forty back") {
+TEST_CASE("Repetier: up to forty repeated lines are answered with skip") {
   Bench bench = repetier();
   for (int i = 1; i <= 50; ++i) bench.send(i, "G90");
   CHECK(bench.send(50, "G90") == Replies{"skip 50", "ok"});
@@ -93,7 +93,7 @@ TEST_CASE("Repetier: P of M163 is an integer") {
   CHECK(static_cast<double>(steps[2]) == Approx(2800).margin(2));
 }
 
-TEST_CASE("Repetier: M163 acts on the move that runs, and on those that wait") {
+TEST_CASE("Repetier: M163 acts on the running move and on the queued ones") {
   Bench bench = repetier();
   bench.heat();
   for (const char* line : {"M163 S0 P100", "M163 S1 P0", "M163 S2 P0", "M83"}) bench.finish(line);
@@ -128,7 +128,7 @@ TEST_CASE("Repetier: M164 needs S, T waits for motion, T16 is T0, undefined tool
   bench.finish("G1 X60 E2");
   bench.firmware.run_down();
   CHECK(fed(bench) == PerFeeder<std::int64_t>{0, 0, 800});
-  for (const char* tool : {"T7", "T16"}) {  // neither defined
+  for (const char* tool : {"T7", "T16"}) {  // neither is defined
     bench.sink.moves.clear();
     bench.finish(tool);
     bench.finish("G1 X70 E3");
@@ -137,14 +137,14 @@ TEST_CASE("Repetier: M164 needs S, T waits for motion, T16 is T0, undefined tool
   }
 }
 
-TEST_CASE("Repetier: cold extrusion is refused without a word") {
+TEST_CASE("Repetier: cold extrusion is prevented silently") {
   Bench bench = repetier();
   CHECK(bench.send("G1 X10 E5 F1200") == Replies{"ok 0"});
   bench.firmware.run_down();
   CHECK(bench.sink.moves.at(0).filament == 0);
 }
 
-TEST_CASE("Repetier: M112 reboots the board, which then says start") {
+TEST_CASE("Repetier: M112 reboots the board, which says start") {
   Bench bench = repetier();
   bench.heat();
   CHECK(bench.send("M112").empty());
@@ -154,7 +154,7 @@ TEST_CASE("Repetier: M112 reboots the board, which then says start") {
   CHECK(bench.firmware.counts().resets == 1);
 }
 
-TEST_CASE("Repetier: what it does not know") {
+TEST_CASE("Repetier: unknown commands") {
   Bench bench = repetier();
   CHECK(bench.send("M9999") == Replies{"ok 0", "Unknown command:M9999"});
   CHECK(bench.send("M165 A1").back() == "Unknown command:M165 A1");

@@ -19,7 +19,7 @@ std::vector<std::string> assemble(LineAssembler& assembler, std::string_view byt
 
 }  // namespace
 
-TEST_CASE("the receive buffer holds 127 bytes, loses the rest, and marks where that happened") {
+TEST_CASE("the receive buffer holds 127 bytes, loses the rest, and marks the gap") {
   ReceiveBuffer buffer;
   for (int i = 0; i < 100; ++i) buffer.push({'a', false});
   for (int i = 0; i < 40; ++i) buffer.push({'b', false});
@@ -37,19 +37,19 @@ TEST_CASE("the receive buffer holds 127 bytes, loses the rest, and marks where t
   CHECK_FALSE(buffer.pop());
 }
 
-TEST_CASE("lines end with CR, LF or both; blank ones and comments are none") {
+TEST_CASE("lines end with CR, LF or both; blank lines and comments are skipped") {
   LineAssembler assembler;
   CHECK(assemble(assembler, "G28\r\n\n   \nM105 ; heat?\r; only this\n  T1\n") ==
         std::vector<std::string>{"G28", "M105 ", "T1"});
 }
 
-TEST_CASE("a comment swallows the checksum behind it, unless a backslash holds it off") {
+TEST_CASE("a comment swallows the checksum behind it, unless a backslash precedes it") {
   LineAssembler assembler;
   CHECK(assemble(assembler, "N1 G28;home*33\nM117 a\\;b\n") ==
         std::vector<std::string>{"N1 G28", "M117 a;b"});
 }
 
-TEST_CASE("of a long line 95 characters are kept") {
+TEST_CASE("95 characters of a long line are kept") {
   LineAssembler assembler;
   const std::string fits = "M117 " + std::string(90, 'x');
   CHECK(assemble(assembler, fits + "\n") == std::vector<std::string>{fits});
@@ -67,13 +67,13 @@ TEST_CASE("checksums are the exclusive or of all bytes") {
 TEST_CASE("numbered lines must follow one another") {
   LineCheck check;
   CHECK(check.check("N1 G28*18").kind == Kind::accepted);
-  CHECK(check.check("N2 G1 X5*96").body == "");  // wrong checksum: nothing is handed on
+  CHECK(check.check("N2 G1 X5*96").body == "");  // a wrong checksum: nothing is passed on
   CHECK(check.last() == 1);
   const auto good = check.check("N2 G1 X5*" + std::to_string(checksum("N2 G1 X5")));
   CHECK(good.kind == Kind::accepted);
   CHECK(good.body == "G1 X5");
   CHECK(good.number == 2);
-  CHECK(check.check("N2 G1 X5*0").kind == Kind::repeated);  // not even its checksum is looked at
+  CHECK(check.check("N2 G1 X5*0").kind == Kind::repeated);  // its checksum is not checked
   CHECK(check.check("N1 G28*0").kind == Kind::repeated);
   CHECK(check.check("N4 G28*0").kind == Kind::wrong_number);
   CHECK(check.check("N0 G28*0").kind == Kind::wrong_number);
@@ -81,7 +81,7 @@ TEST_CASE("numbered lines must follow one another") {
   CHECK(check.last() == 2);
 }
 
-TEST_CASE("M110 sets the number, by its own N or the line's") {
+TEST_CASE("M110 sets the line number, by its own N or the line's") {
   LineCheck check;
   const std::string own = "N0 M110 N40";
   CHECK(check.check(own + "*" + std::to_string(checksum(own))).kind == Kind::accepted);

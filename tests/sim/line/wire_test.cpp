@@ -33,20 +33,20 @@ TEST_CASE("a byte takes ten bits, and bytes queue behind each other") {
   CHECK(*wire.next_arrival() == Approx(9.01));
 }
 
-TEST_CASE("at 250 000 baud a line of 40 bytes takes 1.6 ms, so that 625 pass in a second") {
+TEST_CASE("at 250 000 baud a line of 40 bytes takes 1.6 ms: 625 lines per second") {
   Wire wire({250000, Usb::none});
   wire.write(0, intact(std::string(39, 'x') + '\n'));
   CHECK(*wire.next_arrival() == Approx(1.0 / 625));
 }
 
-TEST_CASE("both directions have a wire of their own") {
+TEST_CASE("the two directions are independent") {
   Wire wire({1000, Usb::none});
   wire.write(0, intact(std::string(100, 'x')));
   wire.speak(0, "ok\n");
   CHECK(*wire.next_delivery() == Approx(0.03));
 }
 
-TEST_CASE("without a chip the computer gets whole lines, or what there is in a pause") {
+TEST_CASE("without a chip the computer gets whole lines, or what there is when the printer pauses") {
   Wire wire({1000, Usb::none});
   wire.speak(0, "ok\nec");
   CHECK(wire.deliver(0.029, 1024).empty());
@@ -56,7 +56,7 @@ TEST_CASE("without a chip the computer gets whole lines, or what there is in a p
   CHECK_FALSE(wire.next_delivery());
 }
 
-TEST_CASE("CDC hands over at frames of a millisecond") {
+TEST_CASE("CDC delivers at frames of 1 ms") {
   Wire wire({250000, Usb::cdc});
   wire.speak(0.00005, "ok\n");
   CHECK(*wire.next_delivery() == Approx(0.001));
@@ -83,7 +83,7 @@ TEST_CASE("a line without a baud rate takes no time") {
   CHECK(text_of(wire.arrive(2)) == "G28\n");
 }
 
-TEST_CASE("a cable that is cut loses what was on its way") {
+TEST_CASE("a cut cable loses the bytes in transit") {
   Wire wire({1000, Usb::cdc});
   wire.write(0, intact("G28\n"));
   wire.speak(0, "ok\n");

@@ -6,7 +6,7 @@
 
 using namespace unicursal::sim;
 
-TEST_CASE("a command is taken apart into its words") {
+TEST_CASE("a command is parsed into its words") {
   const auto command = parse_command("G1 X10 Y-2.50 E.125 F1500");
   REQUIRE(command);
   CHECK(command->is('G', 1));
@@ -25,7 +25,7 @@ TEST_CASE("words need no spaces, and E is a word, not an exponent") {
   CHECK(command->value('Y') == 3.0);
 }
 
-TEST_CASE("a word without a number is there, and has no value") {
+TEST_CASE("a word without a number is present, but has no value") {
   const auto command = parse_command("G28 X Z");
   REQUIRE(command);
   CHECK(command->has('X'));
@@ -35,14 +35,14 @@ TEST_CASE("a word without a number is there, and has no value") {
   CHECK(command->value_or('X', 7) == 7.0);
 }
 
-TEST_CASE("what is not G, M or T with a number is no command") {
+TEST_CASE("a command is G, M or T with a number") {
   for (const char* text : {"", " ", "g1 X1", "X10", "G", "GX1", "M", "hello", "*12", "N5"}) {
     CAPTURE(text);
     CHECK_FALSE(parse_command(text));
   }
 }
 
-TEST_CASE("numbers stay within what the arithmetic of steps can bear") {
+TEST_CASE("numbers are clamped, so that the arithmetic of steps cannot overflow") {
   const auto command = parse_command("G1 X" + std::string(60, '9') + " Y-" + std::string(60, '9'));
   CHECK(command->value('X') == largest_number);
   CHECK(command->value('Y') == -largest_number);

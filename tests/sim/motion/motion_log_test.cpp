@@ -12,7 +12,7 @@ namespace {
 constexpr double filament_area = 2.4;
 constexpr Mix mix{0, {32768}};
 
-/// A bead of `length` along x at even speed.
+/// A bead of `length` along x at constant speed.
 ExecutedMove even(double from_x, double length, double speed, double filament, double start) {
   ExecutedMove move;
   move.from = {from_x, 0, 0.2};
@@ -33,7 +33,7 @@ double sum(const std::map<double, double>& seconds) {
 
 }  // namespace
 
-TEST_CASE("the flow of an even move lies in one bin, with all its time") {
+TEST_CASE("the flow of a move at constant speed lies in one bin, with all its time") {
   MotionLog log(filament_area);
   log.moved(even(0, 30, 20, 1, 5));
   const double flow = filament_area / 1.5;
@@ -45,7 +45,7 @@ TEST_CASE("the flow of an even move lies in one bin, with all its time") {
   CHECK(log.mean_speed() == Approx(20));
 }
 
-TEST_CASE("the flow on a ramp is spread over the speeds it passes") {
+TEST_CASE("the flow of a ramp is spread over its speeds") {
   MotionLog log(filament_area);
   ExecutedMove move = even(0, 30, 20, 1, 0);
   move.speed = {30, 0.05, 20, 0.05, 100};
@@ -59,7 +59,7 @@ TEST_CASE("the flow on a ramp is spread over the speeds it passes") {
   CHECK(log.flows().begin()->first < filament_area / 30 * 2);
 }
 
-TEST_CASE("spans cover the print whatever its length, and keep its sums") {
+TEST_CASE("spans cover a print of any length, and keep its sums") {
   MotionLog log(filament_area);
   double time = 100;
   for (int i = 0; i < 3000; ++i) {
@@ -86,7 +86,7 @@ TEST_CASE("spans cover the print whatever its length, and keep its sums") {
   CHECK(std::accumulate(log.fill().begin(), log.fill().end(), 0.0) == Approx(time - 100));
 }
 
-TEST_CASE("starvations are counted, and the first ones kept with their places") {
+TEST_CASE("starvations are counted, and the positions of the first ones are kept") {
   MotionLog log(filament_area);
   for (int i = 0; i < 150; ++i) log.starved({double(i), {1, 2, 3}, i % 3 == 0 ? 0.5 : 0, i % 3 == 0});
   CHECK(log.dry() == 50);

@@ -51,7 +51,7 @@ TEST_CASE("a single move takes the time of its trapezoid") {
   CHECK(list.moves[0].end - list.moves[0].start == Approx(expected).epsilon(1e-9));
 }
 
-TEST_CASE("a trapezoid's distance fits its speeds") {
+TEST_CASE("a trapezoid's distance is the integral of its speed") {
   const Trapezoid trapezoid = GENERATE(Trapezoid{10, 5, 40, 0.05, 1500}, Trapezoid{0.4, 5, 40, 18, 1500},
                                        Trapezoid{1, 20, 20, 20, 3000});
   const double total = trapezoid.seconds();
@@ -68,7 +68,7 @@ TEST_CASE("a trapezoid's distance fits its speeds") {
   CHECK(fastest <= trapezoid.peak() * (1 + 1e-6));
 }
 
-TEST_CASE("no move enters faster than the one before leaves, or faster than acceleration allows") {
+TEST_CASE("no move enters faster than the previous one exits, or than its acceleration allows") {
   MoveList list;
   MotionLimits limits;
   Planner planner(limits, list);
@@ -128,16 +128,16 @@ TEST_CASE("a right-angled corner is taken at jerk speed") {
   CHECK(list.moves[0].end - list.moves[0].start == Approx(expected).epsilon(1e-9));
 }
 
-TEST_CASE("speed and acceleration keep to every axis's limits") {
+TEST_CASE("speed and acceleration keep within every axis's limits") {
   MoveList list;
   Planner planner({}, list);
   plan(planner, 0, at(0, 0, 5), 100, half_half);
   run(planner);
   CHECK(list.moves[0].end - list.moves[0].start > 5.0 / 10);            // z: 10 mm/s
-  CHECK(list.moves[0].end - list.moves[0].start < 5.0 / 10 + 2 * 0.1);  // and 100 mm/s² beside it
+  CHECK(list.moves[0].end - list.moves[0].start < 5.0 / 10 + 2 * 0.1);  // plus the ramps at 100 mm/s²
 }
 
-TEST_CASE("moves of under six steps join the next one, and nothing is lost") {
+TEST_CASE("moves of fewer than six steps join the next one, and nothing is lost") {
   MoveList list;
   Planner planner({}, list);
   for (int i = 1; i <= 10; ++i) plan(planner, 0, {2 * i, 0, 0, 0}, 20, half_half);
@@ -160,7 +160,7 @@ TEST_CASE("the queue holds fifteen moves") {
   CHECK(list.moves.size() == 1);
 }
 
-TEST_CASE("every step of E goes to one feeder, in the mixture's shares") {
+TEST_CASE("every step of E goes to one feeder, according to the mixture's shares") {
   SECTION("half and half") {
     FeederSplit split;
     CHECK(split.split(5000, {32768, 32768, 0}) == PerFeeder<std::int64_t>{2500, 2500, 0});
@@ -243,7 +243,7 @@ struct Events : MoveList {
 
 }  // namespace
 
-TEST_CASE("a queue that runs dry in mid-curve is told with time, place and duration") {
+TEST_CASE("a queue that runs dry in mid-curve is reported with time, place and duration") {
   Events events;
   Planner planner({}, events);
   plan(planner, 0, at(10, 0, 0, 1), 20, half_half);
@@ -258,7 +258,7 @@ TEST_CASE("a queue that runs dry in mid-curve is told with time, place and durat
   CHECK(events.starvations[0].dry);
 }
 
-TEST_CASE("a move that comes while the last one brakes is a stop as well, of no time") {
+TEST_CASE("a move that arrives while the last one brakes is a stop of no duration") {
   Events events;
   Planner planner({}, events);
   plan(planner, 0, at(10, 0, 0, 1), 20, half_half);
@@ -269,7 +269,7 @@ TEST_CASE("a move that comes while the last one brakes is a stop as well, of no 
   CHECK_FALSE(events.starvations[0].dry);
 }
 
-TEST_CASE("no starvation without need") {
+TEST_CASE("no starvation is reported") {
   Events events;
   Planner planner({}, events);
   SECTION("while moves are queued") {
@@ -291,7 +291,7 @@ TEST_CASE("no starvation without need") {
   CHECK(events.starvations.empty());
 }
 
-TEST_CASE("the queue's fill is told whenever it changes, and the steps of time do not matter") {
+TEST_CASE("every change of the queue is reported, whatever the steps of time") {
   std::vector<std::pair<double, std::size_t>> fills[2];
   std::vector<double> ends[2];
   for (const int fine : {0, 1}) {
@@ -324,7 +324,7 @@ TEST_CASE("the queue's fill is told whenever it changes, and the steps of time d
   CHECK(fills[0] == fills[1]);
 }
 
-TEST_CASE("a board that cannot step faster moves slower") {
+TEST_CASE("the step rate of the board limits the speed") {
   MoveList list;
   MotionLimits limits;
   limits.step_rate = 4000;  // 50 mm/s in x
@@ -334,7 +334,7 @@ TEST_CASE("a board that cannot step faster moves slower") {
   CHECK(list.moves[0].speed.peak() == Approx(50));
 }
 
-TEST_CASE("short moves are stretched towards 20 ms while the queue is short, and not when it is full") {
+TEST_CASE("short moves are stretched towards 20 ms only while the queue is short") {
   Events events;
   Planner planner({}, events);
   for (int i = 1; i <= 15; ++i) plan(planner, 0, at(i, 0, 0, 0.05 * i), 100, half_half);  // 10 ms each

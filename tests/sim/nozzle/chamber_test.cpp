@@ -24,7 +24,7 @@ constexpr PerFeeder<double> red{1, 0, 0}, blue{0, 1, 0}, third{0.2, 0.3, 0.5};
 
 }  // namespace
 
-TEST_CASE("the step response is that of tanks in series behind a pipe") {
+TEST_CASE("the step response is that of a pipe and tanks in series") {
   ChamberSize size;
   size.tanks = GENERATE(1u, 2u, 3u, 5u);
   Chamber chamber(size, 3);
@@ -36,7 +36,7 @@ TEST_CASE("the step response is that of tanks in series behind a pipe") {
     for (const Outflow& flow : chamber.feed(blue * portion)) {
       const double middle = passed + flow.total() / 2;
       passed += flow.total();
-      // An independent way to the curve: the integral of the gamma density, by Simpson's rule.
+      // An independent computation: the integral of the gamma density, by Simpson's rule.
       const double x = std::max(0.0, middle - size.dead_volume) / tank;
       double integral = 0;
       const int steps = 400;
@@ -51,7 +51,7 @@ TEST_CASE("the step response is that of tanks in series behind a pipe") {
   }
 }
 
-TEST_CASE("nothing new arrives within the dead volume, and 95 % when the mixing volume has passed") {
+TEST_CASE("the new mixture arrives after the dead volume, and 95 % of it after the mixing volume") {
   const ChamberSize size{2.1, 4.0, GENERATE(1u, 2u, 4u)};
   CHECK(step_response(size, 2.099) == 0);
   CHECK(step_response(size, 2.3) > 0);
@@ -67,7 +67,7 @@ TEST_CASE("a chamber without any volume mixes at once") {
   CHECK(total(chamber.content()) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("every feeder's volume is kept, whatever is fed and drawn back") {
+TEST_CASE("every feeder's volume is kept, whatever is fed and retracted") {
   const ChamberSize size = GENERATE(ChamberSize{}, ChamberSize{0, 4, 1}, ChamberSize{2, 0, 2},
                                     ChamberSize{0, 0, 2}, ChamberSize{0.3, 9, 6});
   Chamber chamber(size, 3);
@@ -95,7 +95,7 @@ TEST_CASE("every feeder's volume is kept, whatever is fed and drawn back") {
 
 TEST_CASE("the response is linear in the mixture") {
   Chamber first({}, 3), second({}, 3), both({}, 3);
-  const double part = 0.3;  // of the first sequence of mixtures in the third
+  const double part = 0.3;  // share of the first sequence of mixtures in the third
   std::mt19937 random(2);
   std::uniform_real_distribution<double> volume(0, 0.3), share(0, 1);
   const auto output = [](Chamber& chamber, const PerFeeder<double>& fed) {
@@ -133,7 +133,7 @@ TEST_CASE("it does not matter how a feed is cut into pieces") {
   }
 }
 
-TEST_CASE("what was drawn back has to be fed again before anything comes out") {
+TEST_CASE("retracted filament must be fed again before anything comes out") {
   Chamber chamber({}, 3);
   CHECK(chamber.feed({-1, -1, -1}).empty());
   CHECK(chamber.feed({0.5, 0.5, 0.5}).empty());

@@ -1,0 +1,61 @@
+#include "host/cli/preparation.hpp"
+
+#include "core/error.hpp"
+#include "host/cli/terminal_output.hpp"
+#include "host/job/load_job.hpp"
+
+namespace unicursal::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns whether two names mean the same file, even if it does not exist yet. Devices count as different
+/// files: they take any number of outputs.
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const fs::file_status status = fs::status(a, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return false;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  const fs::path real_a = fs::weakly_canonical(fs::absolute(a, error), error);
+  const fs::path real_b = fs::weakly_canonical(fs::absolute(b, error), error);
+  return !error && real_a == real_b;
+}
+
+}  // namespace
+
+void check_outputs(std::vector<fs::path> inputs, const std::vector<fs::path>& outputs) {
+  std::vector<fs::path>& taken = inputs;
+  for (const fs::path& output : outputs) {
+    for (const fs::path& other : taken) {
+      if (!same_file(output, other)) continue;
+      throw core::DataError(output.string(), "",
+                            "this output is the same file as " + other.string() + ", which would be lost",
+                            "choose another name for it");
+    }
+    taken.push_back(output);
+  }
+}
+
+std::vector<fs::path> present(std::initializer_list<std::optional<fs::path>> paths) {
+  std::vector<fs::path> given;
+  for (const auto& path : paths) {
+    if (path) given.push_back(*path);
+  }
+  return given;
+}
+
+PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs) {
+  Job job = load_job(options.job, options.profile);
+  job.print.look_ahead = options.look_ahead;
+  job.full_quality = options.full_quality;
+  PreparedJob prepared = prepare(std::move(job), options.layers);
+  prepared.threads = options.threads;
+  std::vector<fs::path> outputs = more_outputs;
+  if (options.outputs.report) outputs.push_back(*options.outputs.report);
+  check_outputs(files_of(prepared.job).all(), outputs);
+  for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
+  for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
+  return prepared;
+}
+
+}  // namespace unicursal::host

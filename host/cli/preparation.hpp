@@ -1,0 +1,26 @@
+// What commands do before they print or write anything: prepare the job, and check the names of outputs.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <vector>
+
+#include "host/cli/arguments.hpp"
+#include "host/engine/prepared_job.hpp"
+
+namespace unicursal::host {
+
+/// Throws core::DataError for an output that is the same file as an input or another output.
+void check_outputs(std::vector<std::filesystem::path> inputs,
+                   const std::vector<std::filesystem::path>& outputs);
+
+/// Returns those paths that are not absent.
+std::vector<std::filesystem::path> present(std::initializer_list<std::optional<std::filesystem::path>> paths);
+
+/// Loads, checks and places a job, and shows its warnings on standard error. Also checks the outputs of the
+/// options and `more_outputs` (check_outputs). Throws core::DataError.
+PreparedJob prepare_and_warn(const JobOptions& options,
+                             const std::vector<std::filesystem::path>& more_outputs = {});
+
+}  // namespace unicursal::host

@@ -1,0 +1,160 @@
+#include "host/dry_run/dry_run.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/dry_run/lockstep_clock.hpp"
+#include "host/dry_run/simulator_process.hpp"
+#include "host/engine/session.hpp"
+#include "host/report/print_report.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr double unattended_pause = 60;  ///< s; then somebody has seen to the simulated printer
+
+/// Real time is for watching how the host paces; virtual time needs no patience and repeats exactly.
+bool is_virtual(const DryRunOptions& options) {
+  return options.printer.speed == 0;
+}
+
+/// The firmware that the profile is written for, unless another one is asked for.
+std::string personality_of(const DryRunOptions& options, const PreparedJob& prepared) {
+  return options.personality_chosen ? options.printer.personality : prepared.job.profile.printer.firmware;
+}
+
+std::vector<std::string> simulator_arguments(const DryRunOptions& options, const PreparedJob& prepared) {
+  const sim::SimulatorOptions& printer = options.printer;
+  std::vector<std::string> arguments = {"--profile",     prepared.job.profile.file.string(),
+                                        "--speed",       fmt::format("{}", printer.speed),
+                                        "--baud",        fmt::format("{}", prepared.job.profile.baud),
+                                        "--personality", personality_of(options, prepared),
+                                        "--usb",         printer.usb};
+  for (const std::string& fault : printer.faults) arguments.insert(arguments.end(), {"--fault", fault});
+  if (printer.fault_file) arguments.insert(arguments.end(), {"--faults", printer.fault_file->string()});
+  if (printer.tanks) arguments.insert(arguments.end(), {"--tanks", fmt::format("{}", *printer.tanks)});
+  if (printer.seed) arguments.insert(arguments.end(), {"--seed", fmt::format("{}", *printer.seed)});
+  if (options.outputs.pictures) {
+    arguments.insert(arguments.end(), {"--picture", options.outputs.pictures->string()});
+  }
+  return arguments;
+}
+
+Comparison compare_with(const nlohmann::json& simulator, const Run& run, const StreamResult& result) {
+  Fed fed;
+  fed.filament_diameter = run.prepared().job.profile.printer.filament_diameter;
+  const gcode::Printer& printer = run.prepared().job.profile.printer;
+  fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
+  fed.flow_factors = printer.flow_factors;
+  fed.lines_sent = result.statistics.lines + result.statistics.queries;
+  return compare(run.fed(), simulator, fed);
+}
+
+StreamSettings settings_for(const DryRunOptions& options, const Profile& profile,
+                            const SimulatorProcess& simulator) {
+  StreamSettings settings;
+  settings.link = link_options(profile, options.log);
+  settings.profile = profile.file;
+  settings.longest_pause = unattended_pause;
+  if (is_virtual(options)) {
+    settings.clock = std::make_shared<LockstepClock>(simulator.control());
+  } else {
+    settings.clock = real_clock(options.printer.speed);
+  }
+  return settings;
+}
+
+/// In virtual time what planning takes is charged for; where it is free, there is no hurry.
+LookaheadOptions planning_for(const DryRunOptions& options, const PreparedJob& prepared,
+                              const StreamSettings& settings) {
+  LookaheadOptions planning = paced(lookahead_options(prepared), settings.clock);
+  if (!is_virtual(options)) return planning;
+  planning.pace.reset();
+  if (options.charge > 0) planning.pace = PlanningClock{{}, options.charge};
+  return planning;
+}
+
+/// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.
+nlohmann::json planning_of(const DryRunOptions& options, const Lookahead& lookahead,
+                           const StreamResult& result) {
+  nlohmann::json planning =
+      is_virtual(options) ? nlohmann::json{{"charge", options.charge}} : planning_json(lookahead);
+  planning["waited_seconds"] = result.waited;
+  return planning;
+}
+
+RunOutputs outputs_of(const DryRunOptions& options) {
+  RunOutputs outputs = options.outputs;
+  outputs.repeatable = is_virtual(options);
+  return outputs;
+}
+
+/// Thousands of numbers that nobody reads, once they have been judged.
+void leave_out_histograms(nlohmann::json& simulator) {
+  const auto motion = simulator.find("motion");
+  if (motion == simulator.end() || !motion->is_object()) return;
+  motion->erase("flow_seconds");
+  motion->erase("flow_by_second");
+}
+
+/// A report of a failed print tells what the printer saw of it, if it still can.
+void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
+                     SimulatorProcess& simulator) {
+  try {
+    extra["simulator"] = simulator.finish();
+  } catch (const SimulatorError&) {
+    // What ended the print is told; what ended the simulator would only distract from it.
+  }
+  conclude(run, result, extra);
+}
+
+/// The simulator's own report; where it fails at its very end, that is how the dry run ended.
+nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult result, DepositCheck& check,
+                       const nlohmann::json& planning) {
+  try {
+    return simulator.finish();
+  } catch (const SimulatorError& error) {
+    check.finish();
+    result.ending = Ending::failed;
+    result.reason = error.what();
+    conclude(run, result, {{"planning", planning}, {"laid", check.to_json()}});
+    throw;
+  }
+}
+
+}  // namespace
+
+DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream) {
+  check_beginning(prepared);
+  Run run(prepared, "dry-run", outputs_of(options));
+  // Outlives the simulator, whose end is that of the stream it waits for.
+  DepositCheck check(intended_materials(prepared, run.encoder()), options.outputs.pictures);
+  SimulatorProcess simulator(simulator_arguments(options, prepared), is_virtual(options)
+                                                                         ? SimulatorProcess::Time::lockstep
+                                                                         : SimulatorProcess::Time::own);
+  run.tell(check);
+  check.watch(simulator.take_rasters());
+  StreamSettings settings = settings_for(options, prepared.job.profile, simulator);
+  Lookahead lookahead(*prepared.part, planning_for(options, prepared, settings));
+  const int port = open_port(simulator.port(), prepared.job.profile.baud);
+  PlannedSource source(lookahead, run);
+  const StreamResult result = stream(port, source, settings);
+  settings.clock.reset();  // hangs up, which the simulator waits for
+  const nlohmann::json planning = planning_of(options, lookahead, result);
+  if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
+  nlohmann::json seen = seen_by(simulator, run, result, check, planning);
+  check.finish();
+  const MotionFindings motion = motion_findings(seen, run.flow());
+  leave_out_histograms(seen);
+  const Comparison comparison = compare_with(seen, run, result);
+  conclude(run, result,
+           {{"planning", planning},
+            {"simulator", seen},
+            {"comparison", to_json(comparison)},
+            {"laid", check.to_json()},
+            {"motion", to_json(motion)}});
+  return {result, run.totals(), lookahead.effort(), comparison, motion, check.total(), check.problem()};
+}
+
+}  // namespace unicursal::host

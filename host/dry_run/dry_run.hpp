@@ -1,0 +1,45 @@
+// A print on the simulated printer: the same planning, encoding and streaming, with a simulator in a process
+// of its own at the other end of the line, and everything that it laid judged against the job.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "host/engine/prepared_job.hpp"
+#include "host/engine/run.hpp"
+#include "host/engine/session_types.hpp"
+#include "host/engine/source.hpp"
+#include "host/report/deposit_findings.hpp"
+#include "host/report/motion_findings.hpp"
+#include "host/report/totals.hpp"
+#include "sim/simulator_options.hpp"
+
+namespace unicursal::host {
+
+struct DryRunOptions {
+  sim::SimulatorOptions printer;             ///< `speed` 0: virtual time
+  bool personality_chosen = false;           ///< false: the simulator speaks the firmware of the profile
+  double charge = 0;                         ///< s of virtual time for each second of planning
+  std::optional<std::filesystem::path> log;  ///< of the serial line
+  RunOutputs outputs;
+};
+
+struct DryRunResult {
+  StreamResult stream;  ///< completed or stopped
+  RunTotals totals;
+  PlanningEffort effort;
+  Comparison comparison;
+  MotionFindings motion;
+  DepositFindings laid;
+  std::optional<std::string> problem;  ///< why judging what was laid ended early, if it did
+};
+
+/// Streams a print to the port, whose descriptor it takes over (stream.hpp).
+using Streamer = std::function<StreamResult(int port, Source& source, const StreamSettings& settings)>;
+
+/// Also writes the report. Throws core::DataError, SimulatorError, and PrintError if the print has failed.
+DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream);
+
+}  // namespace unicursal::host

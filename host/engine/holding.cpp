@@ -1,0 +1,258 @@
+#include "host/engine/holding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "firmware_gcode/toolpath/job_frame.hpp"
+#include "host/engine/seconds.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between signs of life to a printer that is held: more often than any firmware switches its motors off
+/// (Marlin: two minutes), which would lose the place, and soon enough to find that the cable is out.
+constexpr auto sign_of_life = 10s;
+/// How long the nozzle may stand on the part with nothing to do: it melts into it, and what drips stays
+/// there.
+constexpr auto idle_patience = 5s;
+/// How long a nozzle is kept hot although nobody comes: what is in it chars, and it is a danger.
+constexpr auto hot_patience = 15min;
+constexpr auto look_interval = 2s;  ///< between looks whether what is missing has come
+
+std::vector<std::string> signs_of_life() {
+  return {gcode::stay_watchful()};
+}
+
+}  // namespace
+
+asio::awaitable<void> Holding::between_batches() {
+  co_await make_changes();
+  while (parts_.intent.pausing()) co_await hold();
+}
+
+asio::awaitable<void> Holding::make_changes() {
+  while (!changes_.empty() && !parts_.intent.ends()) {
+    std::vector<std::string> lines(1, changes_.front());
+    changes_.pop_front();
+    parts_.printer.expected.run(lines.front());
+    co_await parts_.places.interpose(std::move(lines));
+  }
+}
+
+gcode::Pause Holding::pause_here() const {
+  return {parts_.printer.expected, parts_.source.extent(), parts_.source.flow(),
+          parts_.settings.pause_heat == PauseHeat::lower};
+}
+
+void Holding::report_position() {
+  report_printed(parts_.source, *parts_.settings.clock,
+                 parts_.progress.chunk_seconds_left() * 100 / parts_.printer.speed_percent);
+}
+
+/// Before the first move there is nothing to go away from.
+asio::awaitable<void> Holding::hold() {
+  const bool moving = !parts_.intent.paused_by_firmware() && parts_.printer.knows_position();
+  co_await go_aside(parts_.intent.reason(), moving);
+  co_await wait_held();
+  parts_.intent.end_pause();
+  co_await come_back(moving);
+}
+
+/// Precondition: the printer is not in a wait for heat.
+asio::awaitable<void> Holding::go_aside(std::string why, bool moving) {
+  ++pauses_;
+  parts_.announcer.enter(SessionState::pausing, why);
+  if (moving) {
+    gcode::Chunk chunk = gcode::go_aside(parts_.source.printer(), pause_here());
+    parts_.places.record_progress();
+    way_aside_ = chunk.lines;
+    parts_.places.record_way(way_aside_);
+    co_await parts_.places.interpose(std::move(chunk.lines));
+    co_await parts_.link.drain();
+    parts_.places.record_progress();
+    parts_.places.record_aside();
+  }
+  hot_until_ = now() + hot_patience;
+  parts_.announcer.enter(SessionState::paused, why);
+}
+
+asio::awaitable<void> Holding::come_back(bool moving) {
+  const Intent& intent = parts_.intent;
+  if (intent.ends()) co_return;
+  parts_.announcer.enter(SessionState::resuming);
+  report_position();
+  parts_.printer.may_wait_for_heat = true;  // a stop ends it
+  if (moving) {
+    std::vector<std::string> lines = gcode::come_back(parts_.source.printer(), pause_here()).lines;
+    way_aside_.insert(way_aside_.end(), lines.begin(), lines.end());
+    parts_.places.record_way(way_aside_);  // first: from now on the nozzle may be anywhere on it
+    co_await parts_.places.interpose(std::move(lines));
+  }
+  if (moving && !intent.ends()) co_await parts_.link.drain();
+  parts_.printer.may_wait_for_heat = false;
+  if (moving) cooled_ = false;
+  co_await heat_again();
+  if (intent.ends()) co_return;
+  if (moving) parts_.places.record_way({});
+  parts_.announcer.enter(SessionState::printing);
+}
+
+/// For a nozzle that has cooled without having been moved.
+asio::awaitable<void> Holding::heat_again() {
+  if (!std::exchange(cooled_, false) || parts_.intent.ends()) co_return;
+  parts_.printer.may_wait_for_heat = true;  // a stop ends it
+  std::vector<std::string> lines(1, fmt::format("M109 S{:.0f}", parts_.printer.expected.nozzle));
+  co_await parts_.places.interpose(std::move(lines));
+  if (!parts_.intent.ends()) co_await parts_.link.drain();
+  parts_.printer.may_wait_for_heat = false;
+}
+
+/// Returns when the pause is to end. What is asked for meanwhile is done at once.
+asio::awaitable<void> Holding::wait_held() {
+  const Intent& intent = parts_.intent;
+  const auto& longest = parts_.settings.longest_pause;
+  const TimePoint last = longest ? now() + duration(*longest) : TimePoint::max();
+  const std::function<bool()> ready = [&] { return !intent.paused() || !changes_.empty(); };
+  while (intent.paused()) {
+    if (!co_await parts_.wake.wait(std::min(last, now() + sign_of_life), ready)) {
+      if (now() >= last) co_return;
+      if (!intent.paused_by_firmware()) co_await stay_aside(parts_.printer.knows_position());
+    }
+    co_await make_changes();
+  }
+}
+
+/// Lets the firmware know that this program is alive. If nobody comes for long, the nozzle cools until the
+/// print goes on.
+asio::awaitable<void> Holding::stay_aside(bool moved) {
+  report_position();
+  co_await parts_.places.interpose(signs_of_life());
+  const bool lower = parts_.settings.pause_heat == PauseHeat::lower;
+  if (cooled_ || (lower && moved)) co_return;  // on the way aside
+  if (!(lower && parts_.intent.paused_by_session()) && now() < hot_until_) co_return;
+  cooled_ = true;
+  parts_.announcer.notice("the nozzle cools, and is heated before it goes on");
+  std::vector<std::string> cool(1, gcode::cool_aside(parts_.printer.expected));
+  co_await parts_.places.interpose(std::move(cool));
+}
+
+asio::awaitable<void> Holding::wait_for(const Need& need) {
+  const Intent& intent = parts_.intent;
+  // Before the printer has answered there is nothing to be steered.
+  const bool connected = parts_.announcer.state() != SessionState::connecting;
+  const std::function<bool()> event = [&] {
+    return need.come() || intent.ends() || (connected && (intent.pausing() || !changes_.empty()));
+  };
+  while (!need.come() && !intent.ends()) {
+    const TimePoint patient_until = now() + idle_patience;
+    while (!event() && now() < patient_until) {
+      if (need.look) co_await need.look();
+      std::optional<Clock::Hold> hold;
+      if (need.at_work) hold.emplace(*parts_.settings.clock);
+      co_await parts_.wake.wait(std::min(std::min(patient_until, need.at), now() + look_interval), event);
+    }
+    if (event())
+      co_await between_batches();
+    else
+      co_await wait_aside(need);
+  }
+}
+
+/// A pause that was asked for meanwhile lasts until the user ends it. As long as nothing is laid, the nozzle
+/// may stay where it is.
+asio::awaitable<void> Holding::wait_aside(const Need& need) {
+  const Intent& intent = parts_.intent;
+  const bool moving = parts_.progress.has_laid() && parts_.printer.knows_position();
+  const std::function<bool()> over = [&] {
+    if (intent.ends()) return true;
+    const bool paused = intent.paused_by_session();
+    return moving ? need.come() && !paused : need.come() || paused;
+  };
+  const std::function<bool()> event = [&] { return over() || !changes_.empty(); };
+  waits_aside_ = moving;
+  hot_until_ = now() + hot_patience;
+  if (moving) co_await go_aside(need.why, true);
+  for (TimePoint sign = now() + sign_of_life; !over();) {
+    TimePoint next = sign;
+    if (!need.come()) {
+      if (need.look) co_await need.look();
+      next = std::min(need.at, need.look ? now() + look_interval : sign);
+    }
+    co_await parts_.wake.wait(next, event);
+    if (parts_.announcer.state() == SessionState::connecting) continue;
+    co_await make_changes();
+    if (now() < sign) continue;
+    sign = now() + sign_of_life;
+    co_await stay_aside(moving);
+  }
+  waits_aside_ = false;
+  if (moving)
+    co_await come_back(true);
+  else
+    co_await heat_again();
+}
+
+// ---- commands
+
+/// Whether it is too late for a command.
+bool Holding::over() const {
+  return has_ended(parts_.announcer.state()) || parts_.announcer.is_ending() || parts_.intent.ends();
+}
+
+Refusal Holding::pause(const std::string& reason) {
+  if (over()) return ends_already;
+  if (parts_.intent.pausing()) return "it is paused already";
+  parts_.intent.pause(reason);
+  parts_.announcer.notice(parts_.printer.may_wait_for_heat ? pause_when_hot : "it is held in a moment");
+  return std::nullopt;
+}
+
+Refusal Holding::resume() {
+  if (parts_.intent.ends()) return ends_already;
+  if (waits_aside_ && !parts_.intent.pausing()) return "it waits for something: " + parts_.announcer.reason();
+  if (!parts_.intent.pausing() && !parts_.announcer.holds()) return "it is not paused";
+  end_pause();
+  return std::nullopt;
+}
+
+/// A pause that has not been carried out is forgotten.
+void Holding::end_pause() {
+  parts_.link.end_wait_for_user();
+  if (parts_.intent.paused_by_firmware() || (parts_.announcer.holds() && !waits_aside_))
+    parts_.intent.resume();
+  else
+    parts_.intent.end_pause();
+  parts_.wake.notify();
+}
+
+Refusal Holding::change(const std::string& line) {
+  if (over()) return ends_already;
+  changes_.push_back(line);
+  parts_.wake.notify();
+  return std::nullopt;
+}
+
+void Holding::pause_because_cold() {
+  if (over() || !parts_.intent.printing() || waits_aside_ || parts_.announcer.holds()) return;
+  parts_.intent.pause(
+      "the nozzle is too cold, the printer refuses to push filament: look at the heater before it goes on, "
+      "and at the part, since the last lines were not laid");
+  parts_.announcer.notice("Error: " + parts_.intent.reason());
+  parts_.wake.notify();
+}
+
+void Holding::pause_for_printer(const std::string& reason, PausedBy by) {
+  if (!over()) parts_.intent.pause(reason, by);
+  parts_.wake.notify();
+}
+
+void Holding::resume_for_printer() {
+  if (parts_.intent.pausing()) end_pause();
+}
+
+}  // namespace unicursal::host

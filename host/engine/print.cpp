@@ -1,0 +1,111 @@
+#include "host/engine/print.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host/engine/restart.hpp"
+#include "host/link/link.hpp"
+
+namespace unicursal::host {
+namespace {
+
+PreparedJob checked(PreparedJob prepared) {
+  check_beginning(prepared);
+  return prepared;
+}
+
+PreparedJob prepare_again(const Spool& spool) {
+  std::optional<LayerRange> layers;
+  if (const auto& asked = spool.order().layers) layers = LayerRange{asked->first, asked->second};
+  return prepare(spool.job(), layers);
+}
+
+LookaheadOptions behind(LookaheadOptions options, const SpoolExtent& extent) {
+  const std::size_t done = std::min(options.count, extent.layers);
+  options.first += done;
+  options.count -= done;
+  return options;
+}
+
+PrintOrder order_of(const PreparedJob& prepared, const std::string& port, const std::string& device) {
+  PrintOrder order;
+  order.job_name = prepared.job.file.stem().string();
+  order.port = port;
+  order.device = device;
+  order.layer_count = prepared.count;
+  if (const auto& layers = prepared.layers) order.layers = std::pair(layers->first, layers->last);
+  return order;
+}
+
+StreamSettings settings_for(const PreparedJob& prepared, const PrintOptions& options) {
+  StreamSettings settings;
+  settings.profile = prepared.job.profile.file;
+  settings.pause_heat = options.pause_heat;
+  return settings;
+}
+
+}  // namespace
+
+Print::Print(PreparedJob prepared, std::string command, const PrintOptions& options,
+             const RunOutputs& outputs)
+    : prepared_(checked(std::move(prepared))),
+      options_(options),
+      settings_(settings_for(prepared_, options)),
+      run_(prepared_, std::move(command), outputs),
+      lookahead_(*prepared_.part, paced(lookahead_options(prepared_), settings_.clock)) {
+  const std::string port = options.port.value_or(prepared_.job.profile.port);
+  open(port);
+  try {
+    spool_.emplace(Spool::create(options.spool ? *options.spool : default_spool_root(), prepared_.job,
+                                 order_of(prepared_, port, device_of(port_))));
+  } catch (...) {
+    close(port_);
+    throw;
+  }
+  settings_.spool = &*spool_;
+  source_.emplace(lookahead_, run_);
+}
+
+Print::Print(Spool spool, std::string command, const PrintOptions& options)
+    : spool_(std::move(spool)),
+      prepared_(prepare_again(*spool_)),
+      options_(options),
+      settings_(settings_for(prepared_, options)),
+      run_(prepared_, std::move(command), {}),
+      lookahead_(*prepared_.part,
+                 paced(behind(lookahead_options(prepared_), spool_->extent()), settings_.clock)) {
+  settings_.spool = &*spool_;
+}
+
+Print::~Print() {
+  if (port_ >= 0) close(port_);
+}
+
+void Print::open(const std::string& port) {
+  settings_.link = {};  // closes an earlier log
+  settings_.link = link_options(prepared_.job.profile, options_.log);
+  port_ = open_port(port, prepared_.job.profile.baud, settings_.link);
+}
+
+void Print::connect(std::optional<Leg> leg) {
+  open(options_.port.value_or(spool_->order().port));
+  settings_.continuation = Continuation{std::move(leg), [this] { catch_up(run_, *spool_); }};
+  source_.emplace(lookahead_, run_, spool_->extent().rest);
+}
+
+int Print::take_port() {
+  return std::exchange(port_, -1);
+}
+
+Session& Print::begin(asio::any_io_executor executor) {
+  session_.emplace(std::move(executor), take_port(), *source_, settings_);
+  return *session_;
+}
+
+void Print::end() {
+  session_.reset();
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,81 @@
+// One print with everything that a session needs, in the order in which it has to go away. The foreground
+// commands and the daemon print through it; a dry run, which keeps no spool, has its own (host/dry_run).
+//
+//   Print print(prepare(load_job("leaf.toml")), "print", {.port = "/dev/ttyUSB0"});
+//   stream(print.take_port(), print.source(), observer, print.settings());
+//
+// Making one reads files and opens the port, which takes time; printing belongs to the loop's thread.
+#pragma once
+
+#include <asio/any_io_executor.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/engine/prepared_job.hpp"
+#include "host/engine/run.hpp"
+#include "host/engine/session.hpp"
+#include "host/engine/source.hpp"
+#include "host/lookahead/lookahead.hpp"
+#include "host/spool/spool.hpp"
+
+namespace unicursal::host {
+
+struct PrintOptions {
+  std::optional<std::string> port;             ///< absent: the profile's, or that of the print that continues
+  std::optional<std::filesystem::path> spool;  ///< folder of the prints; absent: the user's
+  std::optional<std::filesystem::path> log;    ///< of the serial line
+  PauseHeat pause_heat = PauseHeat::keep;
+};
+
+class Print {
+ public:
+  /// A new print: checks that its first layer can be printed, starts planning, opens the port and then the
+  /// spool. `command` is the word in the report. From any thread. Throws core::DataError, PortError.
+  Print(PreparedJob prepared, std::string command, const PrintOptions& options,
+        const RunOutputs& outputs = {});
+  /// A print that continues behind what `spool` holds: starts planning; connect() opens the port.
+  Print(Spool spool, std::string command, const PrintOptions& options);
+  ~Print();
+  Print(const Print&) = delete;
+  Print& operator=(const Print&) = delete;
+
+  /// Only for a print that continues, and again after a session that found its place lost. `leg`: as in
+  /// Continuation. Throws PortError.
+  void connect(std::optional<Leg> leg);
+
+  /// What stream() or a Session takes; the port's descriptor once after each time that it was opened.
+  int take_port();
+  Source& source() { return *source_; }
+  const StreamSettings& settings() const { return settings_; }
+
+  /// Makes the session; once, on the loop's thread.
+  Session& begin(asio::any_io_executor executor);
+  Session* session() { return session_ ? &*session_ : nullptr; }
+  const Session* session() const { return session_ ? &*session_ : nullptr; }
+  /// On the loop's thread, when the session's run() has ended; the rest may then go away in any thread.
+  void end();
+
+  const PreparedJob& prepared() const { return prepared_; }
+  Run& run() { return run_; }
+  const Lookahead& lookahead() const { return lookahead_; }
+  Spool& spool() { return *spool_; }
+  /// The name that `unicursal resume` takes.
+  std::string kept_as() const { return spool_->folder().filename().string(); }
+
+ private:
+  void open(const std::string& port);
+
+  std::optional<Spool> spool_;
+  const PreparedJob prepared_;
+  const PrintOptions options_;
+  StreamSettings settings_;
+  Run run_;
+  Lookahead lookahead_;
+  int port_ = -1;  ///< until a session has taken it over
+  std::optional<PlannedSource> source_;
+  std::optional<Session> session_;
+};
+
+}  // namespace unicursal::host

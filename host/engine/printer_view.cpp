@@ -1,0 +1,59 @@
+#include "host/engine/printer_view.hpp"
+
+#include <variant>
+
+#include "host/engine/printer_check.hpp"
+
+namespace unicursal::host {
+namespace {
+
+namespace reply = gcode::reply;
+
+void update(gcode::Temperatures& known, const gcode::Temperatures& reported) {
+  const auto take = [](std::optional<double>& to, const std::optional<double>& from) {
+    if (from) to = from;
+  };
+  take(known.nozzle, reported.nozzle);
+  take(known.nozzle_target, reported.nozzle_target);
+  take(known.bed, reported.bed);
+  take(known.bed_target, reported.bed_target);
+}
+
+Remark::Kind kind_of(const reply::Echo& echo, const std::string& line) {
+  if (echo.unknown_command && denies_mixing(line)) return Remark::Kind::no_mixing;
+  if (echo.unknown_command && echo.text.find("M85") != std::string::npos) return Remark::Kind::unknown_m85;
+  if (echo.text.find("cold extrusion") != std::string::npos) return Remark::Kind::too_cold;
+  return Remark::Kind::other;
+}
+
+}  // namespace
+
+Remark PrinterView::hear(const std::string& line) {
+  const gcode::Reply reply = gcode::parse_reply(line);
+  if (const auto* ok = std::get_if<reply::Ok>(&reply)) {
+    update(temperatures, ok->temperatures);
+    return {Remark::Kind::temperatures, {}};
+  }
+  if (const auto* report = std::get_if<reply::TemperatureReport>(&reply)) {
+    update(temperatures, report->temperatures);
+    return {Remark::Kind::temperatures, {}};
+  }
+  if (const auto* error = std::get_if<reply::Error>(&reply); error && error->halted) {
+    halted = true;
+    return {Remark::Kind::halted, error->text};
+  }
+  if (const auto* action = std::get_if<reply::Action>(&reply)) return {Remark::Kind::action, action->text};
+  if (const auto* echo = std::get_if<reply::Echo>(&reply)) {
+    const Remark::Kind kind = kind_of(*echo, line);
+    mixes = mixes && kind != Remark::Kind::no_mixing;
+    return {kind, echo->text};
+  }
+  return {Remark::Kind::other, line};
+}
+
+bool PrinterView::knows_position() const {
+  const auto& position = expected.position;
+  return position[0] && position[1] && position[2] && !expected.relative;
+}
+
+}  // namespace unicursal::host

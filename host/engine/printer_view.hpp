@@ -1,0 +1,45 @@
+// The printer as a session knows it: what it has said, and what the lines that were handed to the link make
+// of it. °C, per cent. No I/O: the session passes on every line that comes and goes. It belongs to the loop's
+// thread.
+#pragma once
+
+#include <string>
+
+#include "firmware_gcode/interruption/modal_state.hpp"
+#include "firmware_gcode/reply/reply.hpp"
+
+namespace unicursal::host {
+
+/// What a line from the printer means to the print.
+struct Remark {
+  enum class Kind {
+    temperatures,  ///< nothing else is in it
+    unknown_m85,   ///< the firmware does not know M85: nothing cools it when this computer fails
+    no_mixing,     ///< the firmware does not know M163
+    too_cold,      ///< it drives on without extruding, since the nozzle is too cold
+    action,        ///< `text`: what it asks for by "//action:"
+    halted,        ///< it has stopped itself; only a reset helps
+    other          ///< a person may want to see it, the session does nothing
+  };
+  Kind kind = Kind::other;
+  std::string text;
+};
+
+struct PrinterView {
+  /// Takes a line from the printer into account.
+  Remark hear(const std::string& line);
+
+  /// Whether the nozzle's position is known, so that it can be taken aside and back.
+  bool knows_position() const;
+
+  gcode::Temperatures temperatures;  ///< as the printer last reported them, °C
+  bool mixes = true;                 ///< false once the printer has denied it
+  bool halted = false;               ///< the firmware has said that it has stopped itself
+  gcode::ModalState expected;        ///< after all lines of the print that were handed to the link
+  bool may_wait_for_heat = false;    ///< it may be in a wait for heat, and read nothing until that ends
+  bool must_not_move = false;        ///< it does not know where its nozzle is
+  double speed_percent = 100;        ///< that the user has set, of the print's speed
+  double flow_percent = 100;         ///< that the user has set, of the print's plastic
+};
+
+}  // namespace unicursal::host

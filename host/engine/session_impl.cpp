@@ -1,0 +1,405 @@
+#include "host/engine/session_impl.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <asio/bind_executor.hpp>
+#include <asio/co_spawn.hpp>
+#include <asio/post.hpp>
+#include <exception>
+#include <new>
+
+#include "host/engine/printer_check.hpp"
+#include "host/engine/rejoining.hpp"
+#include "host/engine/seconds.hpp"
+#include "host/link/serial_log.hpp"
+#include "host/spool/chunk_reader.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr double look_ahead = 300;  ///< s of printing that are planned before they are needed
+
+/// Lines handed to the link at once: few, so that a command takes effect soon.
+constexpr std::size_t batch = 16;
+
+constexpr auto late_answer = std::chrono::seconds(1);  ///< of a printer that says ok first
+
+constexpr auto fell_behind = "planning has fallen behind; it goes on by itself when the next layer is there";
+
+bool moves_away(const std::string& line) {
+  const bool move = line.starts_with("G0 ") || line.starts_with("G1 ");
+  return move && (line.find(" X") != std::string::npos || line.find(" Y") != std::string::npos);
+}
+
+/// Lines of a lead-in up to the last one that waits for heat: what follows moves.
+std::uint64_t heat_lines(const std::vector<std::string>& lead_in) {
+  const auto waits = [](const std::string& line) {
+    return line.starts_with("M109") || line.starts_with("M190");
+  };
+  const auto last = std::find_if(lead_in.rbegin(), lead_in.rend(), waits);
+  return static_cast<std::uint64_t>(lead_in.rend() - last);
+}
+
+LinkOptions on_clock(const StreamSettings& settings) {
+  LinkOptions options = settings.link;
+  options.clock = settings.clock;
+  return options;
+}
+
+}  // namespace
+
+std::string sentence(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    return "memory ran out; close other programs or choose a coarser job";
+  } catch (const std::exception& known) {
+    return known.what();
+  } catch (...) {
+    return "something unknown went wrong";
+  }
+}
+
+Session::State::State(asio::any_io_executor on, int descriptor, Source& of, StreamSettings with)
+    : executor(on),
+      port(descriptor),
+      source(of),
+      settings(std::move(with)),
+      spool(settings.spool),
+      clock(settings.clock),
+      wake(on, clock),
+      alive(std::make_shared<State*>(this)),
+      link(on, descriptor, on_clock(settings)),
+      progress(settings.continuation ? Progress::resumed(spool->extent().layers) : Progress()),
+      places(link, spool),
+      holding({link, wake, source, settings, places, printer, announcer, intent, progress}) {
+  link.on_message([this](const std::string& line) { hear(line); });
+  source.on_ready([on, weak = std::weak_ptr(alive)] {
+    asio::post(on, [weak] {
+      if (const auto state = weak.lock()) (*state)->wake.notify();
+    });
+  });
+}
+
+Session::State::~State() {
+  source.on_ready({});
+  disk.join();  // before what its work refers to goes away
+}
+
+// ---- the way through a print
+
+asio::awaitable<void> Session::State::print() {
+  result.begun = settings.continuation.has_value();
+  co_await begin();
+  result.begun = true;
+  if (result.lost) co_return;
+  std::exception_ptr error;
+  try {
+    if (settings.continuation) co_await send_spooled();
+    if (!settings.continuation || spool->extent().start_lines == 0) co_await start();
+    co_await send_steps();
+    co_await holding.between_batches();  // a pause that was asked for in the last lines
+  } catch (const LinkError&) {
+    throw;
+  } catch (...) {
+    error = std::current_exception();
+  }
+  if (intent.aborted()) throw LinkError("the print was stopped at once");
+  // The printer is hot by now and must be left cold, even after an error.
+  if (intent.stopped() || error) {
+    announcer.enter(SessionState::cancelling, error ? sentence(error) : intent.reason());
+    co_await park();
+  } else {
+    announcer.enter(SessionState::finishing);
+    co_await finish();
+  }
+  if (error) throw PrintError(sentence(error) + "; the print was ended there");
+}
+
+asio::awaitable<void> Session::State::begin() {
+  const auto& continuation = settings.continuation;
+  if (continuation && !continuation->leg) co_return co_await rejoin();
+  if (continuation) spool->journal().begin_leg(*continuation->leg);
+  co_await link.connect();
+  check_firmware();
+  co_await check_mixing();
+  if (spool) spool->supersede_others();
+}
+
+void Session::State::check_firmware() {
+  const gcode::Identity& identity = link.identity();
+  if (const auto why = mismatch(identity, source.printer().firmware)) {
+    result.unfit = true;
+    const std::string remedy = settings.continuation
+                                   ? "go on where the print was begun, or print the job anew"
+                                   : correction(identity, settings.profile);
+    throw LinkError(fmt::format("this printer cannot be used: {}; {}", *why, remedy));
+  }
+  if (const auto strange = strangeness(identity)) announcer.warn(*strange);
+}
+
+/// Some firmwares say ok when a line has come, and answer when they run it. What they answer to the second
+/// question comes behind what they say to the first.
+asio::awaitable<void> Session::State::check_mixing() {
+  std::vector<std::string> questions{mixing_question, "M105"};
+  printer.temperatures = {};
+  co_await places.interpose(std::move(questions));
+  co_await link.drain();
+  const std::function<bool()> answered = [this] {
+    return !printer.mixes || printer.temperatures.nozzle || printer.temperatures.bed;
+  };
+  co_await wake.wait(clock->now() + late_answer, answered);
+  if (printer.mixes) co_return;
+  result.unfit = true;
+  throw LinkError(fmt::format("this printer cannot be used: {}", does_not_mix));
+}
+
+asio::awaitable<void> Session::State::rejoin() {
+  const JournalState& before = spool->before();
+  Rejoined found;
+  try {
+    found = co_await link.rejoin(number_beyond(before));
+  } catch (const PrinterReset& error) {
+    result.lost = Lost{error.what(), std::nullopt};
+    co_return;
+  }
+  check_firmware();
+  result.lost = lost_since(before, found, spool->chunks(), spool->extent());
+  if (result.lost) co_return;
+  places.rejoin({found.next, *before.place_of(found.next)});
+  link.go_on(found.next);
+}
+
+/// Until this is over the source belongs to another thread.
+void Session::State::begin_to_catch_up() {
+  caught_up = false;
+  const auto work = [this]() -> asio::awaitable<void> {
+    settings.continuation->catch_up();
+    co_return;
+  };
+  asio::co_spawn(disk, work, asio::bind_executor(executor, [this](std::exception_ptr error) {
+                   caught_up = true;
+                   catching_up_failed = error;
+                   wake.notify();
+                 }));
+}
+
+asio::awaitable<void> Session::State::catch_up() {
+  const std::function<bool()> done = [this] { return caught_up; };
+  co_await wake.wait(TimePoint::max(), done);
+}
+
+/// Sends what is spooled from here on in this leg.
+asio::awaitable<void> Session::State::send_spooled() {
+  begin_to_catch_up();
+  const Leg& leg = settings.continuation->leg ? *settings.continuation->leg : spool->before().leg;
+  const std::uint64_t hot = leg.lead_in.empty() ? spool->extent().start_lines : heat_lines(leg.lead_in);
+  LegReader reader(spool->chunks(), leg, places.begin());
+  printer.expected = state_at(spool->chunks(), leg, places.begin());
+  bool& heating = printer.may_wait_for_heat;
+  heating = places.begin() < hot;
+  printer.must_not_move = heating && !leg.lead_in.empty();
+  announcer.enter(heating ? SessionState::heating : SessionState::printing);
+  while (!intent.ends()) {
+    // The lines that lead back to the part are not interrupted.
+    if (!heating && places.next() >= leg.lead_in.size()) co_await holding.between_batches();
+    if (intent.ends()) break;
+    std::vector<std::string> lines =
+        reader.next(heating ? std::min<std::uint64_t>(batch, hot - places.next()) : batch);
+    if (lines.empty()) break;
+    progress.replay(reader.layers_begun(), reader.fraction());
+    co_await send_batch(std::move(lines));
+    if (heating && places.next() >= hot) co_await get_hot();
+    printer.must_not_move = printer.must_not_move && intent.ends();
+  }
+  heating = false;
+  progress.end_replay();
+  if (intent.aborted()) co_return;
+  co_await catch_up();
+  if (catching_up_failed) std::rethrow_exception(catching_up_failed);
+}
+
+asio::awaitable<void> Session::State::start() {
+  if (intent.ends()) co_return;
+  gcode::Chunk chunk = source.start();
+  if (!co_await spool_chunk({}, chunk)) co_return;
+  printer.may_wait_for_heat = true;
+  announcer.enter(SessionState::heating);
+  if (source.printer().start_gcode.find("M85") != std::string::npos)
+    announcer.warn(
+        "the profile's start lines set M85; it is set again after them, since nothing else cools the printer "
+        "when this computer fails");
+  co_await send(chunk);
+  co_await get_hot();
+}
+
+/// Returns when the printer is hot.
+asio::awaitable<void> Session::State::get_hot() {
+  if (!intent.ends()) co_await link.drain();
+  printer.may_wait_for_heat = false;
+  if (!intent.ends() && !intent.paused_by_session()) announcer.enter(SessionState::printing);
+}
+
+asio::awaitable<void> Session::State::send_steps() {
+  while (!intent.ends()) {
+    std::optional<PrintStep> step = co_await next_step();
+    if (!step || intent.ends() || !co_await spool_chunk(std::move(step->record), step->chunk)) break;
+    progress.begin_chunk(step->chunk, source.flow());
+    co_await send(step->chunk);
+    if (intent.ends()) break;
+    progress.end_chunk();
+  }
+}
+
+/// Printer time goes on while this computer plans, unless it is virtual: then it stands still meanwhile, and
+/// the time that is charged for planning passes afterwards.
+asio::awaitable<std::optional<PrintStep>> Session::State::next_step() {
+  const TimePoint asked = clock->now();
+  report_position();
+  co_await wait_until_planned();
+  std::optional<PrintStep> step = source.next();
+  if (step) co_await wait_until(TimePoint(duration(step->ready_at)));
+  result.waited += seconds(clock->now() - asked);
+  co_return step;
+}
+
+asio::awaitable<void> Session::State::wait_until_planned() {
+  Need planned;
+  planned.why = fell_behind;
+  planned.come = [this] { return source.ready(); };
+  planned.at_work = true;
+  co_await holding.wait_for(planned);
+}
+
+asio::awaitable<void> Session::State::wait_until(TimePoint ready) {
+  Need planned;
+  planned.why = fell_behind;
+  planned.come = [this, ready] { return clock->now() >= ready; };
+  planned.at = ready;
+  co_await holding.wait_for(planned);
+}
+
+/// What the printer still has in its queue is left out: it is little, and the error is on the safe side.
+void Session::State::report_position() {
+  report_printed(source, *clock, progress.chunk_seconds_left() * 100 / printer.speed_percent);
+}
+
+asio::awaitable<void> Session::State::finish() {
+  if (settings.continuation && spool->extent().finished) {
+    result.parked = true;
+    co_return co_await link.drain();
+  }
+  gcode::Chunk chunk;
+  try {
+    chunk = source.finish();
+  } catch (...) {
+    link.cool_down();
+    throw;
+  }
+  SpooledChunk record;
+  record.kind = SpooledChunk::Kind::finish;
+  if (const std::string problem = co_await try_to_spool(record, chunk); !problem.empty()) {
+    // The part is done: it must not lie below a hot nozzle until there is room.
+    announcer.notice("Error: the end of the print is sent without being kept: " + problem);
+    co_return co_await send_end(std::move(chunk));
+  }
+  result.parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
+  co_await send(chunk);
+  co_await link.drain();
+  places.record_progress();
+}
+
+/// Ends the print before its last layer: these lines do not belong to the print.
+asio::awaitable<void> Session::State::park() {
+  co_await catch_up();
+  gcode::Chunk chunk;
+  try {
+    if (printer.must_not_move)
+      chunk.lines = {"M104 S0", "M140 S0", "M107"};
+    else
+      chunk = source.finish();
+  } catch (...) {
+    link.cool_down();
+    throw;
+  }
+  gcode::keep_commands(chunk.lines);
+  co_await send_end(std::move(chunk));
+}
+
+asio::awaitable<void> Session::State::send_end(gcode::Chunk chunk) {
+  places.leave_print(chunk.lines);
+  result.parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
+  co_await send(chunk);
+  co_await link.drain();
+}
+
+asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
+  // While the printer heats commands have to wait, and at the end they come too late.
+  const bool whole = printer.may_wait_for_heat || announcer.is_ending();
+  for (std::size_t i = 0; i < chunk.lines.size(); i += batch) {
+    if (!whole) co_await holding.between_batches();
+    if (intent.ends() && !announcer.is_ending()) co_return;
+    if (!whole) progress.sent(static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
+    const std::size_t end = std::min(i + batch, chunk.lines.size());
+    co_await send_batch({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
+                         chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});
+  }
+}
+
+asio::awaitable<void> Session::State::send_batch(std::vector<std::string> lines) {
+  for (const std::string& line : lines) printer.expected.run(line);
+  co_await places.send(std::move(lines));
+  if (!places.has_left_print() && !printer.may_wait_for_heat) report_position();
+  announcer.event(SessionEvent::Kind::progress);
+}
+
+StreamResult Session::State::conclude(const std::exception_ptr& error) {
+  result.statistics = link.statistics();
+  result.firmware = link.firmware();
+  result.pauses = holding.pauses();
+  if (intent.stopped()) result.ending = Ending::stopped;
+  if (error) result.reason = sentence(error);
+  if (intent.aborted()) result.reason = announcer.reason();
+  if (!result.reason.empty()) result.ending = Ending::failed;
+  switch (result.ending) {
+    case Ending::completed:
+      announcer.enter(SessionState::done);
+      break;
+    case Ending::stopped:
+      announcer.enter(SessionState::stopped, intent.reason());
+      break;
+    case Ending::failed:
+      announcer.enter(SessionState::failed, result.reason);
+  }
+  if (spool && !result.begun) {
+    spool->discard();
+  } else if (!result.lost) {
+    constexpr std::array outcomes{Outcome::completed, Outcome::stopped, Outcome::failed};
+    places.record_end({outcomes.at(static_cast<std::size_t>(result.ending)), result.reason});
+  }
+  return result;
+}
+
+// ---- options of a session
+
+PlanningClock planning_clock(std::shared_ptr<Clock> clock) {
+  return {[clock = std::move(clock)] { return seconds(clock->now().time_since_epoch()); }, 1};
+}
+
+LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& clock) {
+  options.horizon = look_ahead;
+  options.pace = planning_clock(clock);
+  return options;
+}
+
+LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log) {
+  LinkOptions options;
+  options.receive_buffer = profile.receive_buffer - 1;  // in a ring, one place always stays free
+  options.temperatures = std::chrono::seconds(2);
+  if (log) options.log = std::make_shared<SerialLog>(*log);
+  return options;
+}
+
+}  // namespace unicursal::host
