@@ -1,5 +1,5 @@
-// The clock of a print: this computer's, or that of a simulated printer. All waits and timeouts are measured by
-// it, so a dry run has the timeouts of a real print.
+// The clock of a print: this computer's, or that of a simulated printer. All waits and timeouts are measured
+// by it, so a dry run has the timeouts of a real print.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -19,8 +19,8 @@ class Clock {
   virtual ~Clock() = default;
 
   virtual TimePoint now() const = 0;
-  /// Arms `timer`, which must have no waiters, to fire at `deadline` of this clock. A virtual clock fires it by
-  /// cancelling it.
+  /// Arms `timer`, which must have no waiters, to fire at `deadline` of this clock. A virtual clock fires it
+  /// by cancelling it.
   virtual void set(asio::steady_timer& timer, TimePoint deadline) = 0;
   /// To be called before the timer is destroyed.
   virtual void forget(asio::steady_timer&) noexcept {}
