@@ -1,18 +1,18 @@
 // Which files a client may have printed: jobs in the folders that the daemon was started with, and what was
 // uploaded. A client names them, and never a path of its own:
 //
-//   "leaf.toml", "animals/fish.toml"   in one of the folders; what it leads to, links followed, must lie
-//   there "upload:leaf/job.toml"             in what was uploaded as "leaf"
+//   "leaf.toml", "animals/fish.toml"   a file in one of the folders, links followed, but not out of it
+//   "upload:leaf/job.toml"             a file that was uploaded as part of "leaf"
 //
 // A job of the daemon's own folders may refer to any file, as its owner has written it. An uploaded one may
 // refer to files beside it only: no text in it holds a slash.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "host/http/http_message.hpp"
 
 namespace unicursal::host {
 
@@ -29,7 +29,7 @@ class JobFiles {
   /// `uploads` is made when it is needed.
   JobFiles(std::vector<std::filesystem::path> folders, std::filesystem::path uploads);
 
-  /// The file of a job, known to be one that may be opened. Throws HttpError 400, 404 or 422.
+  /// The file of a job, known to be one that may be opened. Throws Refused.
   std::filesystem::path find(const std::string& name) const;
   static bool is_upload(const std::string& name);
   /// Whether a job of this name is one of the upload's.
@@ -37,10 +37,9 @@ class JobFiles {
   /// Every job that find() would find.
   std::vector<std::string> list() const;
 
-  /// Keeps one file of an upload, in place of an earlier one of the same name. Blocks. Throws HttpError 400
-  /// or 507.
+  /// Keeps one file of an upload, in place of an earlier one of the same name. Blocks. Throws Refused.
   void keep(const std::string& upload, const std::string& file, const std::string& bytes) const;
-  /// Throws HttpError 400 or 404.
+  /// Throws Refused.
   void remove(const std::string& upload) const;
 
  private:

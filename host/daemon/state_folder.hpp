@@ -5,7 +5,7 @@
 //   token           what its clients prove themselves with (0600)
 //   metrics-token   opens /metrics only, for a Prometheus that need not steer printers (0600)
 //   queue.json      the jobs (queue.hpp)
-//   files/          uploads (uploads.hpp)
+//   files/          uploads (job_files.hpp)
 //
 // Nobody but its owner can look into it.
 #pragma once
@@ -15,6 +15,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "host/files/descriptor.hpp"
 
 namespace unicursal::host {
 
@@ -41,14 +42,15 @@ class StateFolder {
 
  private:
   std::filesystem::path folder_;
-  int lock_ = -1;
+  Descriptor lock_;
 };
 
 /// Beside the prints: $XDG_STATE_HOME/unicursal/daemon, or ~/.local/state/unicursal/daemon.
 std::filesystem::path default_state_folder();
 
-/// Whole or not at all, and on the disk when it returns; readable by the owner only. Throws DaemonError.
-void replace_file(const std::filesystem::path& file, const std::string& text);
+/// Writes a file of the folder, readable by its owner only, whole or not at all (whole_file.hpp). Throws
+/// DaemonError.
+void write_state(const std::filesystem::path& file, const std::string& text);
 
 /// What a client reads; absent when no daemon has written it.
 std::optional<std::string> read_line(const std::filesystem::path& file);

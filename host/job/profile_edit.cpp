@@ -171,11 +171,7 @@ void ProfileText::set_transition(double dead_volume, double mixing_volume) const
         fmt::format("write dead_volume = {:.2f} and mixing_volume = {:.2f} into it yourself", dead_volume,
                     mixing_volume));
   }
-  std::ofstream stream = open_draft(file_);
-  std::error_code ignored;
-  std::filesystem::permissions(draft_of(file_), std::filesystem::status(file_).permissions(), ignored);
-  stream << changed;
-  publish_draft(stream, file_);
+  write_whole_file(file_, changed, WholeFile::Access::as_before);
 }
 
 }  // namespace unicursal::host

@@ -187,8 +187,8 @@ TEST_CASE("a job that a full disk cannot keep is not taken, and nothing else is 
   CHECK(bench.status(bench.request("PUT", "/api/files/a/b.svg", std::string(5000, ' '))) == 507);
   CHECK(bench.ask("GET", "/api/jobs")["jobs"].size() == 1);
   CHECK(test::read_text(bench.path("state/queue.json")) == kept);
-  CHECK_FALSE(std::filesystem::exists(bench.path("state/queue.json.new")));
-  CHECK_FALSE(std::filesystem::exists(bench.path("state/files/a/b.svg.new")));
+  CHECK_FALSE(std::filesystem::exists(bench.path("state/queue.json.part")));
+  CHECK_FALSE(std::filesystem::exists(bench.path("state/files/a/b.svg.part")));
   REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &room, nullptr) == 0);
   CHECK(add(bench) > first);
 }
