@@ -12,8 +12,8 @@
 #include "host/cli/cli.hpp"
 #include "host/daemon/serve.hpp"
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/run.hpp"
 #include "host/engine/session_types.hpp"
+#include "host/report/books.hpp"
 #include "host/tune/strip_print.hpp"
 #include "sim/simulator_options.hpp"
 

@@ -21,23 +21,24 @@ void write(WholeFile& file, const gcode::Chunk& chunk) {
 
 Exit plan(const PlanCommand& command) {
   const PreparedJob prepared = prepare_and_warn(command.job, {command.output});
-  Run run(prepared, "plan", command.job.outputs);
+  ChunkMaker maker(prepared);
+  Books books(maker, "plan", command.job.outputs);
   check_beginning(prepared);
   WholeFile file(command.output);
-  write(file, run.start());
+  write(file, maker.start());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   {
     Progress progress("planning", prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {
-      write(file, run.layer(std::move(*layer)));
+      write(file, maker.layer(std::move(*layer)).chunk);
       progress.update(done, 1);
     }
   }
-  write(file, run.rest());
-  write(file, run.finish());
+  write(file, maker.rest());
+  write(file, maker.finish());
   file.publish();
-  run.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
-  show(stdout, "{}written:   {}\n", summary(run.totals(), lookahead.effort()), command.output.string());
+  books.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
+  show(stdout, "{}written:   {}\n", summary(books.totals(), lookahead.effort()), command.output.string());
   return Exit::success;
 }
 

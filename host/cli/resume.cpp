@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/common.hpp"
 #include "host/cli/show.hpp"
 #include "host/engine/print.hpp"
 #include "host/engine/restart.hpp"
-#include "host/report/print_report.hpp"
 #include "host/spool/spool.hpp"
 #include "host/spool/spool_error.hpp"
 
@@ -110,7 +108,7 @@ StreamResult stream_from(Print& print, std::optional<Leg> leg, const ResumeComma
 
 Exit end(Print& print, const StreamResult& result, const ResumeCommand& command) {
   tell_about_spool(print.spool(), result);
-  conclude(print.run(), result, nlohmann::json::object());
+  throw_if_failed(result);
   return tell_ending(result, command.display);
 }
 
@@ -153,7 +151,7 @@ Exit resume(const ResumeCommand& command) {
     throw SpoolError(folder.string(), "", "cannot go on: another print was begun on its printer since",
                      "print the job anew");
   }
-  Print print(std::move(spool), "resume", {command.port, command.spool, command.log, command.pause_heat});
+  Print print(std::move(spool), {command.port, command.spool, command.log, command.pause_heat});
   return go_on(print, command);
 }
 

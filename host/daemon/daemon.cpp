@@ -154,7 +154,8 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
 
 asio::awaitable<void> Daemon::remove(std::uint64_t id) {
   if (!queue_.find(id)) throw Refused(Why::not_found, "there is no job of that number");
-  if (current_ && current_->id == id) throw Refused(Why::conflict, "that job is being printed; cancel it instead");
+  if (current_ && current_->id == id)
+    throw Refused(Why::conflict, "that job is being printed; cancel it instead");
   queue_.remove(id);
   co_await save();
   broadcast({{"event", "queue"}, {"removed", id}});
@@ -166,7 +167,7 @@ void Daemon::check_not_needed(const std::string& upload) const {
     const bool current = current_ && current_->id == job.id;
     if ((current || job.state == QueuedJob::State::queued) && JobFiles::is_from(job.name, upload))
       throw Refused(Why::conflict, fmt::format("job {} is from there, and {}; choose another name", job.id,
-                                       current ? "is being printed" : "waits"));
+                                               current ? "is being printed" : "waits"));
   }
 }
 
@@ -199,7 +200,9 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id) {
   if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
   if (current_) throw Refused(Why::conflict, "a print is going on");
   const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
-  if (!job) throw Refused(id ? Why::not_found : Why::conflict, id ? "there is no job of that number" : "no job is waiting");
+  if (!job)
+    throw Refused(id ? Why::not_found : Why::conflict,
+                  id ? "there is no job of that number" : "no job is waiting");
   const std::uint64_t chosen = job->id;
   current_.emplace();
   current_->id = chosen;
@@ -217,7 +220,9 @@ std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
   options.spool = options_.spool;
   options.pause_heat = options_.pause_heat;
   PreparedJob prepared = prepare(load_job(files_.find(job.name), options_.profile), job.layers);
-  return std::make_unique<Print>(std::move(prepared), "serve", options);
+  auto print = std::make_unique<Print>(std::move(prepared), options);
+  print->connect();
+  return print;
 }
 
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {

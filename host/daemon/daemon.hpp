@@ -1,6 +1,6 @@
-// The daemon's state: a queue of jobs, at most one print, and the followers of its events. It knows nothing of
-// HTTP (api.hpp) or signals (serve.hpp). Everything belongs to the loop's thread; files are read and written,
-// and prints prepared, in threads of their own.
+// The daemon's state: a queue of jobs, at most one print, and the followers of its events. It knows nothing
+// of HTTP (api.hpp) or signals (serve.hpp). Everything belongs to the loop's thread; files are read and
+// written, and prints prepared, in threads of their own.
 //
 // No print starts by itself: somebody has to take the last part off the bed first.
 #pragma once

@@ -42,14 +42,16 @@ void check_name(const std::string& name) {
   sound = sound && name.find('\0') == std::string::npos && name.find('\\') == std::string::npos;
   for (const fs::path& part : path) sound = sound && part != ".." && part != "." && !part.empty();
   if (!sound)
-    throw Refused(Why::bad_name, "a job is named by its file in one of the daemon's folders, such as leaf.toml");
+    throw Refused(Why::bad_name,
+                  "a job is named by its file in one of the daemon's folders, such as leaf.toml");
 }
 
 void check_texts(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     if (text->get().find_first_of("/\\") != std::string::npos || text->get() == "..")
-      throw Refused(Why::bad_job, "in an uploaded job no text may hold a slash: \"" + gcode::printable(text->get()) +
-                               "\"; upload the file and name it alone");
+      throw Refused(Why::bad_job, "in an uploaded job no text may hold a slash: \"" +
+                                      gcode::printable(text->get()) +
+                                      "\"; upload the file and name it alone");
   } else if (const auto* list = node.as_array()) {
     for (const toml::node& item : *list) check_texts(item);
   } else if (const auto* table = node.as_table()) {
@@ -65,7 +67,7 @@ void check_uploaded_job(const fs::path& file) {
     check_texts(toml::parse_file(file.string()));
   } catch (const toml::parse_error& wrong) {
     throw Refused(Why::bad_job, fmt::format("{}: line {}: is no TOML: {}", file.filename().string(),
-                                     wrong.source().begin.line, wrong.description()));
+                                            wrong.source().begin.line, wrong.description()));
   }
 }
 

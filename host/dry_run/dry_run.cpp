@@ -7,7 +7,9 @@
 #include "host/dry_run/lockstep_clock.hpp"
 #include "host/dry_run/simulator_process.hpp"
 #include "host/engine/session.hpp"
+#include "host/report/deposit_check.hpp"
 #include "host/report/print_report.hpp"
+#include "host/report/target.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -41,14 +43,14 @@ std::vector<std::string> simulator_arguments(const DryRunOptions& options, const
   return arguments;
 }
 
-Comparison compare_with(const nlohmann::json& simulator, const Run& run, const StreamResult& result) {
+Comparison compare_with(const nlohmann::json& simulator, const Books& books, const StreamResult& result) {
   Fed fed;
-  fed.filament_diameter = run.prepared().job.profile.printer.filament_diameter;
-  const gcode::Printer& printer = run.prepared().job.profile.printer;
+  fed.filament_diameter = books.maker().prepared().job.profile.printer.filament_diameter;
+  const gcode::Printer& printer = books.maker().prepared().job.profile.printer;
   fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
   fed.flow_factors = printer.flow_factors;
   fed.lines_sent = result.statistics.lines + result.statistics.queries;
-  return compare(run.fed(), simulator, fed);
+  return compare(books.fed(), simulator, fed);
 }
 
 StreamSettings settings_for(const DryRunOptions& options, const Profile& profile,
@@ -99,18 +101,18 @@ void leave_out_histograms(nlohmann::json& simulator) {
 }
 
 /// A report of a failed print tells what the printer saw of it, if it still can.
-void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
+void conclude_failed(Books& books, const StreamResult& result, nlohmann::json extra,
                      SimulatorProcess& simulator) {
   try {
     extra["simulator"] = simulator.finish();
   } catch (const SimulatorError&) {
     // What ended the print is told; what ended the simulator would only distract from it.
   }
-  conclude(run, result, extra);
+  conclude(books, result, extra);
 }
 
 /// The simulator's own report; where it fails at its very end, that is how the dry run ended.
-nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult result, DepositCheck& check,
+nlohmann::json seen_by(SimulatorProcess& simulator, Books& books, StreamResult result, DepositCheck& check,
                        const nlohmann::json& planning) {
   try {
     return simulator.finish();
@@ -118,7 +120,7 @@ nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult resul
     check.finish();
     result.ending = Ending::failed;
     result.reason = error.what();
-    conclude(run, result, {{"planning", planning}, {"laid", check.to_json()}});
+    conclude(books, result, {{"planning", planning}, {"laid", check.to_json()}});
     throw;
   }
 }
@@ -127,34 +129,35 @@ nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult resul
 
 DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream) {
   check_beginning(prepared);
-  Run run(prepared, "dry-run", outputs_of(options));
+  ChunkMaker maker(prepared);
+  Books books(maker, "dry-run", outputs_of(options));
   // Outlives the simulator, whose end is that of the stream it waits for.
-  DepositCheck check(intended_materials(prepared, run.encoder()), options.outputs.pictures);
+  DepositCheck check(intended_materials(prepared, maker.encoder()), options.outputs.pictures);
   SimulatorProcess simulator(simulator_arguments(options, prepared), is_virtual(options)
                                                                          ? SimulatorProcess::Time::lockstep
                                                                          : SimulatorProcess::Time::own);
-  run.tell(check);
+  books.judge_with(check);
   check.watch(simulator.take_rasters());
   StreamSettings settings = settings_for(options, prepared.job.profile, simulator);
   Lookahead lookahead(*prepared.part, planning_for(options, prepared, settings));
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  PlannedSource source(lookahead, run);
+  PlannedSource source(lookahead, maker);
   const StreamResult result = stream(port, source, settings);
   settings.clock.reset();  // hangs up, which the simulator waits for
   const nlohmann::json planning = planning_of(options, lookahead, result);
-  if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
-  nlohmann::json seen = seen_by(simulator, run, result, check, planning);
+  if (result.ending == Ending::failed) conclude_failed(books, result, {{"planning", planning}}, simulator);
+  nlohmann::json seen = seen_by(simulator, books, result, check, planning);
   check.finish();
-  const MotionFindings motion = motion_findings(seen, run.flow());
+  const MotionFindings motion = motion_findings(seen, maker.flow());
   leave_out_histograms(seen);
-  const Comparison comparison = compare_with(seen, run, result);
-  conclude(run, result,
+  const Comparison comparison = compare_with(seen, books, result);
+  conclude(books, result,
            {{"planning", planning},
             {"simulator", seen},
             {"comparison", to_json(comparison)},
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
-  return {result, run.totals(), lookahead.effort(), comparison, motion, check.total(), check.problem()};
+  return {result, books.totals(), lookahead.effort(), comparison, motion, check.total(), check.problem()};
 }
 
 }  // namespace unicursal::host

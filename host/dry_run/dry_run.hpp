@@ -8,9 +8,9 @@
 #include <string>
 
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/run.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/engine/source.hpp"
+#include "host/report/books.hpp"
 #include "host/report/deposit_findings.hpp"
 #include "host/report/motion_findings.hpp"
 #include "host/report/totals.hpp"

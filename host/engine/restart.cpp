@@ -70,7 +70,7 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   return restart;
 }
 
-void catch_up(Run& run, const Spool& spool) {
+void catch_up(ChunkMaker& maker, const Spool& spool) {
   const auto same = [&](const gcode::Chunk& made, const SpooledChunk& kept) {
     if (commands(made.lines) == kept.lines) return;
     throw SpoolError(spool.folder().string(), "",
@@ -81,16 +81,16 @@ void catch_up(Run& run, const Spool& spool) {
   while (const auto chunk = reader.next()) {
     switch (chunk->kind) {
       case SpooledChunk::Kind::start:
-        same(run.start(), *chunk);
+        same(maker.start(), *chunk);
         break;
       case SpooledChunk::Kind::layer:
-        same(run.replay(chunk->layer), *chunk);
+        same(maker.replay(chunk->layer), *chunk);
         break;
       case SpooledChunk::Kind::rest:
-        same(run.rest(), *chunk);
+        same(maker.rest(), *chunk);
         break;
       case SpooledChunk::Kind::finish:
-        same(run.finish(), *chunk);
+        same(maker.finish(), *chunk);
     }
   }
 }

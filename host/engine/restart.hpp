@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host/engine/chunk_maker.hpp"
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/run.hpp"
 #include "host/engine/stream.hpp"
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool.hpp"
@@ -30,8 +30,8 @@ struct Restart {
 /// in order, or held aside. Precondition: `prepared` is the spool's job.
 Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost);
 
-/// Brings the encoder of a fresh run to where the spool's last chunk has left it. Throws SpoolError when it
+/// Brings a fresh chunk maker to where the spool's last chunk has left the encoder. Throws SpoolError if it
 /// makes other lines than were spooled.
-void catch_up(Run& run, const Spool& spool);
+void catch_up(ChunkMaker& maker, const Spool& spool);
 
 }  // namespace unicursal::host
