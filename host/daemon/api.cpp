@@ -25,7 +25,7 @@ Response reply(json body, int status = 200) {
   return response;
 }
 
-/// An object with none but the known keys; an empty body is an empty object. Throws HttpError 400 or 415.
+/// Reads an object that has known keys only; an empty body is an empty object. Throws HttpError 400 or 415.
 json read_object(const Request& request, std::initializer_list<const char*> keys) {
   if (request.body.empty()) return json::object();
   const std::string type = request.header("content-type").value_or("");
@@ -80,7 +80,7 @@ void obeyed(const Refusal& refusal) {
   if (refusal) throw HttpError(409, *refusal);
 }
 
-/// "upload/file" behind /api/files/; the second is empty where there is none.
+/// "upload/file" behind /api/files/; the second is empty if there is no slash.
 std::pair<std::string, std::string> names_in(const std::string& path) {
   const std::string names = path.substr(files_path.size());
   const std::size_t slash = names.find('/');
@@ -190,7 +190,7 @@ void Api::join(std::shared_ptr<EventStream> client) {
   daemon_.join(std::make_unique<StreamFollower>(std::move(client)));
 }
 
-// ---- what there is to know
+// ---- status
 
 asio::awaitable<Response> Api::status(Request) {
   co_return reply(daemon_.status());

@@ -1,4 +1,4 @@
-// The daemon's HTTP API (API.md): which address does what, who may, and how much they may send.
+// The daemon's HTTP API (API.md): what each address does, who may use it, and how much may be sent.
 #pragma once
 
 #include "host/daemon/access.hpp"
@@ -10,7 +10,7 @@ namespace unicursal::host {
 class Api : public HttpHandler {
  public:
   explicit Api(Daemon& daemon) : daemon_(daemon) {}
-  /// Before anybody is let in: nobody is, until this is told.
+  /// Nobody is let in before this is called.
   void set_rules(AccessRules rules) { rules_ = std::move(rules); }
 
   std::uint64_t admit(const RequestHead& head) override;

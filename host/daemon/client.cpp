@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 constexpr auto patience = 30s;
 constexpr std::size_t longest_answer = 16 * 1024 * 1024;  ///< bytes
 
-/// Sends and reads to the end; the server closes. Throws asio::system_error.
+/// Sends, and reads until the server closes the connection. Throws asio::system_error.
 std::string talk(const asio::ip::tcp::endpoint& at, const std::string& request) {
   asio::io_context loop;
   asio::ip::tcp::socket socket(loop);
@@ -30,7 +30,7 @@ std::string talk(const asio::ip::tcp::endpoint& at, const std::string& request) 
   socket.async_connect(at, [&](const asio::error_code& error) {
     problem = error;
     if (error) return;
-    // An answer may come before all is sent: both at once.
+    // An answer may come before everything is sent, so both happen at once.
     asio::async_write(socket, asio::buffer(request), [](const asio::error_code&, std::size_t) {});
     asio::async_read(socket, asio::dynamic_buffer(answer, longest_answer), asio::transfer_all(), finished);
   });

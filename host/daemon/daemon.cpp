@@ -25,9 +25,9 @@ using Why = Refused::Why;
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr auto progress_interval = 250ms;  ///< between two events of progress; more is more than eyes see
+constexpr auto progress_interval = 250ms;  ///< between two events of progress
 
-/// In another thread; what it throws is thrown here.
+/// Runs `work` in the pool's thread; exceptions come back to the caller.
 template <typename Work>
 asio::awaitable<std::invoke_result_t<Work>> at_work(Work work) {
   co_return work();
@@ -71,7 +71,7 @@ Daemon::~Daemon() {
   preparing_.join();
 }
 
-// ---- what is known
+// ---- status
 
 json Daemon::job_and_print() const {
   json now = json::object();
@@ -143,7 +143,8 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
     problem = error.what();
   }
   const QueuedJob* job = queue_.find(id);
-  // A job that the next daemon would not know of was not taken; unless somebody has begun it meanwhile.
+  // A job that is not on disk would be lost with this daemon, so it is refused unless it was started
+  // meanwhile.
   if (!problem.empty() && job && job->state == QueuedJob::State::queued) {
     queue_.remove(id);
     throw Refused(Why::no_room, problem);
@@ -161,7 +162,7 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
   broadcast({{"event", "queue"}, {"removed", id}});
 }
 
-/// What was queued is what is printed.
+/// Files of a job that waits or is being printed must not change.
 void Daemon::check_not_needed(const std::string& upload) const {
   for (const QueuedJob& job : queue_.jobs()) {
     const bool current = current_ && current_->id == job.id;
@@ -253,7 +254,7 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   if (current_->print) {
     last_ = current_->print->session() ? job_and_print() : json();
     current_->print->end();
-    // The planning threads end when they come to it: not on this loop's time.
+    // Ending the planning threads may take long, so it happens in another thread.
     asio::post(preparing_,
                [gone = std::shared_ptr<Print>(std::move(current_->print))]() mutable { gone.reset(); });
   }
@@ -263,7 +264,7 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   if (when_idle_) when_idle_();
 }
 
-/// The reason why it ended as it did; empty after a good end.
+/// Returns why the print did not complete; empty if it did.
 asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob::State& ending) {
   co_await enter(id, QueuedJob::State::preparing, {});
   const QueuedJob job = *queue_.find(id);
@@ -287,7 +288,7 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   co_return reason;
 }
 
-/// For a person at a terminal, who may have another folder of prints.
+/// The command that continues a print; a terminal may have another folder of prints.
 std::string Daemon::way_on() const {
   return options_.spool ? "unicursal resume --spool " + options_.spool->string() : "unicursal resume";
 }
@@ -317,7 +318,7 @@ void Daemon::shut_down(std::function<void()> done) {
     else
       cancel("the daemon was told to end");
   } catch (const Refused&) {
-    // It is ending already.
+    // The print is ending already.
   }
 }
 
@@ -346,7 +347,7 @@ void Daemon::told(const SessionEvent& event) {
   broadcast(to_json(shown, session->status()));
 }
 
-/// Of many events, one a quarter of a second; the last one is never lost.
+/// Sends at most four events a second; the last one is never lost.
 void Daemon::show_progress_soon() {
   if (progress_waits_ || followers_.empty()) return;
   progress_waits_ = true;

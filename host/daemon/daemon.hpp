@@ -44,7 +44,7 @@ class Follower {
 
 class Daemon {
  public:
-  /// Throws core::DataError: a profile that cannot be read, a folder that is none, a damaged queue.
+  /// Throws core::DataError for an unreadable profile, a missing folder, or a damaged queue.
   Daemon(asio::io_context& loop, const DaemonOptions& options);
   ~Daemon();
 
@@ -72,16 +72,16 @@ class Daemon {
 
   /// Sends it the present status, and every event from now on.
   void join(std::unique_ptr<Follower> follower);
-  /// No further print begins; the present one is parked and cooled, or stopped at once if asked for again.
-  /// `done` is called when nothing prints any more.
+  /// No further print begins; the current one is parked and cooled, or stopped at once by a second call.
+  /// `done` is called when no print is left.
   void shut_down(std::function<void()> done);
   bool busy() const { return current_.has_value(); }
 
  private:
   struct Current {
     std::uint64_t id = 0;
-    std::unique_ptr<Print> print;          ///< once it is prepared
-    std::optional<std::string> cancelled;  ///< why, before that
+    std::unique_ptr<Print> print;          ///< null until it is prepared
+    std::optional<std::string> cancelled;  ///< the reason, if it was cancelled before that
   };
 
   asio::awaitable<void> print(std::uint64_t id);
@@ -102,9 +102,9 @@ class Daemon {
   JobFiles files_;
   Queue queue_;
   std::optional<Current> current_;
-  nlohmann::json last_;   ///< the final status of the print before, or null
-  std::string firmware_;  ///< of the printer, as last heard
-  std::string problem_;   ///< of the state folder
+  nlohmann::json last_;   ///< the final status of the last print, or null
+  std::string firmware_;  ///< the printer's last answer to M115
+  std::string problem_;   ///< with the state folder, a sentence; empty: none
   std::function<void()> when_idle_;
   std::vector<std::unique_ptr<Follower>> followers_;
   asio::steady_timer progress_;

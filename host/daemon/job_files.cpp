@@ -35,7 +35,7 @@ bool within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Relative, and without a step up: what is left is to follow links.
+/// Accepts relative names without "..". Links are checked elsewhere.
 void check_name(const std::string& name) {
   const fs::path path(name);
   bool sound = !name.empty() && name.size() <= longest_job_name && path.is_relative() && is_job(path);
@@ -71,7 +71,7 @@ void check_uploaded_job(const fs::path& file) {
   }
 }
 
-/// In `folder`, as find() wants them named; links are not followed.
+/// Adds the jobs in `folder` by the names that find() takes; links are not followed.
 void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std::string>& names) {
   std::error_code error;
   for (fs::recursive_directory_iterator item(folder, fs::directory_options::skip_permission_denied, error),

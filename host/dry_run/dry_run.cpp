@@ -14,9 +14,9 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double unattended_pause = 60;  ///< s; then somebody has seen to the simulated printer
+constexpr double unattended_pause = 60;  ///< s, after which a pause ends by itself
 
-/// Real time is for watching how the host paces; virtual time needs no patience and repeats exactly.
+/// Real time is for watching how the host keeps pace; virtual time is fast and repeats exactly.
 bool is_virtual(const DryRunOptions& options) {
   return options.printer.speed == 0;
 }
@@ -67,7 +67,7 @@ StreamSettings settings_for(const DryRunOptions& options, const Profile& profile
   return settings;
 }
 
-/// In virtual time what planning takes is charged for; where it is free, there is no hurry.
+/// In virtual time planning takes `charge` times its real time; if that is 0, it never hurries.
 LookaheadOptions planning_for(const DryRunOptions& options, const PreparedJob& prepared,
                               const StreamSettings& settings) {
   LookaheadOptions planning = paced(lookahead_options(prepared), settings.clock);
@@ -77,7 +77,7 @@ LookaheadOptions planning_for(const DryRunOptions& options, const PreparedJob& p
   return planning;
 }
 
-/// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.
+/// In virtual time the report leaves out this computer's times, so that equal dry runs give equal reports.
 nlohmann::json planning_of(const DryRunOptions& options, const Lookahead& lookahead,
                            const StreamResult& result) {
   nlohmann::json planning =
@@ -92,7 +92,7 @@ RunOutputs outputs_of(const DryRunOptions& options) {
   return outputs;
 }
 
-/// Thousands of numbers that nobody reads, once they have been judged.
+/// Removes thousands of numbers that are of no use once they have been judged.
 void leave_out_histograms(nlohmann::json& simulator) {
   const auto motion = simulator.find("motion");
   if (motion == simulator.end() || !motion->is_object()) return;
@@ -100,18 +100,18 @@ void leave_out_histograms(nlohmann::json& simulator) {
   motion->erase("flow_by_second");
 }
 
-/// A report of a failed print tells what the printer saw of it, if it still can.
+/// The report of a failed print includes the simulator's, if there is one.
 void conclude_failed(Books& books, const StreamResult& result, nlohmann::json extra,
                      SimulatorProcess& simulator) {
   try {
     extra["simulator"] = simulator.finish();
   } catch (const SimulatorError&) {
-    // What ended the print is told; what ended the simulator would only distract from it.
+    // The reason why the print failed is reported; the simulator's would distract from it.
   }
   conclude(books, result, extra);
 }
 
-/// The simulator's own report; where it fails at its very end, that is how the dry run ended.
+/// The simulator's own report. If the simulator fails at its very end, the dry run has failed.
 nlohmann::json seen_by(SimulatorProcess& simulator, Books& books, StreamResult result, DepositCheck& check,
                        const nlohmann::json& planning) {
   try {
@@ -131,7 +131,7 @@ DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, 
   check_beginning(prepared);
   ChunkMaker maker(prepared);
   Books books(maker, "dry-run", outputs_of(options));
-  // Outlives the simulator, whose end is that of the stream it waits for.
+  // Declared before the simulator: it waits for the end of the stream, which comes when the simulator ends.
   DepositCheck check(intended_materials(prepared, maker.encoder()), options.outputs.pictures);
   SimulatorProcess simulator(simulator_arguments(options, prepared), is_virtual(options)
                                                                          ? SimulatorProcess::Time::lockstep

@@ -1,5 +1,6 @@
-// A print on the simulated printer: the same planning, encoding and streaming, with a simulator in a process
-// of its own at the other end of the line, and everything that it laid judged against the job.
+// A print on the simulated printer. Planning, encoding and streaming are those of a real print; a simulator
+// in a process of its own is at the other end of the line, and everything that it lays is compared with the
+// job.
 #pragma once
 
 #include <filesystem>

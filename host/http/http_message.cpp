@@ -47,7 +47,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Takes the text up to the separator, and the separator, away from `rest`.
+/// Removes the text up to the separator, and the separator, from `rest`; returns the text.
 std::string_view take(std::string_view& rest, std::string_view separator) {
   const std::size_t at = rest.find(separator);
   const std::string_view taken = rest.substr(0, at);
@@ -94,7 +94,7 @@ void read_header(std::string_view line, RequestHead& head) {
   head.headers.emplace_back(lower(name), value);
 }
 
-/// Whatever decides where a request ends and who sent it must not be there twice.
+/// Headers that decide where a request ends or who sent it must not occur twice.
 void check_single(const RequestHead& head) {
   for (const char* name : {"host", "content-length", "authorization", "origin", "content-type"}) {
     const auto same = [name](const auto& header) { return header.first == name; };

@@ -17,12 +17,12 @@ constexpr double least_flow = 0.01, most_flow = 1000;  ///< mm³/s; below, moves
 /// Spacing of the curve ÷ distance of the seeds; the inverse of what the planner takes (tests/bench/spacing).
 constexpr double bead_width_per_seed_distance = 1 / 1.4;
 
-/// Far above anything printable, so that a slip of the keyboard is told here and not by a full memory.
+/// Far above anything printable, so that a typing error is reported instead of filling the memory.
 constexpr double greatest_length = 10000;  // mm
 
 constexpr double least_layer_height = 0.02;  ///< mm; below what the z axes of such printers can step
 
-/// Seed distances that a given bead width goes with, in bead widths; outside, one of the two is a slip.
+/// Plausible seed distances, in bead widths; outside, one of the two numbers is a typing error.
 constexpr double least_seed_distance = 0.5;
 constexpr double greatest_seed_distance = 4;
 

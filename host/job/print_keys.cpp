@@ -11,7 +11,7 @@ namespace {
 
 constexpr double most_loops = 20;           ///< of a skirt
 constexpr double farthest_skirt = 100;      ///< mm
-constexpr double least_first_speed = 0.05;  ///< of the others'; less is a slip of the keyboard
+constexpr double least_first_speed = 0.05;  ///< fraction of the others'; less is a typing error
 constexpr double most_layers = 1e6;
 constexpr double least_printing = 150, most_printing = 450;  ///< °C of a nozzle that prints
 

@@ -79,7 +79,7 @@ void read_extruder_motion(const Section& section, gcode::Motion& motion) {
                                            "write for example jerk = 5");
 }
 
-/// Braces that stand for nothing are told with the name that was probably meant.
+/// Reads a script; an unknown placeholder is an error that names the nearest known one.
 std::string read_script(const Section& section, const char* key) {
   const std::string text = section.text_or(key, "", "write the extra lines in \"\"\"triple quotes\"\"\"");
   const std::vector<std::string> known = gcode::placeholder_names();

@@ -14,7 +14,7 @@
 namespace unicursal::host {
 namespace {
 
-/// Settings are written by hand; a bigger file is something else that was named by mistake.
+/// Bytes. Settings are written by hand; a larger file was named by mistake.
 constexpr std::uintmax_t largest_file = 1 << 20;
 
 std::string read_text(const std::filesystem::path& file) {
@@ -99,7 +99,7 @@ std::string Section::path(std::string_view key) const {
 
 std::size_t Section::line(std::string_view key) const {
   const toml::node* node = table_.get(key);
-  // Keys of dotted or inline tables may carry no position of their own; the table's is the next best.
+  // Keys of dotted or inline tables may lack a position; the table's is the next best.
   if (node && node->source().begin.line > 0) return node->source().begin.line;
   return std::max<std::size_t>(1, table_.source().begin.line);
 }

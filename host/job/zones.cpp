@@ -13,7 +13,7 @@ namespace {
 
 using Palette = std::vector<gcode::Material>;
 
-constexpr std::size_t most_materials = 200;  ///< that the report's labels can tell apart
+constexpr std::size_t most_materials = 200;  ///< limit of the report's labels, which are bytes
 
 const char* const mixture_remedy =
     "write the name of a mixture below [mixture] in quotes, or { from = \"…\", to = \"…\", along = [1, 0, 0] "
@@ -123,7 +123,7 @@ bool equal(const std::optional<gcode::Gradient>& a, const std::optional<gcode::G
   return equal(a->to, b->to) && a->along == b->along && a->begin == b->begin && a->end == b->end;
 }
 
-/// Zones of equal mixture form one material zone, whatever the names of the mixtures.
+/// Zones of equal mixture form one material zone, also if the mixtures' names differ.
 std::size_t index_in(std::vector<gcode::Material>& used, const gcode::Material& material) {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (equal(used[i].mixture, material.mixture) && equal(used[i].gradient, material.gradient) &&
@@ -144,7 +144,7 @@ std::array<double, 3> read_direction(const Section& gradient) {
   return {along[0] / length, along[1] / length, along[2] / length};
 }
 
-/// From one end of its zones to the other, unless it is said where.
+/// A gradient without `over` goes from one end of its zones to the other.
 gcode::Material read_gradient(const Section& zone, const Palette& palette) {
   const Section section = zone.section("mixture", {"from", "to", "along", "over"}, mixture_remedy);
   gcode::Material material = find_material(section, "from", palette);

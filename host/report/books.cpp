@@ -30,7 +30,7 @@ nlohmann::json layer_entry(const PlannedLayer& planned, const gcode::PlacedLayer
   return entry;
 }
 
-/// What planning took on this computer, which is another time at every run.
+/// Removes planning times, which differ from run to run.
 void forget_times(nlohmann::json& figures) {
   figures.erase("seconds");
   figures.erase("cpu_seconds");
@@ -84,7 +84,7 @@ void Books::end_made(const gcode::Chunk& chunk) {
   log_finished_layers(true);
 }
 
-/// In order; after a stop those that were not printed to their end as well.
+/// Logs complete layers in order; with `all`, after a stop, also incomplete ones.
 void Books::log_finished_layers(bool all) {
   while (log_ && !entries_.empty()) {
     LayerEntry& entry = entries_.begin()->second;

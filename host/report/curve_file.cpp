@@ -16,7 +16,7 @@ std::string hex(const picture::Colour& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
 }
 
-/// From the part's frame to a drawing whose viewBox begins at 0 0.
+/// Transforms from the part's frame to a drawing whose viewBox begins at 0 0.
 struct SvgFrame {
   core::Box extent;
 

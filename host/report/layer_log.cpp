@@ -6,7 +6,7 @@
 namespace unicursal::host {
 namespace {
 
-/// File names come from the user and need not be valid UTF-8; replace what is not.
+/// Replaces invalid UTF-8: file names come from the user.
 std::string text_of(const nlohmann::json& value, int indent) {
   return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -13,7 +13,7 @@ void move(core::Polygon& polygon, const core::Vec2& offset) {
   }
 }
 
-/// Where the skirt and the prime line are to lie.
+/// Adds the places of the skirt and the prime line.
 void add_aside(TargetLayer& target, const PreparedJob& prepared, const gcode::PlacedLayer& placed) {
   const gcode::Printer& printer = prepared.job.profile.printer;
   core::Box kept_clear = prepared.frame.extent;
