@@ -32,7 +32,7 @@ json read_object(const Request& request, std::initializer_list<const char*> keys
   if (type.substr(0, type.find(';')) != "application/json")
     throw HttpError(415, "send JSON, as Content-Type: application/json");
   const json body = json::parse(request.body, nullptr, false);
-  if (!body.is_object()) throw HttpError(400, "the body is no JSON object");
+  if (!body.is_object()) throw HttpError(400, "the body is not a JSON object");
   for (const auto& [key, value] : body.items()) {
     const bool known = std::any_of(keys.begin(), keys.end(), [&](const char* one) { return key == one; });
     if (!known) throw HttpError(400, "a key is not known here: \"" + key.substr(0, 40) + "\"");
@@ -43,7 +43,7 @@ json read_object(const Request& request, std::initializer_list<const char*> keys
 std::optional<double> number(const json& body, const char* key) {
   const auto found = body.find(key);
   if (found == body.end()) return std::nullopt;
-  if (!found->is_number()) throw HttpError(400, fmt::format("{} is no number", key));
+  if (!found->is_number()) throw HttpError(400, fmt::format("{} is not a number", key));
   return found->get<double>();
 }
 
@@ -55,7 +55,7 @@ double required_number(const json& body, const char* key) {
 std::optional<std::uint64_t> whole_number(const json& body, const char* key) {
   const auto found = body.find(key);
   if (found == body.end()) return std::nullopt;
-  if (!found->is_number_unsigned()) throw HttpError(400, fmt::format("{} is no whole number", key));
+  if (!found->is_number_unsigned()) throw HttpError(400, fmt::format("{} is not a whole number", key));
   return found->get<std::uint64_t>();
 }
 
@@ -225,7 +225,7 @@ asio::awaitable<Response> Api::add_job(Request request) {
 
 asio::awaitable<Response> Api::show_job(Request request) {
   const QueuedJob* job = daemon_.queue().find(id_in(request.path));
-  if (!job) throw HttpError(404, "there is no job of that number");
+  if (!job) throw HttpError(404, "there is no job with that number");
   co_return reply(to_json(*job));
 }
 

@@ -81,7 +81,7 @@ Answer Client::exchange(const std::string& method, const std::string& path, cons
   try {
     const std::string answer = talk(parse_endpoint(address_), request + "\r\n" + body);
     return parse_answer(answer,
-                        {address_, "", "what answers there is no daemon of this program's",
+                        {address_, "", "the program that answers there is not a unicursal daemon",
                          "start one with `unicursal serve`, or delete " + (state_ / "address").string()});
   } catch (const asio::system_error& error) {
     throw DaemonError(address_, "", "the daemon does not answer (" + error.code().message() + ")",

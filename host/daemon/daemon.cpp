@@ -154,7 +154,7 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
 }
 
 asio::awaitable<void> Daemon::remove(std::uint64_t id) {
-  if (!queue_.find(id)) throw Refused(Why::not_found, "there is no job of that number");
+  if (!queue_.find(id)) throw Refused(Why::not_found, "there is no job with that number");
   if (current_ && current_->id == id)
     throw Refused(Why::conflict, "that job is being printed; cancel it instead");
   queue_.remove(id);
@@ -203,7 +203,7 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id) {
   const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
   if (!job)
     throw Refused(id ? Why::not_found : Why::conflict,
-                  id ? "there is no job of that number" : "no job is waiting");
+                  id ? "there is no job with that number" : "no job is waiting");
   const std::uint64_t chosen = job->id;
   current_.emplace();
   current_->id = chosen;
@@ -284,7 +284,7 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   ending = state_after(result.ending);
   std::string reason = result.ending == Ending::stopped ? session.status().reason : result.reason;
   if (result.ending != Ending::completed && result.begun)
-    reason += "; to go on with it: " + way_on() + " " + current_->print->kept_as();
+    reason += "; to continue it: " + way_on() + " " + current_->print->kept_as();
   co_return reason;
 }
 
@@ -316,7 +316,7 @@ void Daemon::shut_down(std::function<void()> done) {
     if (again)
       stop_at_once();
     else
-      cancel("the daemon was told to end");
+      cancel("the daemon was asked to end");
   } catch (const Refused&) {
     // The print is ending already.
   }

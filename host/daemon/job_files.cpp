@@ -49,9 +49,9 @@ void check_name(const std::string& name) {
 void check_texts(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     if (text->get().find_first_of("/\\") != std::string::npos || text->get() == "..")
-      throw Refused(Why::bad_job, "in an uploaded job no text may hold a slash: \"" +
+      throw Refused(Why::bad_job, "the texts of an uploaded job may not contain a slash: \"" +
                                       gcode::printable(text->get()) +
-                                      "\"; upload the file and name it alone");
+                                      "\"; upload the file and give its name alone");
   } else if (const auto* list = node.as_array()) {
     for (const toml::node& item : *list) check_texts(item);
   } else if (const auto* table = node.as_table()) {
@@ -66,7 +66,7 @@ void check_uploaded_job(const fs::path& file) {
   try {
     check_texts(toml::parse_file(file.string()));
   } catch (const toml::parse_error& wrong) {
-    throw Refused(Why::bad_job, fmt::format("{}: line {}: is no TOML: {}", file.filename().string(),
+    throw Refused(Why::bad_job, fmt::format("{}: line {}: is not TOML: {}", file.filename().string(),
                                             wrong.source().begin.line, wrong.description()));
   }
 }
@@ -101,7 +101,7 @@ JobFiles::JobFiles(std::vector<fs::path> folders, fs::path uploads)
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
     if (error || !fs::is_directory(real, error)) {
-      throw DaemonError(folder.string(), "", "is no folder that can be read",
+      throw DaemonError(folder.string(), "", "is not a folder that can be read",
                         "name the folders of the jobs with --jobs");
     }
     folder = real;
@@ -175,7 +175,7 @@ void JobFiles::keep(const std::string& upload, const std::string& file, const st
 }
 
 void JobFiles::remove(const std::string& upload) const {
-  if (!is_plain_name(upload)) throw Refused(Why::bad_name, "that is no name of an upload");
+  if (!is_plain_name(upload)) throw Refused(Why::bad_name, "that is not a name of an upload");
   std::error_code error;
   if (fs::remove_all(uploads_ / upload, error) == 0 || error)
     throw Refused(Why::not_found, "there is no upload \"" + upload + "\"");

@@ -63,16 +63,16 @@ void check_path(std::string_view path) {
   while (!rest.empty()) {
     const std::string_view segment = take(rest, "/");
     if (segment.empty() || segment == "." || segment == "..")
-      throw HttpError(400, "a path holds no empty segments and no dots alone");
+      throw HttpError(400, "a path may not contain empty segments, \".\" or \"..\"");
   }
 }
 
 void read_request_line(std::string_view line, RequestHead& head) {
   const std::string_view method = take(line, " ");
   const std::string_view target = take(line, " ");
-  if (!is_token(method)) throw HttpError(400, "this is no HTTP request");
+  if (!is_token(method)) throw HttpError(400, "this is not an HTTP request");
   if (target.size() > longest_target) throw HttpError(414, "the address is too long");
-  if (target.empty() || !is_visible(target)) throw HttpError(400, "this is no HTTP request");
+  if (target.empty() || !is_visible(target)) throw HttpError(400, "this is not an HTTP request");
   if (line != "HTTP/1.1" && line != "HTTP/1.0") {
     throw HttpError(line.starts_with("HTTP/") ? 505 : 400, "only HTTP/1.1 is spoken here");
   }
@@ -108,7 +108,7 @@ std::uint64_t read_length(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
   if (error == std::errc::result_out_of_range) throw HttpError(413, "the body is too large");
   if (error != std::errc() || end != text.data() + text.size())
-    throw HttpError(400, "the Content-Length is no number");
+    throw HttpError(400, "the Content-Length is not a number");
   return length;
 }
 

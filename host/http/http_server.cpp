@@ -293,7 +293,7 @@ void HttpServer::stop() {
 tcp::endpoint parse_endpoint(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   const auto wrong = [&] {
-    return core::DataError("", "--listen", "\"" + text + "\" is no address and port",
+    return core::DataError("", "--listen", "\"" + text + "\" is not an address with a port",
                            "write for example 127.0.0.1:8377 or [::1]:8377");
   };
   if (colon == std::string::npos) throw wrong();

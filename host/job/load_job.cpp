@@ -37,7 +37,7 @@ std::vector<std::filesystem::path> read_files(const Section& part) {
   std::vector<std::filesystem::path> files;
   for (const toml::node& item : *node->as_array()) {
     const std::optional<std::string> name = item.value<std::string>();
-    if (!name) part.fail("file", "holds something that is no text", remedy);
+    if (!name) part.fail("file", "holds something that is not a text", remedy);
     files.push_back(folder / *name);
   }
   if (files.empty()) part.fail("file", "is an empty list", remedy);
@@ -165,7 +165,7 @@ void read_perimeters(const Section& part, Job& job) {
   const double count =
       part.number_or("perimeters", 0, between(0, 100, ""), "write a whole number of contours");
   job.perimeters = static_cast<int>(count);
-  if (count != job.perimeters) part.fail("perimeters", "is no whole number", "write for example 1");
+  if (count != job.perimeters) part.fail("perimeters", "is not a whole number", "write for example 1");
 }
 
 void read_seam(const Section& part, Job& job) {

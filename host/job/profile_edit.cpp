@@ -167,7 +167,7 @@ void ProfileText::set_transition(double dead_volume, double mixing_volume) const
   const std::string changed = with_transition(text_, dead_volume, mixing_volume, file_);
   if (read(file_) != text_) {
     throw core::FileError(
-        file_.string(), "", "has been changed by somebody else meanwhile",
+        file_.string(), "", "has been changed by another program meanwhile",
         fmt::format("write dead_volume = {:.2f} and mixing_volume = {:.2f} into it yourself", dead_volume,
                     mixing_volume));
   }

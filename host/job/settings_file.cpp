@@ -88,7 +88,7 @@ Section::Section(const std::filesystem::path& file, const toml::table& table, st
     : file_(file), table_(table), name_(std::move(name)) {
   for (auto&& [key, node] : table_) {
     if (known.empty() || std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    fail(key.str(), "is no key that is known here",
+    fail(key.str(), "is not a known key here",
          fmt::format("did you mean \"{}\"?", nearest(key.str(), known)));
   }
 }
@@ -120,7 +120,7 @@ double Section::checked(std::string_view key, const toml::node& node, const Rang
   if (!node.is_number())
     fail(key, fmt::format("is {} where a number is expected", kind_of(node)), std::string(remedy));
   const std::optional<double> value = node.value<double>();
-  if (!value) fail(key, "has more digits than can be told apart", std::string(remedy));
+  if (!value) fail(key, "has more digits than can be distinguished", std::string(remedy));
   if (!range.holds(*value)) {
     fail(key, fmt::format("is {}, but must be {}", *value, range.words()), std::string(remedy));
   }

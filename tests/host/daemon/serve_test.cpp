@@ -221,7 +221,7 @@ TEST_CASE("SIGTERM parks and cools the print before the daemon ends") {
   CHECK(last(lines, "M140 S0") > last(lines, "G1 "));
   bench.serve();
   CHECK(job(bench, id)["state"] == "stopped");
-  CHECK(job(bench, id)["reason"].get<std::string>().find("the daemon was told to end") == 0);
+  CHECK(job(bench, id)["reason"].get<std::string>().find("the daemon was asked to end") == 0);
 }
 
 TEST_CASE("stop is M112, and the job has failed") {

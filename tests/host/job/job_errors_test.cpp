@@ -69,7 +69,7 @@ const std::vector<Case> spoilt_jobs = {
     {"layer_height = 0.2",
      "layer_heigth = 0.2",
      {"line 6", "part.layer_heigth", "did you mean \"layer_height\"?"}},
-    {"[part]", "colour = 3\n[part]", {"line 3", "colour", "no key", "did you mean"}},
+    {"[part]", "colour = 3\n[part]", {"line 3", "colour", "not a known key", "did you mean"}},
     {"bead_width = 1.0",
      "bead_width = 1.3",
      {"line 7", "part.bead_width", "1.3 mm", "0.4 to 1.2", "profile"}},
