@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "host/engine/stream.hpp"
+#include "host/engine/session_types.hpp"
 #include "host/link/link.hpp"
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/journal.hpp"

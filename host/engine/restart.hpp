@@ -8,7 +8,7 @@
 
 #include "host/engine/chunk_maker.hpp"
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/stream.hpp"
+#include "host/engine/session_types.hpp"
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool.hpp"
 

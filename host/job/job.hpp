@@ -8,18 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/model/part.hpp"
 #include "firmware_gcode/print/print_settings.hpp"
+#include "host/job/job_error.hpp"
 #include "host/job/profile.hpp"
 
 namespace unicursal::host {
-
-/// A mistake in a job or a profile; names file, line and key.
-class JobError : public core::DataError {
- public:
-  using DataError::DataError;
-};
 
 /// Where the part goes on the bed.
 struct Placement {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "host/job/job.hpp"
+#include "host/job/job_error.hpp"
 #include "host/job/nearest.hpp"
 
 namespace unicursal::host {
