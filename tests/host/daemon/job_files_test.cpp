@@ -1,4 +1,4 @@
-// Names from outside become files only where they may, and the queue outlives its daemon.
+// Names from clients lead to allowed files only, and the queue outlives its daemon.
 #include "host/daemon/job_files.hpp"
 
 #include <sys/stat.h>
@@ -43,7 +43,7 @@ std::optional<Why> refusal(const JobFiles& files, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("jobs are found by their names in the folders, and nothing else is") {
+TEST_CASE("jobs in the folders are found by their names, and other files are not") {
   const Folders folders;
   fs::create_symlink(folders.folder / "secret.toml", folders.folder / "jobs/link.toml");
   fs::create_directory_symlink(folders.folder.path(), folders.folder / "jobs/up");
@@ -62,7 +62,7 @@ TEST_CASE("jobs are found by their names in the folders, and nothing else is") {
   CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml", "link.toml"});
 }
 
-TEST_CASE("an upload holds files beside one another, and its job names no others") {
+TEST_CASE("an upload is one folder of files, and its job can name no others") {
   const Folders folders;
   const JobFiles files = folders.files();
   files.keep("leaf", "job.toml", test::sample_job);
@@ -86,7 +86,7 @@ TEST_CASE("an upload holds files beside one another, and its job names no others
   CHECK(refusal(files, "upload:leaf/job.toml") == Why::not_found);
 }
 
-TEST_CASE("the queue is found again, and what was being printed is told to be broken off") {
+TEST_CASE("the queue is found again, and the job that was being printed is interrupted") {
   const test::TempFolder folder;
   const fs::path file = folder / "queue.json";
   Queue queue(file);
@@ -100,12 +100,12 @@ TEST_CASE("the queue is found again, and what was being printed is told to be br
   CHECK(again.find(first)->state == QueuedJob::State::interrupted);
   CHECK(again.find(first)->layers->last == 3);
   CHECK(again.next()->id == second);
-  CHECK(again.add("d.toml", {}) == third + 1);  // numbers are never given twice
+  CHECK(again.add("d.toml", {}) == third + 1);  // numbers are never used twice
   folder.write("queue.json", "{\"jobs\": 7}");
   CHECK_THROWS_AS(Queue(file), DaemonError);
 }
 
-TEST_CASE("of jobs that have ended the last ones are kept") {
+TEST_CASE("the last jobs that have ended are kept") {
   const test::TempFolder folder;
   Queue queue(folder / "queue.json");
   const auto waiting = queue.add("waits.toml", {});
