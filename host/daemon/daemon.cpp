@@ -276,7 +276,7 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   }
   current_->print = std::move(print);
   Session& session = current_->print->begin(loop_.get_executor());
-  session.on_event([this](const SessionEvent& event) { told(event); });
+  session.on_event([this](const SessionEvent& event) { on_session_event(event); });
   co_await enter(id, QueuedJob::State::printing, {});
   notify_service("STATUS=printing " + gcode::printable(job.name));
   const StreamResult result = co_await session.run();
@@ -337,7 +337,7 @@ void Daemon::broadcast(const json& event) {
   for (const auto& follower : followers_) follower->send(text);
 }
 
-void Daemon::told(const SessionEvent& event) {
+void Daemon::on_session_event(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
     return show_progress_soon();
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;

@@ -91,7 +91,7 @@ class Daemon {
   std::string way_on() const;
   asio::awaitable<void> save();
   asio::awaitable<void> enter(std::uint64_t id, QueuedJob::State state, std::string reason);
-  void told(const SessionEvent& event);
+  void on_session_event(const SessionEvent& event);
   void broadcast(const nlohmann::json& event);
   void show_progress_soon();
   nlohmann::json job_and_print() const;

@@ -52,7 +52,7 @@ class Service {
     rules.hosts = hosts_for(at.address().to_string(), at.port(), options.names);
     api_.set_rules(std::move(rules));
     address_ = words(at);
-    state_.tell_address(address_);
+    state_.write_address(address_);
   }
 
   void run(const std::function<void(const std::string&)>& ready) {

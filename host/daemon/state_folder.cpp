@@ -59,7 +59,7 @@ std::string StateFolder::secret(const std::string& name) const {
   return token;
 }
 
-void StateFolder::tell_address(const std::string& address) const {
+void StateFolder::write_address(const std::string& address) const {
   write_state(folder_ / "address", address + "\n");
 }
 

@@ -38,7 +38,7 @@ class StateFolder {
   /// The text of a secret, which is made if it is missing. Throws DaemonError if others may read it.
   std::string secret(const std::string& name) const;
   /// Writes the address for clients; the destructor removes it.
-  void tell_address(const std::string& address) const;
+  void write_address(const std::string& address) const;
 
  private:
   std::filesystem::path folder_;

@@ -46,7 +46,7 @@ class Books final : public ChunkListener {
 
   const RunTotals& totals() const { return totals_; }
   const ChunkMaker& maker() const { return maker_; }
-  /// The volumes that the feeders were told, by mixture.
+  /// The volumes that the feeders were commanded, by mixture.
   std::vector<MaterialVolume> fed() const;
 
   /// Waits for the last picture and, if a report was asked for, writes it with the keys of `extra` added.
