@@ -27,6 +27,7 @@
 #include "host/engine/printer_view.hpp"
 #include "host/engine/progress.hpp"
 #include "host/engine/session.hpp"
+#include "host/loop/sentence.hpp"
 #include "host/loop/signal.hpp"
 
 namespace unicursal::host {
@@ -96,8 +97,5 @@ struct Session::State {
   std::exception_ptr catching_up_failed;
   StreamResult result;  ///< as far as it is known
 };
-
-/// What was thrown, as a sentence for a person.
-std::string sentence(const std::exception_ptr& error);
 
 }  // namespace unicursal::host

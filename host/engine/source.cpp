@@ -7,12 +7,10 @@
 namespace unicursal::host {
 namespace {
 
-SpooledChunk record_of(const PlannedLayer& planned, const PreparedJob& prepared) {
-  SpooledChunk record;
-  record.kind = SpooledChunk::Kind::layer;
-  record.layer = placed(prepared, planned);
-  for (const core::IslandPlan& plan : planned.plans) record.efforts.push_back(plan.effort);
-  return record;
+std::vector<core::Effort> efforts_of(const PlannedLayer& planned) {
+  std::vector<core::Effort> efforts;
+  for (const core::IslandPlan& plan : planned.plans) efforts.push_back(plan.effort);
+  return efforts;
 }
 
 }  // namespace
@@ -27,13 +25,16 @@ std::optional<PrintStep> PlannedSource::next() {
   if (!layer) {
     if (std::exchange(ended_, true)) return std::nullopt;
     step.record.kind = SpooledChunk::Kind::rest;
-    step.chunk = run_.rest();
+    step.chunk = maker_.rest();
     return step;
   }
-  step.record = record_of(*layer, run_.prepared());
+  step.record.kind = SpooledChunk::Kind::layer;
+  step.record.efforts = efforts_of(*layer);
   step.ready_at = layer->ready_at;
+  ChunkMaker::Made made = maker_.layer(std::move(*layer));
+  step.record.layer = std::move(made.layer);
+  step.chunk = std::move(made.chunk);
   taken_ = step.record.layer.index + 1;
-  step.chunk = run_.layer(std::move(*layer));
   for (const gcode::LayerShare& share : step.chunk.layers) {
     if (share.last) given_ = share.layer + 1;
   }

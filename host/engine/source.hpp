@@ -11,7 +11,7 @@
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/print/chunk.hpp"
 #include "firmware_gcode/print/printer.hpp"
-#include "host/engine/run.hpp"
+#include "host/engine/chunk_maker.hpp"
 #include "host/lookahead/foretold_times.hpp"
 #include "host/lookahead/lookahead.hpp"
 #include "host/loop/clock.hpp"
@@ -65,25 +65,25 @@ void report_printed(Source& source, const Clock& clock, double left);
 /// A job's layers as they are planned. The look-ahead and the run must outlive it.
 class PlannedSource final : public Source {
  public:
-  /// `rest_given`: the run's encoder withholds nothing after the last layer, since that was sent before.
-  PlannedSource(Lookahead& lookahead, Run& run, bool rest_given = false)
+  /// `rest_given`: the maker's encoder withholds nothing after the last layer, since that was sent before.
+  PlannedSource(Lookahead& lookahead, ChunkMaker& maker, bool rest_given = false)
       : lookahead_(lookahead),
-        run_(run),
+        maker_(maker),
         ended_(rest_given),
-        times_(*run.prepared().part, run.prepared().first, run.prepared().count,
-               lookahead_options(run.prepared()).flow) {}
+        times_(*maker.prepared().part, maker.prepared().first, maker.prepared().count,
+               lookahead_options(maker.prepared()).flow) {}
 
-  const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
-  core::Box extent() const override { return run_.prepared().frame.extent; }
-  double flow() const override { return run_.flow(); }
-  std::vector<std::string> warnings() const override { return run_.warnings(); }
+  const gcode::Printer& printer() const override { return maker_.prepared().job.profile.printer; }
+  core::Box extent() const override { return maker_.prepared().frame.extent; }
+  double flow() const override { return maker_.flow(); }
+  std::vector<std::string> warnings() const override { return maker_.warnings(); }
 
-  std::size_t layers() const override { return run_.prepared().count; }
-  gcode::Chunk start() override { return run_.start(); }
+  std::size_t layers() const override { return maker_.prepared().count; }
+  gcode::Chunk start() override { return maker_.start(); }
   bool ready() const override { return lookahead_.ready(); }
   void on_ready(std::function<void()> listener) override { lookahead_.on_ready(std::move(listener)); }
   std::optional<PrintStep> next() override;
-  gcode::Chunk finish() override { return run_.finish(); }
+  gcode::Chunk finish() override { return maker_.finish(); }
   void cancel() override;
   void printed(double now, double left) override { lookahead_.printed(now, left); }
   Waiting waiting() const override;
@@ -93,7 +93,7 @@ class PlannedSource final : public Source {
 
  private:
   Lookahead& lookahead_;
-  Run& run_;
+  ChunkMaker& maker_;
   bool ended_;             ///< the encoder withholds nothing more, or the print was cancelled
   std::size_t taken_ = 0;  ///< the encoder was given the layers before this one
   std::size_t given_ = 0;  ///< the encoder has returned all of the layers before this one

@@ -20,7 +20,7 @@ void collect_crossings(const core::Ring& ring, double y, std::vector<double>& cr
   }
 }
 
-/// Rows whose middle lies between two heights.
+/// The rows whose middle lies between two heights.
 std::pair<std::size_t, std::size_t> rows_between(const PixelGrid& grid, double low, double high) {
   const auto row = [&grid](double y) {
     const double index = std::ceil((y - grid.origin.y()) / grid.pixel - 0.5);

@@ -8,8 +8,6 @@
 namespace unicursal::host {
 namespace {
 
-/// What fed_volumes() calls mixtures that no material has.
-
 std::string counted(std::uint64_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
@@ -68,7 +66,7 @@ std::string summary(const Comparison& comparison) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "simulator: {} lines lost, {} run twice, {}\n", comparison.lines_lost,
                  comparison.lines_twice, comparison.in_order ? "all in order" : "OUT OF ORDER");
-  const auto tell = [&out](const Comparison::Mixture& m) {
+  const auto add_line = [&out](const Comparison::Mixture& m) {
     fmt::format_to(out, "           {}: fed {:.2f} mm³ of {:.2f} ({:+.3f} %)\n", m.name, m.fed, m.intended,
                    100 * m.relative_error);
   };
@@ -76,7 +74,7 @@ std::string summary(const Comparison& comparison) {
   std::size_t count = 0;
   for (const Comparison::Mixture& mixture : comparison.mixtures) {
     if (mixture.name != mixed_between) {
-      tell(mixture);
+      add_line(mixture);
       continue;
     }
     ++count;
@@ -86,7 +84,7 @@ std::string summary(const Comparison& comparison) {
   if (count > 0) {
     shades.name = counted(count, "mixture") + " in between";
     shades.relative_error = shades.fed / shades.intended - 1;
-    tell(shades);
+    add_line(shades);
   }
   return text;
 }

@@ -64,7 +64,4 @@ class RecordWriter {
   std::uint64_t length_, before_last_ = 0;
 };
 
-/// Syncs a folder, so that new names in it survive a power cut; best effort.
-void sync_folder(const std::filesystem::path& folder) noexcept;
-
 }  // namespace unicursal::host
