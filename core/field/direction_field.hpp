@@ -44,7 +44,7 @@ inline double direction(const Vec2& v) {
 
 class DirectionField {
  public:
-  /// Asks for nothing anywhere.
+  /// Asks for no direction anywhere.
   DirectionField() = default;
   /// One vector per square, ‖V‖ ≤ 1, and per square the share of its area that lies in the island.
   DirectionField(const Grid& grid, std::vector<Vec2> values, const std::vector<double>& island_share);
