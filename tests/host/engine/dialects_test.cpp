@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/host/support/child_process.hpp"
+#include "tests/host/support/json_events.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
 
@@ -73,6 +74,38 @@ TEST_CASE("The printing time is estimated within 2 % for every kind of job") {
   INFO(job);
   CHECK(told == Approx(taken).epsilon(0.02));
   CHECK(report["estimated_print_seconds"].get<double>() > told);
+}
+
+TEST_CASE("Events name the job's mixtures, in every dialect and with feeders that slip") {
+  const std::string firmware = GENERATE("marlin", "repetier");
+  const std::string factors = GENERATE("", "flow_factors = [1, 1.05, 1]\n");
+  CAPTURE(firmware, factors);
+  const test::TempFolder folder;
+  folder.write("bench.toml", (firmware == "marlin" ? marlin : repetier) + factors);
+  folder.write("plate.svg", test::sample_drawing);
+  const auto file = folder.write("job.toml", test::sample_job);
+  const test::Outcome outcome = test::run({"dry-run", file.string(), "--json"});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(test::mixtures_named(outcome.out) == std::set<std::string>{"sea", "sun"});
+}
+
+TEST_CASE("The example with feeders that slip names its mixtures") {
+  const std::string firmware = GENERATE("marlin", "repetier");
+  const std::filesystem::path examples = std::filesystem::path(TEST_DATA) / "../../host/examples";
+  const test::TempFolder folder;
+  folder.write("leaf.svg", test::read_text(examples / "leaf.svg"));
+  folder.write("diamond.toml",
+               test::replaced(test::replaced(test::read_text(examples / "diamond.toml"), "[extruder]",
+                                             "[extruder]\nflow_factors = [1, 1.05, 1]"),
+                              "\"marlin\"", "\"" + firmware + "\""));
+  const auto file = folder.write("leaf.toml", test::read_text(examples / "leaf.toml"));
+  const test::Outcome outcome = test::run({"dry-run", file.string(), "--layers", "0:0", "--json"});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const std::set<std::string> named = test::mixtures_named(outcome.out);
+  CHECK(named.count("coral") == 1);
+  for (const std::string& mixture : named) CHECK((mixture == "coral" || mixture == "sea"));
 }
 
 TEST_CASE("Feeders that slip are corrected by their factors, and the report shows what arrives") {

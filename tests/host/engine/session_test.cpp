@@ -1,4 +1,4 @@
-// A print that is steered while it runs, in virtual time on a simulated printer.
+// A print that is steered while it runs, in virtual time, on a simulated printer.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,7 +14,7 @@ using Lines = std::vector<std::string>;
 
 namespace {
 
-/// Does something once, when so much has been printed.
+/// Acts once, when the print has reached `percent`.
 SessionBench::Script at(double percent, const std::function<void(Session&)>& act) {
   return [percent, act, done = false](Session& session, const SessionEvent& event) mutable {
     if (done || event.kind != Kind::progress || session.status().percent < percent) return;
@@ -23,7 +23,7 @@ SessionBench::Script at(double percent, const std::function<void(Session&)>& act
   };
 }
 
-/// And resumes when it is held.
+/// Pauses at `percent`, and resumes as soon as the print is held.
 SessionBench::Script held_at(double percent) {
   return [inner = at(percent, [](Session& s) { CHECK_FALSE(s.pause()); })](
              Session& session, const SessionEvent& event) mutable {
@@ -39,7 +39,7 @@ Lines undisturbed() {
   return bench.executed();
 }
 
-/// What `more` has beyond `lines`, which must be all there, in order, in at most two pieces.
+/// The lines that `more` has in addition to `lines`, which must be in it whole, in at most two pieces.
 Lines inserted(const Lines& lines, const Lines& more) {
   REQUIRE(more.size() >= lines.size());
   const auto [a, b] = std::mismatch(lines.begin(), lines.end(), more.begin());
@@ -58,7 +58,7 @@ std::size_t index_of(const Lines& lines, const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("A print that is held and goes on runs every line once, in order") {
+TEST_CASE("A print that was paused runs every line once, in order") {
   const Lines plain = undisturbed();
   SessionBench bench;
   const StreamResult result = bench.print(held_at(40));
@@ -87,7 +87,7 @@ TEST_CASE("A held printer stands aside, above the part, and returns to where it 
   CHECK(std::any_of(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(still), came_from));
 }
 
-TEST_CASE("Lowered heat comes back before the print goes on") {
+TEST_CASE("A nozzle whose heat was lowered is hot again before the print goes on") {
   SessionBench bench;
   bench.settings.pause_heat = PauseHeat::lower;
   REQUIRE(bench.print(held_at(40)).ending == Ending::completed);
@@ -101,7 +101,7 @@ TEST_CASE("Lowered heat comes back before the print goes on") {
 
 TEST_CASE("A long pause keeps the firmware's watch on this program fresh") {
   SessionBench bench;
-  bench.settings.longest_pause = 4000;  // s; M85 lets an idle printer live for 1800
+  bench.settings.longest_pause = 4000;  // s; M85 switches an idle printer off after 1800
   REQUIRE(bench.print(at(40, [](Session& s) { CHECK_FALSE(s.pause()); })).ending == Ending::completed);
   CHECK(bench.seen()["killed"] == false);
   CHECK(bench.seen()["printer_seconds"].get<double>() > 4000);
@@ -122,8 +122,7 @@ TEST_CASE("A pause that nobody ends cools the nozzle, and heats it again before 
   CHECK(std::count(from, to, "M85 S1800") >= 80);  // a quarter of an hour
 }
 
-TEST_CASE(
-    "A nozzle that has nothing to do for long does not stay on the part, nor does the firmware give up") {
+TEST_CASE("A nozzle that waits for planning does not stay on the part, and the firmware does not give up") {
   SessionBench bench(
       {}, "", {unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2")});
   bench.charge = 2e4;  // every layer is many minutes late
@@ -152,7 +151,7 @@ TEST_CASE("A pause asked for while the nozzle stands aside lasts until the user 
   SessionBench bench(
       {}, "", {unicursal::test::replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2")});
   bench.charge = 2e4;
-  bench.settings.link.temperatures = std::chrono::seconds(2);  // heat is told of meanwhile
+  bench.settings.link.temperatures = std::chrono::seconds(2);  // so that there are events meanwhile
   int holds = 0, returns = 0;
   double since = 0;
   bool asked = false;
@@ -164,7 +163,7 @@ TEST_CASE("A pause asked for while the nozzle stands aside lasts until the user 
       CHECK_FALSE(session.pause());
       CHECK(session.pause().value() == "it is paused already");
     }
-    // Long after the layer has come:
+    // Long after the layer was planned:
     if (!asked && event.kind == Kind::heat && holds > 0 && session.status().elapsed > since + 6000) {
       asked = true;
       CHECK(state == SessionState::paused);
@@ -207,7 +206,7 @@ TEST_CASE("A pause may be asked for at any time before the end, while heating as
   CHECK(bench.seen()["executed_lines_in_order"] == true);
 }
 
-TEST_CASE("The firmware's own wishes are obeyed like the user's") {
+TEST_CASE("The session obeys the firmware as it obeys the user") {
   const Lines plain = undisturbed();
   SECTION("pause and resume") {
     SessionBench bench(
@@ -263,6 +262,23 @@ TEST_CASE("An emergency stop ends everything at once, and is confirmed") {
   CHECK(bench.cold());
 }
 
+TEST_CASE("An emergency stop ends a pause at once") {
+  SessionBench bench;
+  double asked = 0;
+  const auto pause = at(40, [](Session& s) { CHECK_FALSE(s.pause()); });
+  const StreamResult result = bench.print([&, pause](Session& session, const SessionEvent& event) mutable {
+    pause(session, event);
+    if (event.kind != Kind::state || session.status().state != SessionState::paused) return;
+    asked = session.status().elapsed;
+    CHECK_FALSE(session.emergency_stop());
+  });
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.reason.find("stopped at once; reset the printer") != std::string::npos);
+  CHECK(asked > 0);
+  CHECK(bench.last().elapsed - asked < 3);  // s
+  CHECK(bench.seen()["killed"] == true);
+}
+
 TEST_CASE("Speed, flow and heat change while it prints, and nothing else does") {
   const Lines plain = undisturbed();
   SessionBench bench;
@@ -298,7 +314,7 @@ TEST_CASE("Heat that was changed is what a pause comes back to") {
   CHECK(holds(bench.executed(), "M109 S195"));
 }
 
-TEST_CASE("Commands that make no sense are refused with a reason") {
+TEST_CASE("Commands that do not fit the state are refused with a reason") {
   SessionBench bench;
   bool seen = false;
   bench.print([&](Session& session, const SessionEvent& event) {
@@ -326,7 +342,7 @@ TEST_CASE("Commands that make no sense are refused with a reason") {
   CHECK(seen);
 }
 
-TEST_CASE("What it tells of itself holds together") {
+TEST_CASE("Events and status agree with one another throughout a print") {
   SessionBench bench;
   std::set<std::string> mixtures;
   std::vector<SessionState> states;
@@ -342,7 +358,7 @@ TEST_CASE("What it tells of itself holds together") {
     if (!status.mixture.empty()) mixtures.insert(status.mixture);
     if (status.state != SessionState::printing || !status.left) return;
     CHECK(status.percent >= percent - 1e-9);
-    CHECK(*status.left <= left * 1.2);  // the second layer may be a little longer than the first foretold
+    CHECK(*status.left <= left * 1.2);  // the second layer may take a little longer than was foretold
     percent = status.percent;
     left = *status.left;
     CHECK(status.temperatures.nozzle.value() > 180);
@@ -356,7 +372,7 @@ TEST_CASE("What it tells of itself holds together") {
   CHECK(bench.last().left == 0);
 }
 
-TEST_CASE("A nozzle that is held before its first move cools, too, and is hot before it goes on") {
+TEST_CASE("A print that is held before its first move also cools, and is hot before it goes on") {
   SessionBench bench;
   bench.settings.pause_heat = PauseHeat::lower;
   bench.settings.longest_pause = 60;
@@ -386,7 +402,7 @@ TEST_CASE("Heaters are cold or the firmware has killed itself, however a print e
   CHECK((bench.cold() || bench.seen()["killed"] == true || fault == "silence@line=300"));
 }
 
-TEST_CASE("A user's start lines cannot switch M85 off, and are told so") {
+TEST_CASE("A user's start lines cannot switch M85 off, and a warning says so") {
   SessionBench bench({}, "\n[gcode]\nstart = \"M85 S0\"\n");
   REQUIRE(bench.print().ending == Ending::completed);
   const Lines lines = bench.executed();

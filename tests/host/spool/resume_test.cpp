@@ -11,6 +11,7 @@
 
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/journal.hpp"
+#include "tests/host/support/json_events.hpp"
 #include "tests/host/support/print_bench.hpp"
 
 using namespace unicursal;
@@ -167,6 +168,20 @@ TEST_CASE("a stop while a lost printer heats again moves nothing, and the print 
   CHECK(std::count(seen.lines.begin(), seen.lines.end(), "G28 X Y") == 1);
   CHECK(ends_like(seen.lines, whole.lines, 750));
   CHECK(seen.report["extents"]["max"][2] == whole.report["extents"]["max"][2]);
+}
+
+TEST_CASE("a resumed print names the job's mixtures, with feeders that slip as well") {
+  Bench bench(0, {"--fault", "reset@line=400"});
+  bench.folder().write("bench.toml", std::string(test::sample_profile) + "flow_factors = [1, 1.05, 1]\n");
+  REQUIRE(test::run(bench.print()).code == 1);
+  std::vector<std::string> resume = bench.resume();
+  resume.insert(resume.end(), {"--yes", "--json"});
+  const Outcome outcome = test::run(resume);
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const std::set<std::string> named = test::mixtures_named(outcome.out);
+  CHECK_FALSE(named.empty());
+  for (const std::string& mixture : named) CHECK((mixture == "sea" || mixture == "sun"));
 }
 
 TEST_CASE("a cable that was pulled and plugged in again costs nothing") {

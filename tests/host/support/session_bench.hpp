@@ -31,7 +31,7 @@ class SessionBench {
  public:
   using Script = std::function<void(host::Session&, const host::SessionEvent&)>;
 
-  /// `profile_more`: lines for the end of the profile. `simulator`: more options.
+  /// `simulator`: more options of the simulator. `profile_more`: lines for the end of the profile.
   explicit SessionBench(const std::vector<std::string>& simulator = {}, const std::string& profile_more = {},
                         const SampleFiles& sample = {})
       : job_(write_job(profile_more, sample)),
@@ -44,7 +44,7 @@ class SessionBench {
   /// Printer seconds that a second of planning takes, on one thread; absent: planning takes no time.
   std::optional<double> charge;
 
-  /// Prints; `script` is called at every event. Ends the simulator, whose report is then there.
+  /// Prints; `script` is called at every event. Ends the simulator, which writes its report.
   host::StreamResult print(const Script& script = {}) {
     settings.clock = clock_;
     host::LookaheadOptions planning = host::lookahead_options(prepared_);
