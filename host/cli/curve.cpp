@@ -10,9 +10,11 @@
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/report/curve_file.hpp"
+#include "host/report/peak_memory.hpp"
 #include "host/report/picture_writer.hpp"
 #include "host/report/stage_pictures.hpp"
 #include "host/report/summary.hpp"
+#include "host/report/target.hpp"
 
 namespace unicursal::host {
 namespace {

@@ -14,25 +14,9 @@
 namespace unicursal::host {
 namespace {
 
-/// A G-code file that appears under its name only when it is complete.
-class GcodeFile {
- public:
-  explicit GcodeFile(std::filesystem::path file) : file_(std::move(file)), stream_(open_draft(file_)) {}
-  ~GcodeFile() {
-    if (stream_.is_open()) discard_draft(stream_, file_);
-  }
-  GcodeFile(const GcodeFile&) = delete;
-  GcodeFile& operator=(const GcodeFile&) = delete;
-
-  void write(const gcode::Chunk& chunk) {
-    for (const std::string& line : chunk.lines) stream_ << line << '\n';
-  }
-  void publish() { publish_draft(stream_, file_); }
-
- private:
-  std::filesystem::path file_;
-  std::ofstream stream_;
-};
+void write(WholeFile& file, const gcode::Chunk& chunk) {
+  for (const std::string& line : chunk.lines) file.stream() << line << '\n';
+}
 
 class Plan final : public Command {
  public:
@@ -55,23 +39,24 @@ class Plan final : public Command {
 
 Exit Plan::run() {
   const PreparedJob prepared = prepare_and_warn(job_, {output_});
-  Run run(prepared, "plan", job_.outputs);
+  ChunkMaker maker(prepared);
+  Books books(maker, "plan", job_.outputs);
   check_beginning(prepared);
-  GcodeFile file(output_);
-  file.write(run.start());
+  WholeFile file(output_);
+  write(file, maker.start());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   {
     Progress progress("planning", prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {
-      file.write(run.layer(std::move(*layer)));
+      write(file, maker.layer(std::move(*layer)).chunk);
       progress.update(done, 1);
     }
   }
-  file.write(run.rest());
-  file.write(run.finish());
+  write(file, maker.rest());
+  write(file, maker.finish());
   file.publish();
-  run.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
-  show(stdout, "{}written:   {}\n", summary(run.totals(), lookahead.effort()), output_.string());
+  books.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
+  show(stdout, "{}written:   {}\n", summary(books.totals(), lookahead.effort()), output_.string());
   return Exit::success;
 }
 

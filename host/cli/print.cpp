@@ -39,12 +39,14 @@ CLI::App& PrintCommand::declare(CLI::App& program) {
 }
 
 Exit PrintCommand::run() {
-  Print print(prepare_and_warn(job_, present({options_.log})), "print", options_, job_.outputs);
+  Print print(prepare_and_warn(job_, present({options_.log})), options_);
+  Books books(print.maker(), "print", job_.outputs);
+  print.connect();
   const StreamResult result = stream_with_progress(print, display_);
   show_how_to_resume(print.spool(), result);
-  conclude(print.run(), result, {{"planning", planning_json(print.lookahead())}});
+  conclude(books, result, {{"planning", planning_json(print.lookahead())}});
   if (result.ending == Ending::completed)
-    show(message_stream(display_), "{}", summary(print.run().totals(), print.lookahead().effort()));
+    show(message_stream(display_), "{}", summary(books.totals(), print.lookahead().effort()));
   return show_ending(result, display_);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
@@ -11,7 +10,6 @@
 #include "host/cli/terminal_output.hpp"
 #include "host/engine/print.hpp"
 #include "host/engine/restart.hpp"
-#include "host/report/print_report.hpp"
 #include "host/spool/spool.hpp"
 #include "host/spool/spool_error.hpp"
 
@@ -121,7 +119,7 @@ StreamResult stream_from(Print& print, std::optional<Leg> leg, const ResumeOptio
 
 Exit end(Print& print, const StreamResult& result, const ResumeOptions& options) {
   show_how_to_resume(print.spool(), result);
-  conclude(print.run(), result, nlohmann::json::object());
+  throw_if_failed(result);
   return show_ending(result, options.display);
 }
 
@@ -160,7 +158,7 @@ Exit resume_kept(const ResumeOptions& options) {
                      "this print cannot be resumed, because another print has begun on its printer since",
                      "print the job again from the beginning");
   }
-  Print print(std::move(spool), "resume", options.on);
+  Print print(std::move(spool), options.on);
   return resume_print(print, options);
 }
 

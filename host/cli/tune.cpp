@@ -78,14 +78,14 @@ void check_output(const TuneOptions& command) {
 }
 
 void write_gcode(const FinishedPrint& print, const std::filesystem::path& file) {
-  std::ofstream stream = open_draft(file);
+  WholeFile whole(file);
   const auto write = [&](const gcode::Chunk& chunk) {
-    for (const std::string& line : chunk.lines) stream << line << '\n';
+    for (const std::string& line : chunk.lines) whole.stream() << line << '\n';
   };
   write(print.start);
   for (const gcode::Chunk& chunk : print.body) write(chunk);
   write(print.finish);
-  publish_draft(stream, file);
+  whole.publish();
   show(stdout, "written:   {}\n", file.string());
 }
 

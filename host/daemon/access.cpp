@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view bearer = "Bearer ";
 constexpr std::string_view token_protocol = "token.";
 
-/// In a time that does not tell how many signs were right.
+/// Compares in constant time.
 bool same(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   unsigned different = 0;

@@ -1,4 +1,4 @@
-// The daemon's HTTP API (API.md): which address does what, who may, and how much they may send.
+// The daemon's HTTP API (API.md): what each address does, who may use it, and how much may be sent.
 #pragma once
 
 #include "host/daemon/access.hpp"
@@ -10,18 +10,36 @@ namespace unicursal::host {
 class Api : public HttpHandler {
  public:
   explicit Api(Daemon& daemon) : daemon_(daemon) {}
-  /// Before anybody is let in: nobody is, until this is told.
+  /// Nobody is let in before this is called.
   void set_rules(AccessRules rules) { rules_ = std::move(rules); }
 
   std::uint64_t admit(const RequestHead& head) override;
   asio::awaitable<Response> answer(Request request) override;
   bool wants_events(const RequestHead& head) const override;
-  void join(std::shared_ptr<EventStream> client) override { daemon_.join(std::move(client)); }
+  void join(std::shared_ptr<EventStream> client) override;
 
  private:
-  asio::awaitable<Response> answer_jobs(const Request& request);
-  asio::awaitable<Response> answer_files(Request request);
-  Response answer_print(const Request& request);
+  struct Route;
+  static const Route& route_of(const RequestHead& head);
+
+  asio::awaitable<Response> status(Request request);
+  asio::awaitable<Response> printer(Request request);
+  asio::awaitable<Response> metrics(Request request);
+  asio::awaitable<Response> list_jobs(Request request);
+  asio::awaitable<Response> add_job(Request request);
+  asio::awaitable<Response> show_job(Request request);
+  asio::awaitable<Response> remove_job(Request request);
+  asio::awaitable<Response> list_files(Request request);
+  asio::awaitable<Response> keep_file(Request request);
+  asio::awaitable<Response> remove_upload(Request request);
+  asio::awaitable<Response> start(Request request);
+  asio::awaitable<Response> pause(Request request);
+  asio::awaitable<Response> resume(Request request);
+  asio::awaitable<Response> cancel(Request request);
+  asio::awaitable<Response> stop(Request request);
+  asio::awaitable<Response> set_temperature(Request request);
+  asio::awaitable<Response> set_flow(Request request);
+  asio::awaitable<Response> set_speed(Request request);
 
   Daemon& daemon_;
   AccessRules rules_{random_token(), {}, {}};

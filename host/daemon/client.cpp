@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 constexpr auto patience = 30s;
 constexpr std::size_t longest_answer = 16 * 1024 * 1024;  ///< bytes
 
-/// Sends and reads to the end; the server closes. Throws asio::system_error.
+/// Sends, and reads until the server closes the connection. Throws asio::system_error.
 std::string talk(const asio::ip::tcp::endpoint& at, const std::string& request) {
   asio::io_context loop;
   asio::ip::tcp::socket socket(loop);
@@ -30,7 +30,7 @@ std::string talk(const asio::ip::tcp::endpoint& at, const std::string& request) 
   socket.async_connect(at, [&](const asio::error_code& error) {
     problem = error;
     if (error) return;
-    // An answer may come before all is sent: both at once.
+    // An answer may come before everything is sent, so both happen at once.
     asio::async_write(socket, asio::buffer(request), [](const asio::error_code&, std::size_t) {});
     asio::async_read(socket, asio::dynamic_buffer(answer, longest_answer), asio::transfer_all(), finished);
   });
@@ -81,7 +81,7 @@ Answer Client::exchange(const std::string& method, const std::string& path, cons
   try {
     const std::string answer = talk(parse_endpoint(address_), request + "\r\n" + body);
     return parse_answer(answer,
-                        {address_, "", "what answers there is no daemon of this program's",
+                        {address_, "", "the program that answers there is not a unicursal daemon",
                          "start one with `unicursal serve`, or delete " + (state_ / "address").string()});
   } catch (const asio::system_error& error) {
     throw DaemonError(address_, "", "the daemon does not answer (" + error.code().message() + ")",

@@ -1,4 +1,4 @@
-// The commands' side of the API: finds the daemon by its state folder, asks, waits for the answer.
+// The commands' side of the API: finds the daemon by its state folder, sends a request, waits for the answer.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,10 @@ struct Answer {
 
 class Client {
  public:
-  /// Absent when no daemon has left its address there.
+  /// Absent if no daemon has left its address there.
   static std::optional<Client> find(const std::filesystem::path& state);
 
-  /// Blocks, for half a minute at most. Throws DaemonError when nobody answers, or not as the daemon does.
+  /// Blocks for at most half a minute. Throws DaemonError if nobody answers, or somebody else does.
   Answer ask(const std::string& method, const std::string& path) const;
   Answer ask(const std::string& method, const std::string& path, const nlohmann::json& body) const;
   Answer send_file(const std::string& path, const std::string& bytes) const;

@@ -9,21 +9,25 @@
 #include <utility>
 
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/daemon/refused.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/engine/session_json.hpp"
 #include "host/job/load_job.hpp"
 #include "host/job/profile.hpp"
+#include "host/loop/sentence.hpp"
 
 namespace unicursal::host {
 namespace {
 
+using Why = Refused::Why;
+
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr auto progress_interval = 250ms;  ///< between two events of progress; more is more than eyes see
+constexpr auto progress_interval = 250ms;  ///< between two events of progress
 
-/// In another thread; what it throws is thrown here.
+/// Runs `work` in the pool's thread; exceptions come back to the caller.
 template <typename Work>
 asio::awaitable<std::invoke_result_t<Work>> at_work(Work work) {
   co_return work();
@@ -34,14 +38,8 @@ auto elsewhere(asio::thread_pool& pool, Work work) {
   return asio::co_spawn(pool.get_executor(), at_work(std::move(work)), asio::use_awaitable);
 }
 
-std::string told_by(const std::exception_ptr& error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const std::exception& known) {
-    return known.what();
-  } catch (...) {
-    return "something unknown went wrong";
-  }
+std::string text_of(const json& event) {
+  return event.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 QueuedJob::State state_after(Ending ending) {
@@ -65,7 +63,7 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
       queue_(options.state / "queue.json"),
       progress_(loop) {
   if (options.profile) profile_ = load_profile(*options.profile);
-  replace_file(options_.state / "queue.json", queue_.text());
+  write_state(options_.state / "queue.json", queue_.text());
 }
 
 Daemon::~Daemon() {
@@ -73,7 +71,7 @@ Daemon::~Daemon() {
   preparing_.join();
 }
 
-// ---- what is known
+// ---- status
 
 json Daemon::job_and_print() const {
   json now = json::object();
@@ -109,9 +107,9 @@ json Daemon::printer() const {
 }
 
 Session& Daemon::session() {
-  if (!current_) throw HttpError(409, "nothing is being printed");
+  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
   if (!current_->print || !current_->print->session())
-    throw HttpError(409, "the print is still being prepared");
+    throw Refused(Why::conflict, "the print is still being prepared");
   return *current_->print->session();
 }
 
@@ -119,20 +117,20 @@ Session& Daemon::session() {
 
 asio::awaitable<void> Daemon::save() {
   const auto write = [file = options_.state / "queue.json", text = queue_.text()] {
-    replace_file(file, text);
+    write_state(file, text);
     return true;
   };
   co_await elsewhere(disk_, write);
 }
 
 asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<LayerRange> layers) {
-  if (queue_.waiting() >= Queue::most_waiting) throw HttpError(409, "the queue is full");
+  if (queue_.waiting() >= Queue::most_waiting) throw Refused(Why::conflict, "the queue is full");
   const auto check = [this, name] {
     const std::filesystem::path file = files_.find(name);
     try {
       load_job(file, options_.profile);
     } catch (const core::DataError& error) {
-      throw HttpError(422, error.what());
+      throw Refused(Why::bad_job, error.what());
     }
     return true;
   };
@@ -145,30 +143,32 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
     problem = error.what();
   }
   const QueuedJob* job = queue_.find(id);
-  // A job that the next daemon would not know of was not taken; unless somebody has begun it meanwhile.
+  // A job that is not on disk would be lost with this daemon, so it is refused unless it was started
+  // meanwhile.
   if (!problem.empty() && job && job->state == QueuedJob::State::queued) {
     queue_.remove(id);
-    throw HttpError(507, problem);
+    throw Refused(Why::no_room, problem);
   }
   if (job) broadcast({{"event", "queue"}, {"job", to_json(*job)}});
   co_return id;
 }
 
 asio::awaitable<void> Daemon::remove(std::uint64_t id) {
-  if (!queue_.find(id)) throw HttpError(404, "there is no job of that number");
-  if (current_ && current_->id == id) throw HttpError(409, "that job is being printed; cancel it instead");
+  if (!queue_.find(id)) throw Refused(Why::not_found, "there is no job with that number");
+  if (current_ && current_->id == id)
+    throw Refused(Why::conflict, "that job is being printed; cancel it instead");
   queue_.remove(id);
   co_await save();
   broadcast({{"event", "queue"}, {"removed", id}});
 }
 
-/// What was queued is what is printed.
+/// Files of a job that waits or is being printed must not change.
 void Daemon::check_not_needed(const std::string& upload) const {
   for (const QueuedJob& job : queue_.jobs()) {
     const bool current = current_ && current_->id == job.id;
     if ((current || job.state == QueuedJob::State::queued) && JobFiles::is_from(job.name, upload))
-      throw HttpError(409, fmt::format("job {} is from there, and {}; choose another name", job.id,
-                                       current ? "is being printed" : "waits"));
+      throw Refused(Why::conflict, fmt::format("job {} is from there, and {}; choose another name", job.id,
+                                               current ? "is being printed" : "waits"));
   }
 }
 
@@ -198,10 +198,12 @@ asio::awaitable<std::vector<std::string>> Daemon::job_names() {
 // ---- printing
 
 std::uint64_t Daemon::start(std::optional<std::uint64_t> id) {
-  if (when_idle_) throw HttpError(409, "the daemon is ending");
-  if (current_) throw HttpError(409, "a print is going on");
+  if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
+  if (current_) throw Refused(Why::conflict, "a print is going on");
   const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
-  if (!job) throw HttpError(id ? 404 : 409, id ? "there is no job of that number" : "no job is waiting");
+  if (!job)
+    throw Refused(id ? Why::not_found : Why::conflict,
+                  id ? "there is no job with that number" : "no job is waiting");
   const std::uint64_t chosen = job->id;
   current_.emplace();
   current_->id = chosen;
@@ -219,7 +221,9 @@ std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
   options.spool = options_.spool;
   options.pause_heat = options_.pause_heat;
   PreparedJob prepared = prepare(load_job(files_.find(job.name), options_.profile), job.layers);
-  return std::make_unique<Print>(std::move(prepared), "serve", options);
+  auto print = std::make_unique<Print>(std::move(prepared), options);
+  print->connect();
+  return print;
 }
 
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {
@@ -246,11 +250,11 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   } catch (...) {
     error = std::current_exception();
   }
-  if (error) reason = told_by(error);
+  if (error) reason = sentence(error);
   if (current_->print) {
     last_ = current_->print->session() ? job_and_print() : json();
     current_->print->end();
-    // The planning threads end when they come to it: not on this loop's time.
+    // Ending the planning threads may take long, so it happens in another thread.
     asio::post(preparing_,
                [gone = std::shared_ptr<Print>(std::move(current_->print))]() mutable { gone.reset(); });
   }
@@ -260,7 +264,7 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   if (when_idle_) when_idle_();
 }
 
-/// The reason why it ended as it did; empty after a good end.
+/// Returns why the print did not complete; empty if it did.
 asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob::State& ending) {
   co_await enter(id, QueuedJob::State::preparing, {});
   const QueuedJob job = *queue_.find(id);
@@ -280,28 +284,28 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   ending = state_after(result.ending);
   std::string reason = result.ending == Ending::stopped ? session.status().reason : result.reason;
   if (result.ending != Ending::completed && result.begun)
-    reason += "; to go on with it: " + way_on() + " " + current_->print->kept_as();
+    reason += "; to continue it: " + way_on() + " " + current_->print->kept_as();
   co_return reason;
 }
 
-/// For a person at a terminal, who may have another folder of prints.
+/// The command that continues a print; a terminal may have another folder of prints.
 std::string Daemon::way_on() const {
   return options_.spool ? "unicursal resume --spool " + options_.spool->string() : "unicursal resume";
 }
 
 void Daemon::cancel(const std::string& reason) {
-  if (!current_) throw HttpError(409, "nothing is being printed");
+  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
   if (!current_->print || !current_->print->session()) {
     current_->cancelled = reason;
     return;
   }
-  if (const Refusal no = session().cancel(reason)) throw HttpError(409, *no);
+  if (const Refusal no = session().cancel(reason)) throw Refused(Why::conflict, *no);
 }
 
 void Daemon::stop_at_once() {
-  if (!current_) throw HttpError(409, "nothing is being printed");
+  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
   if (!current_->print || !current_->print->session()) return cancel("the user has stopped it");
-  if (const Refusal no = session().emergency_stop()) throw HttpError(409, *no);
+  if (const Refusal no = session().emergency_stop()) throw Refused(Why::conflict, *no);
 }
 
 void Daemon::shut_down(std::function<void()> done) {
@@ -312,41 +316,40 @@ void Daemon::shut_down(std::function<void()> done) {
     if (again)
       stop_at_once();
     else
-      cancel("the daemon was told to end");
-  } catch (const HttpError&) {
-    // It is ending already.
+      cancel("the daemon was asked to end");
+  } catch (const Refused&) {
+    // The print is ending already.
   }
 }
 
 // ---- events
 
-void Daemon::join(std::shared_ptr<EventStream> client) {
-  std::erase_if(clients_, [](const auto& one) { return !one->open(); });
-  client->send(
-      json({{"event", "hello"}, {"status", status()}}).dump(-1, ' ', false, json::error_handler_t::replace));
-  clients_.push_back(std::move(client));
+void Daemon::join(std::unique_ptr<Follower> follower) {
+  std::erase_if(followers_, [](const auto& one) { return !one->open(); });
+  follower->send(text_of({{"event", "hello"}, {"status", status()}}));
+  followers_.push_back(std::move(follower));
 }
 
 void Daemon::broadcast(const json& event) {
-  std::erase_if(clients_, [](const auto& client) { return !client->open(); });
-  if (clients_.empty()) return;
-  const std::string text = event.dump(-1, ' ', false, json::error_handler_t::replace);
-  for (const auto& client : clients_) client->send(text);
+  std::erase_if(followers_, [](const auto& one) { return !one->open(); });
+  if (followers_.empty()) return;
+  const std::string text = text_of(event);
+  for (const auto& follower : followers_) follower->send(text);
 }
 
 void Daemon::told(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
     return show_progress_soon();
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
-  if (!session || clients_.empty()) return;
+  if (!session || followers_.empty()) return;
   SessionEvent shown = event;
   shown.text = event.kind == SessionEvent::Kind::printer ? gcode::printable(event.text) : event.text;
   broadcast(to_json(shown, session->status()));
 }
 
-/// Of many events, one a quarter of a second; the last one is never lost.
+/// Sends at most four events a second; the last one is never lost.
 void Daemon::show_progress_soon() {
-  if (progress_waits_ || clients_.empty()) return;
+  if (progress_waits_ || followers_.empty()) return;
   progress_waits_ = true;
   progress_.expires_after(progress_interval);
   progress_.async_wait([this](const asio::error_code& cut) {

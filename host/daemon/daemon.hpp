@@ -1,8 +1,8 @@
-// The daemon's own mind: a queue of jobs, at most one print, and who listens to it. It knows nothing of HTTP
-// (api.hpp) and nothing of signals (serve.hpp). Everything belongs to the loop's thread; files and planning
-// are at work in threads of their own.
+// The daemon's state: a queue of jobs, at most one print, and the followers of its events. It knows nothing
+// of HTTP (api.hpp) or signals (serve.hpp). Everything belongs to the loop's thread; files are read and
+// written, and prints prepared, in threads of their own.
 //
-// A print is never begun by itself: somebody has to have taken the last part off the bed.
+// No print starts by itself: somebody has to take the last part off the bed first.
 #pragma once
 
 #include <asio/awaitable.hpp>
@@ -20,7 +20,6 @@
 #include "host/daemon/job_files.hpp"
 #include "host/daemon/queue.hpp"
 #include "host/engine/print.hpp"
-#include "host/http/event_stream.hpp"
 
 namespace unicursal::host {
 
@@ -33,9 +32,19 @@ struct DaemonOptions {
   PauseHeat pause_heat = PauseHeat::keep;
 };
 
+/// Somebody who follows the daemon's events.
+class Follower {
+ public:
+  virtual ~Follower() = default;
+  /// False once nobody listens any more; the daemon then lets go of it.
+  virtual bool open() const = 0;
+  /// `event`: JSON, as in API.md.
+  virtual void send(const std::string& event) = 0;
+};
+
 class Daemon {
  public:
-  /// Throws core::DataError: a profile that cannot be read, a folder that is none, a damaged queue.
+  /// Throws core::DataError for an unreadable profile, a missing folder, or a damaged queue.
   Daemon(asio::io_context& loop, const DaemonOptions& options);
   ~Daemon();
 
@@ -44,35 +53,35 @@ class Daemon {
   const Queue& queue() const { return queue_; }
   const JobFiles& files() const { return files_; }
 
-  /// The session of a print that is not over. Throws HttpError 409.
+  /// The session of the current print. Throws Refused when there is none.
   Session& session();
-  /// Checks the job's text first. Throws HttpError 400, 404, 409, 422 or 507.
+  /// Checks the job's text, adds the job to the queue, and returns its number. Throws Refused.
   asio::awaitable<std::uint64_t> add(std::string name, std::optional<LayerRange> layers);
-  /// Throws HttpError 404 or 409.
+  /// Removes a job from the queue. Throws Refused, also for the one that is being printed.
   asio::awaitable<void> remove(std::uint64_t id);
-  /// Not while a job from there is printed: it is checked only once. Throws HttpError 400, 409 or 507.
+  /// Throws Refused, also while a job of this upload waits or is printed: a job is checked only once.
   asio::awaitable<void> keep_upload(std::string upload, std::string file, std::string bytes);
   asio::awaitable<void> remove_upload(std::string upload);
   asio::awaitable<std::vector<std::string>> job_names();
-  /// Begins to prepare and then prints; `id` absent: the first that waits. Returns at once. Throws HttpError
-  /// 404 or 409.
+  /// Prepares and then prints a job, the first that waits if `id` is absent. Returns its number at once.
+  /// Throws Refused.
   std::uint64_t start(std::optional<std::uint64_t> id);
-  /// Also while it prepares. Throws HttpError 409.
+  /// Cancels the print, also while it is being prepared. Throws Refused when there is none.
   void cancel(const std::string& reason);
   void stop_at_once();
 
-  /// Tells it of every event from now on.
-  void join(std::shared_ptr<EventStream> client);
-  /// No further print begins; the present one is parked and cooled, or stopped at once if asked for again.
-  /// `done` is called when nothing prints any more.
+  /// Sends it the present status, and every event from now on.
+  void join(std::unique_ptr<Follower> follower);
+  /// No further print begins; the current one is parked and cooled, or stopped at once by a second call.
+  /// `done` is called when no print is left.
   void shut_down(std::function<void()> done);
   bool busy() const { return current_.has_value(); }
 
  private:
   struct Current {
     std::uint64_t id = 0;
-    std::unique_ptr<Print> print;          ///< once it is prepared
-    std::optional<std::string> cancelled;  ///< why, before that
+    std::unique_ptr<Print> print;          ///< null until it is prepared
+    std::optional<std::string> cancelled;  ///< the reason, if it was cancelled before that
   };
 
   asio::awaitable<void> print(std::uint64_t id);
@@ -93,11 +102,11 @@ class Daemon {
   JobFiles files_;
   Queue queue_;
   std::optional<Current> current_;
-  nlohmann::json last_;   ///< the final status of the print before, or null
-  std::string firmware_;  ///< of the printer, as last heard
-  std::string problem_;   ///< of the state folder
+  nlohmann::json last_;   ///< the final status of the last print, or null
+  std::string firmware_;  ///< the printer's last answer to M115
+  std::string problem_;   ///< with the state folder, a sentence; empty: none
   std::function<void()> when_idle_;
-  std::vector<std::shared_ptr<EventStream>> clients_;
+  std::vector<std::unique_ptr<Follower>> followers_;
   asio::steady_timer progress_;
   bool progress_waits_ = false;
   asio::thread_pool disk_{1}, preparing_{1};

@@ -6,10 +6,14 @@
 #include <algorithm>
 
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/daemon/refused.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/files/whole_file.hpp"
 
 namespace unicursal::host {
 namespace {
+
+using Why = Refused::Why;
 
 namespace fs = std::filesystem;
 
@@ -18,8 +22,8 @@ constexpr std::size_t longest_name = 64, longest_job_name = 512;
 constexpr int deepest_folder = 4;
 constexpr std::uintmax_t largest_job = 1024 * 1024;  ///< bytes of a job's own text
 
-HttpError no_such(const std::string& name) {
-  return {404, "there is no job \"" + gcode::printable(name) + "\"; see `unicursal queue --jobs`"};
+Refused no_such(const std::string& name) {
+  return {Why::not_found, "there is no job \"" + gcode::printable(name) + "\"; see `unicursal queue --jobs`"};
 }
 
 bool is_job(const fs::path& path) {
@@ -31,21 +35,23 @@ bool within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Relative, and without a step up: what is left is to follow links.
+/// Accepts relative names without "..". Links are checked elsewhere.
 void check_name(const std::string& name) {
   const fs::path path(name);
   bool sound = !name.empty() && name.size() <= longest_job_name && path.is_relative() && is_job(path);
   sound = sound && name.find('\0') == std::string::npos && name.find('\\') == std::string::npos;
   for (const fs::path& part : path) sound = sound && part != ".." && part != "." && !part.empty();
   if (!sound)
-    throw HttpError(400, "a job is named by its file in one of the daemon's folders, such as leaf.toml");
+    throw Refused(Why::bad_name,
+                  "a job is named by its file in one of the daemon's folders, such as leaf.toml");
 }
 
 void check_texts(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     if (text->get().find_first_of("/\\") != std::string::npos || text->get() == "..")
-      throw HttpError(422, "in an uploaded job no text may hold a slash: \"" + gcode::printable(text->get()) +
-                               "\"; upload the file and name it alone");
+      throw Refused(Why::bad_job, "the texts of an uploaded job may not contain a slash: \"" +
+                                      gcode::printable(text->get()) +
+                                      "\"; upload the file and give its name alone");
   } else if (const auto* list = node.as_array()) {
     for (const toml::node& item : *list) check_texts(item);
   } else if (const auto* table = node.as_table()) {
@@ -56,16 +62,16 @@ void check_texts(const toml::node& node) {
 void check_uploaded_job(const fs::path& file) {
   std::error_code error;
   if (fs::file_size(file, error) > largest_job || error)
-    throw HttpError(422, "the job's text is too long to be one");
+    throw Refused(Why::bad_job, "the job's text is too long to be one");
   try {
     check_texts(toml::parse_file(file.string()));
   } catch (const toml::parse_error& wrong) {
-    throw HttpError(422, fmt::format("{}: line {}: is no TOML: {}", file.filename().string(),
-                                     wrong.source().begin.line, wrong.description()));
+    throw Refused(Why::bad_job, fmt::format("{}: line {}: is not TOML: {}", file.filename().string(),
+                                            wrong.source().begin.line, wrong.description()));
   }
 }
 
-/// In `folder`, as find() wants them named; links are not followed.
+/// Adds the jobs in `folder` by the names that find() takes; links are not followed.
 void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std::string>& names) {
   std::error_code error;
   for (fs::recursive_directory_iterator item(folder, fs::directory_options::skip_permission_denied, error),
@@ -95,7 +101,7 @@ JobFiles::JobFiles(std::vector<fs::path> folders, fs::path uploads)
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
     if (error || !fs::is_directory(real, error)) {
-      throw DaemonError(folder.string(), "", "is no folder that can be read",
+      throw DaemonError(folder.string(), "", "is not a folder that can be read",
                         "name the folders of the jobs with --jobs");
     }
     folder = real;
@@ -116,7 +122,7 @@ fs::path JobFiles::find_upload(const std::string& name) const {
   const std::string upload = inside.substr(0, slash);
   const std::string file = slash == std::string::npos ? "" : inside.substr(slash + 1);
   if (!is_plain_name(upload) || !is_plain_name(file) || !is_job(file))
-    throw HttpError(400, "an uploaded job is named as in upload:leaf/job.toml");
+    throw Refused(Why::bad_name, "an uploaded job is named as in upload:leaf/job.toml");
   const fs::path path = uploads_ / upload / file;
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) throw no_such(name);
@@ -147,7 +153,7 @@ std::vector<std::string> JobFiles::list() const {
 
 void JobFiles::keep(const std::string& upload, const std::string& file, const std::string& bytes) const {
   if (!is_plain_name(upload) || !is_plain_name(file))
-    throw HttpError(400, "names of uploads hold letters, digits, dots, dashes and underscores only");
+    throw Refused(Why::bad_name, "names of uploads hold letters, digits, dots, dashes and underscores only");
   std::uint64_t kept = bytes.size();
   std::size_t files = 1;
   std::error_code error;
@@ -159,20 +165,20 @@ void JobFiles::keep(const std::string& upload, const std::string& file, const st
     ++files;
   }
   if (kept > most_uploaded || files > most_uploaded_files)
-    throw HttpError(507, "there is no room for more uploads; remove some first");
+    throw Refused(Why::no_room, "there is no room for more uploads; remove some first");
   fs::create_directories(uploads_ / upload, error);
   try {
-    replace_file(uploads_ / upload / file, bytes);
-  } catch (const DaemonError& full) {
-    throw HttpError(507, full.what());
+    write_whole_file(uploads_ / upload / file, bytes, WholeFile::Access::owner_only);
+  } catch (const core::FileError& full) {
+    throw Refused(Why::no_room, full.what());
   }
 }
 
 void JobFiles::remove(const std::string& upload) const {
-  if (!is_plain_name(upload)) throw HttpError(400, "that is no name of an upload");
+  if (!is_plain_name(upload)) throw Refused(Why::bad_name, "that is not a name of an upload");
   std::error_code error;
   if (fs::remove_all(uploads_ / upload, error) == 0 || error)
-    throw HttpError(404, "there is no upload \"" + upload + "\"");
+    throw Refused(Why::not_found, "there is no upload \"" + upload + "\"");
 }
 
 }  // namespace unicursal::host

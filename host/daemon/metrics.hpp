@@ -6,7 +6,7 @@
 
 namespace unicursal::host {
 
-/// Of a daemon's status; what is not known is left out.
+/// `status`: as Daemon::status() returns it; unknown values are left out.
 std::string metrics_text(const nlohmann::json& status);
 
 }  // namespace unicursal::host

@@ -82,7 +82,7 @@ Queue::Queue(const std::filesystem::path& file) {
     next_id_ = stored.at("next_id").get<std::uint64_t>();
     for (const json& entry : stored.at("jobs")) jobs_.push_back(job_from(entry));
   } catch (const json::exception&) {
-    throw DaemonError(file.string(), "", "is no queue of this program's",
+    throw DaemonError(file.string(), "", "is not a queue of this program",
                       "move it away; the jobs in it have to be queued again");
   }
   for (QueuedJob& job : jobs_) {
@@ -90,8 +90,8 @@ Queue::Queue(const std::filesystem::path& file) {
     const bool printed = job.state == State::printing;
     job.state = State::interrupted;
     job.ended = now();
-    job.reason = printed ? "the daemon ended while it was printed; `unicursal resume` goes on with it"
-                         : "the daemon ended before it was begun";
+    job.reason = printed ? "the daemon ended while it was being printed; `unicursal resume` continues it"
+                         : "the daemon ended before the print began";
   }
 }
 

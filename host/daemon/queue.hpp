@@ -1,6 +1,6 @@
-// The jobs of a daemon, in the order in which they are to be printed, and what became of the last ones.
-// Whoever changes them writes text() to the queue's file, off the loop, so that a daemon that is killed finds
-// them again.
+// The jobs of a daemon in the order in which they will be printed, and the last ones that have ended. After
+// every change the caller writes text() to the queue's file, off the loop, so that the next daemon finds them
+// after a kill.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace unicursal::host {
 struct QueuedJob {
   enum class State {
     queued,
-    preparing,  ///< is read and checked, the port is opened
+    preparing,  ///< the job is read and checked, and the port opened
     printing,   ///< until the printer is cold, pauses included
     done,
     stopped,  ///< by the user
@@ -26,10 +26,10 @@ struct QueuedJob {
   };
 
   std::uint64_t id = 0;
-  std::string name;  ///< as JobFiles knows it
+  std::string name;  ///< as in JobFiles
   std::optional<LayerRange> layers;
   State state = State::queued;
-  std::string reason;      ///< of an end that is no good one, a sentence
+  std::string reason;      ///< why it was not completed, a sentence; empty if it was
   std::int64_t added = 0;  ///< s since 1970
   std::int64_t began = 0, ended = 0;
 };
@@ -39,23 +39,23 @@ const char* name(QueuedJob::State state);
 class Queue {
  public:
   static constexpr std::size_t most_waiting = 1000;
-  static constexpr std::size_t most_kept = 100;  ///< of those that have ended
+  static constexpr std::size_t most_kept = 100;  ///< jobs that have ended
 
-  /// Reads what an earlier daemon has left, if it has; jobs that it was at become interrupted. Throws
-  /// DaemonError for a file that is none of its kind.
+  /// Reads the file of an earlier daemon if there is one; jobs that were being printed become interrupted.
+  /// Throws DaemonError if it is not a queue.
   explicit Queue(const std::filesystem::path& file);
 
   const std::vector<QueuedJob>& jobs() const { return jobs_; }
   const QueuedJob* find(std::uint64_t id) const;
-  /// The first that waits, or null.
+  /// The first waiting job, or null.
   const QueuedJob* next() const;
   std::size_t waiting() const;
 
   std::uint64_t add(std::string name, std::optional<LayerRange> layers);
   void remove(std::uint64_t id);
-  /// Precondition: it is there.
+  /// Changes a job's state. Precondition: the job exists.
   void enter(std::uint64_t id, QueuedJob::State state, const std::string& reason = {});
-  /// What the file is to hold.
+  /// The content of the file.
   std::string text() const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long systemd is asked to wait on, again and again while the printer parks and cools.
+/// Time by which systemd is repeatedly asked to extend its limit while the printer parks and cools.
 constexpr std::chrono::microseconds parking_time = 60s;
 
 asio::ip::tcp::endpoint checked_endpoint(const ServeOptions& options) {
@@ -82,7 +82,7 @@ class Service {
     loop_.stop();
   }
 
-  /// From the loop itself: when that hangs, systemd finds out.
+  /// Runs on the loop, so that systemd notices if the loop hangs.
   void show_life() {
     const auto watched = watchdog_interval();
     watchdog_.expires_after(watched.value_or(parking_time / 4));

@@ -1,4 +1,4 @@
-// The daemon as a process: its loop, its address, its signals, and what systemd hears of it.
+// The daemon as a process: its loop, address and signals, and its messages to systemd.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@ namespace unicursal::host {
 
 struct ServeOptions {
   DaemonOptions daemon;
-  std::string listen = "127.0.0.1:8377";  ///< address and port; port 0: any that is free
-  std::vector<std::string> names;         ///< other names of this computer by which clients may come
+  std::string listen = "127.0.0.1:8377";  ///< address and port; port 0: any free one
+  std::vector<std::string> names;         ///< further host names that clients may use
   bool no_token = false;                  ///< everyone on this computer may steer the printer
 };
 
-/// Until SIGTERM or SIGINT, which parks and cools a print that is going on and waits for it; another one
-/// stops the printer at once. `ready`: told the address when clients may come. Throws core::DataError before
-/// that.
+/// Runs until SIGTERM or SIGINT. The first signal parks and cools the current print, a second one stops the
+/// printer at once. `ready` is called with the address once clients may connect. Throws core::DataError
+/// before that.
 void serve(const ServeOptions& options, const std::function<void(const std::string& address)>& ready);
 
 }  // namespace unicursal::host

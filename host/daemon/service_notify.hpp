@@ -1,5 +1,5 @@
-// What a service tells systemd over $NOTIFY_SOCKET (sd_notify(3)): that it is ready, alive, stopping. Without
-// that variable nothing is told.
+// Messages of a service to systemd over $NOTIFY_SOCKET (sd_notify(3)): ready, alive, stopping. Without that
+// variable nothing is sent.
 #pragma once
 
 #include <chrono>
@@ -8,10 +8,10 @@
 
 namespace unicursal::host {
 
-/// Lines such as "READY=1\nSTATUS=idle". Best effort, as systemd itself wants it.
+/// Sends lines such as "READY=1\nSTATUS=idle"; best effort, as sd_notify(3) recommends.
 void notify_service(const std::string& lines);
 
-/// How often WATCHDOG=1 is to be told, half of what systemd waits for; absent when it does not.
+/// The interval for sending WATCHDOG=1, half of systemd's limit; absent if there is no watchdog.
 std::optional<std::chrono::microseconds> watchdog_interval();
 
 }  // namespace unicursal::host

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -11,7 +10,8 @@
 #include <utility>
 
 #include "host/daemon/access.hpp"
-#include "host/spool/spool.hpp"
+#include "host/files/state_home.hpp"
+#include "host/files/whole_file.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -24,26 +24,6 @@ DaemonError trouble(const fs::path& file, const std::string& what) {
           "check the permissions and the space on the disk, or name another folder with --state"};
 }
 
-void write_all(int fd, const std::string& text, const fs::path& file) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t written = write(fd, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw trouble(file, "cannot be written");
-    done += static_cast<std::size_t>(written);
-  }
-  if (fsync(fd) != 0) throw trouble(file, "cannot be written");
-}
-
-struct Descriptor {
-  explicit Descriptor(int number) : fd(number) {}
-  ~Descriptor() {
-    if (fd >= 0) close(fd);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int fd;
-};
-
 }  // namespace
 
 StateFolder::StateFolder(fs::path folder) : folder_(std::move(folder)) {
@@ -51,10 +31,9 @@ StateFolder::StateFolder(fs::path folder) : folder_(std::move(folder)) {
   fs::create_directories(folder_.parent_path(), error);
   if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST) throw trouble(folder_, "cannot be made");
   const fs::path lock = folder_ / "lock";
-  lock_ = open(lock.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
-  if (lock_ < 0) throw trouble(lock, "cannot be opened");
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    close(std::exchange(lock_, -1));
+  lock_.reset(open(lock.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600));
+  if (!lock_) throw trouble(lock, "cannot be opened");
+  if (flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
     throw DaemonError(folder_.string(), "", "another daemon runs there",
                       "see `unicursal status`, or name another folder with --state");
   }
@@ -63,7 +42,6 @@ StateFolder::StateFolder(fs::path folder) : folder_(std::move(folder)) {
 StateFolder::~StateFolder() {
   std::error_code ignored;
   fs::remove(folder_ / "address", ignored);
-  if (lock_ >= 0) close(lock_);
 }
 
 std::string StateFolder::secret(const std::string& name) const {
@@ -77,35 +55,27 @@ std::string StateFolder::secret(const std::string& name) const {
     if (const auto known = read_line(file); known && known->size() >= 32) return *known;
   }
   std::string token = random_token();
-  replace_file(file, token + "\n");
+  write_state(file, token + "\n");
   return token;
 }
 
 void StateFolder::tell_address(const std::string& address) const {
-  replace_file(folder_ / "address", address + "\n");
+  write_state(folder_ / "address", address + "\n");
 }
 
 fs::path default_state_folder() {
-  return default_spool_root().parent_path() / "daemon";
+  if (const auto home = state_home()) return *home / "daemon";
+  throw DaemonError("", "", "there is no home folder to keep the daemon's state in",
+                    "name a folder with --state");
 }
 
-void replace_file(const fs::path& file, const std::string& text) {
-  const fs::path fresh = file.string() + ".new";
-  std::error_code ignored;
-  fs::remove(fresh, ignored);
-  {
-    const Descriptor out(open(fresh.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600));
-    if (out.fd < 0) throw trouble(fresh, "cannot be made");
-    try {
-      write_all(out.fd, text, fresh);
-    } catch (const DaemonError&) {
-      fs::remove(fresh, ignored);  // half a file is no use, and takes room that is scarce
-      throw;
-    }
+void write_state(const fs::path& file, const std::string& text) {
+  try {
+    write_whole_file(file, text, WholeFile::Access::owner_only);
+  } catch (const core::FileError& error) {
+    throw DaemonError(error.file(), "", error.problem(),
+                      "check the permissions and the space on the disk, or name another folder with --state");
   }
-  if (rename(fresh.c_str(), file.c_str()) != 0) throw trouble(file, "cannot be replaced");
-  const Descriptor folder(open(file.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.fd >= 0) fsync(folder.fd);
 }
 
 std::optional<std::string> read_line(const fs::path& file) {

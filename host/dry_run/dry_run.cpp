@@ -7,14 +7,16 @@
 #include "host/dry_run/lockstep_clock.hpp"
 #include "host/dry_run/simulator_process.hpp"
 #include "host/engine/session.hpp"
+#include "host/report/deposit_check.hpp"
 #include "host/report/print_report.hpp"
+#include "host/report/target.hpp"
 
 namespace unicursal::host {
 namespace {
 
-constexpr double unattended_pause = 60;  ///< s; then somebody has seen to the simulated printer
+constexpr double unattended_pause = 60;  ///< s, after which a pause ends by itself
 
-/// Real time is for watching how the host paces; virtual time needs no patience and repeats exactly.
+/// Real time is for watching how the host keeps pace; virtual time is fast and repeats exactly.
 bool is_virtual(const DryRunOptions& options) {
   return options.printer.speed == 0;
 }
@@ -41,14 +43,14 @@ std::vector<std::string> simulator_arguments(const DryRunOptions& options, const
   return arguments;
 }
 
-Comparison compare_with(const nlohmann::json& simulator, const Run& run, const StreamResult& result) {
+Comparison compare_with(const nlohmann::json& simulator, const Books& books, const StreamResult& result) {
   Fed fed;
-  fed.filament_diameter = run.prepared().job.profile.printer.filament_diameter;
-  const gcode::Printer& printer = run.prepared().job.profile.printer;
+  fed.filament_diameter = books.maker().prepared().job.profile.printer.filament_diameter;
+  const gcode::Printer& printer = books.maker().prepared().job.profile.printer;
   fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
   fed.flow_factors = printer.flow_factors;
   fed.lines_sent = result.statistics.lines + result.statistics.queries;
-  return compare(run.fed(), simulator, fed);
+  return compare(books.fed(), simulator, fed);
 }
 
 StreamSettings settings_for(const DryRunOptions& options, const Profile& profile,
@@ -65,7 +67,7 @@ StreamSettings settings_for(const DryRunOptions& options, const Profile& profile
   return settings;
 }
 
-/// In virtual time what planning takes is charged for; where it is free, there is no hurry.
+/// In virtual time planning takes `charge` times its real time; if that is 0, it never hurries.
 LookaheadOptions planning_for(const DryRunOptions& options, const PreparedJob& prepared,
                               const StreamSettings& settings) {
   LookaheadOptions planning = paced(lookahead_options(prepared), settings.clock);
@@ -75,7 +77,7 @@ LookaheadOptions planning_for(const DryRunOptions& options, const PreparedJob& p
   return planning;
 }
 
-/// In virtual time nothing of this computer belongs into the report: the same dry run gives the same one.
+/// In virtual time the report leaves out this computer's times, so that equal dry runs give equal reports.
 nlohmann::json planning_of(const DryRunOptions& options, const Lookahead& lookahead,
                            const StreamResult& result) {
   nlohmann::json planning =
@@ -90,7 +92,7 @@ RunOutputs outputs_of(const DryRunOptions& options) {
   return outputs;
 }
 
-/// Thousands of numbers that nobody reads, once they have been judged.
+/// Removes thousands of numbers that are of no use once they have been judged.
 void leave_out_histograms(nlohmann::json& simulator) {
   const auto motion = simulator.find("motion");
   if (motion == simulator.end() || !motion->is_object()) return;
@@ -98,19 +100,19 @@ void leave_out_histograms(nlohmann::json& simulator) {
   motion->erase("flow_by_second");
 }
 
-/// A report of a failed print tells what the printer saw of it, if it still can.
-void conclude_failed(Run& run, const StreamResult& result, nlohmann::json extra,
+/// The report of a failed print includes the simulator's, if there is one.
+void conclude_failed(Books& books, const StreamResult& result, nlohmann::json extra,
                      SimulatorProcess& simulator) {
   try {
     extra["simulator"] = simulator.finish();
   } catch (const SimulatorError&) {
-    // What ended the print is told; what ended the simulator would only distract from it.
+    // The reason why the print failed is reported; the simulator's would distract from it.
   }
-  conclude(run, result, extra);
+  conclude(books, result, extra);
 }
 
-/// The simulator's own report; where it fails at its very end, that is how the dry run ended.
-nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult result, DepositCheck& check,
+/// The simulator's own report. If the simulator fails at its very end, the dry run has failed.
+nlohmann::json seen_by(SimulatorProcess& simulator, Books& books, StreamResult result, DepositCheck& check,
                        const nlohmann::json& planning) {
   try {
     return simulator.finish();
@@ -118,7 +120,7 @@ nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult resul
     check.finish();
     result.ending = Ending::failed;
     result.reason = error.what();
-    conclude(run, result, {{"planning", planning}, {"laid", check.to_json()}});
+    conclude(books, result, {{"planning", planning}, {"laid", check.to_json()}});
     throw;
   }
 }
@@ -127,34 +129,35 @@ nlohmann::json seen_by(SimulatorProcess& simulator, Run& run, StreamResult resul
 
 DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream) {
   check_beginning(prepared);
-  Run run(prepared, "dry-run", outputs_of(options));
-  // Outlives the simulator, whose end is that of the stream it waits for.
-  DepositCheck check(intended_materials(prepared, run.encoder()), options.outputs.pictures);
+  ChunkMaker maker(prepared);
+  Books books(maker, "dry-run", outputs_of(options));
+  // Declared before the simulator: it waits for the end of the stream, which comes when the simulator ends.
+  DepositCheck check(intended_materials(prepared, maker.encoder()), options.outputs.pictures);
   SimulatorProcess simulator(simulator_arguments(options, prepared), is_virtual(options)
                                                                          ? SimulatorProcess::Time::lockstep
                                                                          : SimulatorProcess::Time::own);
-  run.tell(check);
+  books.judge_with(check);
   check.watch(simulator.take_rasters());
   StreamSettings settings = settings_for(options, prepared.job.profile, simulator);
   Lookahead lookahead(*prepared.part, planning_for(options, prepared, settings));
   const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  PlannedSource source(lookahead, run);
+  PlannedSource source(lookahead, maker);
   const StreamResult result = stream(port, source, settings);
   settings.clock.reset();  // hangs up, which the simulator waits for
   const nlohmann::json planning = planning_of(options, lookahead, result);
-  if (result.ending == Ending::failed) conclude_failed(run, result, {{"planning", planning}}, simulator);
-  nlohmann::json seen = seen_by(simulator, run, result, check, planning);
+  if (result.ending == Ending::failed) conclude_failed(books, result, {{"planning", planning}}, simulator);
+  nlohmann::json seen = seen_by(simulator, books, result, check, planning);
   check.finish();
-  const MotionFindings motion = motion_findings(seen, run.flow());
+  const MotionFindings motion = motion_findings(seen, maker.flow());
   leave_out_histograms(seen);
-  const Comparison comparison = compare_with(seen, run, result);
-  conclude(run, result,
+  const Comparison comparison = compare_with(seen, books, result);
+  conclude(books, result,
            {{"planning", planning},
             {"simulator", seen},
             {"comparison", to_json(comparison)},
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
-  return {result, run.totals(), lookahead.effort(), comparison, motion, check.total(), check.problem()};
+  return {result, books.totals(), lookahead.effort(), comparison, motion, check.total(), check.problem()};
 }
 
 }  // namespace unicursal::host

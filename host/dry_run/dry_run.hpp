@@ -1,5 +1,6 @@
-// A print on the simulated printer: the same planning, encoding and streaming, with a simulator in a process
-// of its own at the other end of the line, and everything that it laid judged against the job.
+// A print on the simulated printer. Planning, encoding and streaming are those of a real print; a simulator
+// in a process of its own is at the other end of the line, and everything that it lays is compared with the
+// job.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +9,9 @@
 #include <string>
 
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/run.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/engine/source.hpp"
+#include "host/report/books.hpp"
 #include "host/report/deposit_findings.hpp"
 #include "host/report/motion_findings.hpp"
 #include "host/report/totals.hpp"

@@ -19,7 +19,7 @@
 namespace unicursal::host {
 namespace {
 
-constexpr int byte_patience = 30000;  // ms for bytes to pass the terminal, which takes microseconds as a rule
+constexpr int byte_patience = 30000;  // ms for bytes to pass the terminal; microseconds as a rule
 
 std::int64_t nanoseconds(TimePoint time) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
@@ -119,7 +119,7 @@ std::string LockstepClock::answer() {
   }
 }
 
-/// Until the link can read all that was handed over in one go, so that it never sees a part of it.
+/// Waits until the link can read everything that was handed over, so that it never sees a part of it.
 void LockstepClock::await_bytes(std::uint64_t count, bool gone) const {
   if (port_ < 0 || (count == 0 && !gone)) return;
   for (;;) {
@@ -131,7 +131,7 @@ void LockstepClock::await_bytes(std::uint64_t count, bool gone) const {
   }
 }
 
-/// Wakes everyone whose time has come.
+/// Expires every timer whose time has come.
 void LockstepClock::ring() {
   for (const Alarm& alarm : alarms_) {
     if (alarm.deadline <= now_) alarm.timer->cancel();

@@ -1,6 +1,6 @@
 // The clock of a dry run in virtual time: the simulated printer's, held in lockstep over its control socket
-// (sim/lockstep.hpp says how they talk). Time advances only when the loop has nothing left to do, and then at
-// once to what happens next; so nothing depends on how fast this computer is.
+// (protocol: sim/lockstep.hpp). Time advances only when the loop has nothing left to do, and then at once to
+// the next event. So nothing depends on the speed of this computer.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +22,9 @@ class LockstepClock final : public Clock {
   TimePoint now() const override { return now_; }
   void set(asio::steady_timer& timer, TimePoint deadline) override;
   void forget(asio::steady_timer& timer) noexcept override;
-  /// Throws SimulatorError when the simulator is gone, or when it and the host wait for each other.
+  /// Throws SimulatorError if the simulator is gone, or if it and the host wait for each other.
   void run(asio::io_context& loop) override;
-  /// The simulator waits for every byte that it was told of.
+  /// The simulator waits for every byte that it was announced.
   bool may_discard() const override { return false; }
   void attach(int port, std::function<std::uint64_t()> written) override;
 
@@ -45,7 +45,7 @@ class LockstepClock final : public Clock {
   int port_ = -1;
   std::function<std::uint64_t()> written_;
   std::vector<Alarm> alarms_;
-  std::string pending_;       ///< of an answer not yet complete
+  std::string pending_;       ///< an answer that is not yet complete
   TimePoint now_{};           ///< since the printer's power-up
   std::uint64_t handed_ = 0;  ///< bytes that the printer has handed over in all
 };

@@ -20,7 +20,7 @@ namespace unicursal::host {
 namespace {
 
 constexpr int start_deadline =
-    20000;  // ms, until the simulator names its terminal; generous for a busy machine
+    20000;  // ms until the simulator names its terminal; generous for a busy computer
 constexpr std::size_t longest_port = 4096;
 constexpr int raster_descriptor = STDERR_FILENO + 1;  // of the child
 
@@ -34,7 +34,7 @@ std::filesystem::path report_in(const std::filesystem::path& folder) {
   return folder / "simulator.json";
 }
 
-/// In the child: only calls that are safe after fork.
+/// Runs in the child: only calls that are safe after fork.
 [[noreturn]] void become_simulator(char* const* arguments, int output, int rasters, pid_t parent) {
   setpgid(0, 0);  // Ctrl-C is for the host, which still has to park and cool this printer
   prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -1,4 +1,4 @@
-// The simulated printer as a child process of its own. It never outlives this object, nor its parent.
+// The simulated printer as a child process. It never outlives this object or its parent.
 #pragma once
 
 #include <sys/types.h>
@@ -36,7 +36,7 @@ class SimulatorProcess {
 
   /// The pseudo-terminal that the simulated printer listens on.
   const std::string& port() const { return port_; }
-  /// Where the simulator is told how far time goes.
+  /// The socket of the lockstep clock.
   std::filesystem::path control() const { return folder_ / "clock"; }
 
   /// Waits for the simulator to end, which it does when its line is closed, and reads its report.
@@ -48,7 +48,7 @@ class SimulatorProcess {
   void read_port();
   void clean_up() noexcept;
 
-  std::filesystem::path folder_;  ///< for the report, removed in the end
+  std::filesystem::path folder_;  ///< for the report; removed by the destructor
   std::string port_;
   pid_t child_ = -1;
   int output_ = -1;   ///< reading end of its standard output

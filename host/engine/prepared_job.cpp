@@ -10,7 +10,7 @@
 namespace unicursal::host {
 namespace {
 
-/// How far rounding may carry a part over the bed's edge that fills it exactly, mm.
+/// Tolerance for rounding when a part fills the bed exactly, mm.
 constexpr double fit_tolerance = 1e-6;
 
 core::Vec2 offset_on_bed(const Placement& place, const core::Box& extent, const gcode::Printer& printer) {
@@ -29,7 +29,7 @@ double first_layer_height(const core::PartSource& source) {
   return source.first_layer_height > 0 ? source.first_layer_height : source.layer_height;
 }
 
-/// mm above the part's underside at which a layer begins.
+/// Height at which a layer begins, mm above the part's underside.
 double underside(const core::PartSource& source, std::size_t layer) {
   if (layer == 0) return 0;
   return first_layer_height(source) + static_cast<double>(layer - 1) * source.layer_height;
@@ -63,8 +63,8 @@ void check_fit(const PreparedJob& prepared, double height) {
   }
 }
 
-/// How far the zones of a material reach along a direction, in the part's frame; by some slices, since to cut
-/// all of a high part would take long.
+/// How far the zones of a material reach along a direction, in the part's frame. Only some layers are sliced,
+/// since slicing all of a tall part would take long.
 std::array<double, 2> reach_of(const PreparedJob& prepared, std::size_t material,
                                const std::array<double, 3>& along) {
   constexpr std::size_t most_slices = 32;
@@ -90,7 +90,7 @@ std::array<double, 2> reach_of(const PreparedJob& prepared, std::size_t material
   return reach;
 }
 
-/// Gradients are given in the part's frame and printed in the bed's.
+/// Moves gradients from the part's frame to the bed's.
 void place_gradients(PreparedJob& prepared) {
   for (std::size_t i = 0; i < prepared.job.print.materials.size(); ++i) {
     std::optional<gcode::Gradient>& gradient = prepared.job.print.materials[i].gradient;
@@ -183,7 +183,7 @@ gcode::PrintSettings print_settings(const PreparedJob& prepared) {
 
 namespace {
 
-/// By which a layer's volume passes, mm³/s: what a thin line leaves out of it takes no time.
+/// Volume of a layer ÷ its printing time, mm³/s; volume that a thin line leaves out takes no time.
 double layer_flow(const Job& job) {
   const double laid = job.line_width.value_or(job.bead_width);
   double flow = job.print.automatic_flow ? job.profile.printer.max_flow : job.print.flow;

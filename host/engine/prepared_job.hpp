@@ -1,5 +1,5 @@
-// A job that has been checked as far as that is possible without a printer: settings read, part read,
-// placed on the bed and found to fit. mm.
+// A job that has been checked as far as possible without a printer: its settings and its part have been read,
+// and the part lies on the bed and fits. mm.
 #pragma once
 
 #include <cstddef>
@@ -33,12 +33,12 @@ struct PreparedJob {
   gcode::PrintFrame frame;  ///< on the bed
 };
 
-/// `layers`: print these only; all when absent. Throws core::DataError, among others when the part does not
-/// fit on the bed or the range names no layer.
+/// `layers`: print these only; absent: all. Throws core::DataError, for example if the part does not fit on
+/// the bed or the range names no layer.
 PreparedJob prepare(Job job, const std::optional<LayerRange>& layers = {});
 
 /// Throws core::DataError if the first layer is nowhere wide enough for a curve: the print would begin in the
-/// air, or there would be none.
+/// air, or be empty.
 void check_beginning(const PreparedJob& prepared);
 
 /// The job's choices and the part's frame in one.

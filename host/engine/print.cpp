@@ -48,51 +48,42 @@ StreamSettings settings_for(const PreparedJob& prepared, const PrintOptions& opt
 
 }  // namespace
 
-Print::Print(PreparedJob prepared, std::string command, const PrintOptions& options,
-             const RunOutputs& outputs)
-    : prepared_(checked(std::move(prepared))),
+Print::Print(PreparedJob prepared, const PrintOptions& options)
+    : continues_(false),
+      prepared_(checked(std::move(prepared))),
       options_(options),
       settings_(settings_for(prepared_, options)),
-      run_(prepared_, std::move(command), outputs),
-      lookahead_(*prepared_.part, paced(lookahead_options(prepared_), settings_.clock)) {
-  const std::string port = options.port.value_or(prepared_.job.profile.port);
-  open(port);
-  try {
-    spool_.emplace(Spool::create(options.spool ? *options.spool : default_spool_root(), prepared_.job,
-                                 order_of(prepared_, port, device_of(port_))));
-  } catch (...) {
-    close(port_);
-    throw;
-  }
-  settings_.spool = &*spool_;
-  source_.emplace(lookahead_, run_);
-}
+      maker_(prepared_),
+      lookahead_(*prepared_.part, paced(lookahead_options(prepared_), settings_.clock)) {}
 
-Print::Print(Spool spool, std::string command, const PrintOptions& options)
+Print::Print(Spool spool, const PrintOptions& options)
     : spool_(std::move(spool)),
+      continues_(true),
       prepared_(prepare_again(*spool_)),
       options_(options),
       settings_(settings_for(prepared_, options)),
-      run_(prepared_, std::move(command), {}),
+      maker_(prepared_),
       lookahead_(*prepared_.part,
-                 paced(behind(lookahead_options(prepared_), spool_->extent()), settings_.clock)) {
-  settings_.spool = &*spool_;
-}
+                 paced(behind(lookahead_options(prepared_), spool_->extent()), settings_.clock)) {}
 
 Print::~Print() {
   if (port_ >= 0) close(port_);
 }
 
-void Print::open(const std::string& port) {
-  settings_.link = {};  // closes an earlier log
-  settings_.link = link_options(prepared_.job.profile, options_.log);
-  port_ = open_port(port, prepared_.job.profile.baud, settings_.link);
-}
-
 void Print::connect(std::optional<Leg> leg) {
-  open(options_.port.value_or(spool_->order().port));
-  settings_.continuation = Continuation{std::move(leg), [this] { catch_up(run_, *spool_); }};
-  source_.emplace(lookahead_, run_, spool_->extent().rest);
+  const Profile& profile = prepared_.job.profile;
+  const std::string port = options_.port.value_or(continues_ ? spool_->order().port : profile.port);
+  settings_.link = {};  // closes an earlier log
+  settings_.link = link_options(profile, options_.log);
+  port_ = open_port(port, profile.baud, settings_.link);
+  if (continues_) {
+    settings_.continuation = Continuation{std::move(leg), [this] { catch_up(maker_, *spool_); }};
+  } else {
+    spool_.emplace(Spool::create(options_.spool ? *options_.spool : default_spool_root(), prepared_.job,
+                                 order_of(prepared_, port, device_of(port_))));
+  }
+  settings_.spool = &*spool_;
+  source_.emplace(lookahead_, maker_, spool_->extent().rest);
 }
 
 int Print::take_port() {
@@ -106,6 +97,11 @@ Session& Print::begin(asio::any_io_executor executor) {
 
 void Print::end() {
   session_.reset();
+}
+
+void throw_if_failed(const StreamResult& result) {
+  if (result.unfit) throw PrinterUnfit(result.reason);
+  if (result.ending == Ending::failed) throw PrintError(result.reason);
 }
 
 }  // namespace unicursal::host

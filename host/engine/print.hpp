@@ -1,10 +1,12 @@
 // One print with everything that a session needs, in the order in which it has to go away. The foreground
 // commands and the daemon print through it; a dry run, which keeps no spool, has its own (host/dry_run).
 //
-//   Print print(prepare(load_job("leaf.toml")), "print", {.port = "/dev/ttyUSB0"});
+//   Print print(prepare(load_job("leaf.toml")), {.port = "/dev/ttyUSB0"});
+//   print.connect();
 //   stream(print.take_port(), print.source(), observer, print.settings());
 //
-// Making one reads files and opens the port, which takes time; printing belongs to the loop's thread.
+// Making one and connecting it reads files and opens the port, which takes time and may be done in any
+// thread; printing belongs to the loop's thread.
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -13,8 +15,8 @@
 #include <optional>
 #include <string>
 
+#include "host/engine/chunk_maker.hpp"
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/run.hpp"
 #include "host/engine/session.hpp"
 #include "host/engine/source.hpp"
 #include "host/lookahead/lookahead.hpp"
@@ -31,21 +33,19 @@ struct PrintOptions {
 
 class Print {
  public:
-  /// A new print: checks that its first layer can be printed, starts planning, opens the port and then the
-  /// spool. `command` is the word in the report. From any thread. Throws core::DataError, PortError.
-  Print(PreparedJob prepared, std::string command, const PrintOptions& options,
-        const RunOutputs& outputs = {});
-  /// A print that continues behind what `spool` holds: starts planning; connect() opens the port.
-  Print(Spool spool, std::string command, const PrintOptions& options);
+  /// A new print: checks that its first layer can be printed, and starts planning. Throws core::DataError.
+  Print(PreparedJob prepared, const PrintOptions& options);
+  /// A print that continues behind what `spool` holds: starts planning.
+  Print(Spool spool, const PrintOptions& options);
   ~Print();
   Print(const Print&) = delete;
   Print& operator=(const Print&) = delete;
 
-  /// Only for a print that continues, and again after a session that found its place lost. `leg`: as in
-  /// Continuation. Throws PortError.
-  void connect(std::optional<Leg> leg);
+  /// Opens the port, and makes the spool of a new print. `leg`: as in Continuation, for a print that
+  /// continues; call this again after a session that has lost its place. Throws PortError, core::DataError.
+  void connect(std::optional<Leg> leg = {});
 
-  /// What stream() or a Session takes; the port's descriptor once after each time that it was opened.
+  /// What stream() or a Session takes, after connect(); the port's descriptor once.
   int take_port();
   Source& source() { return *source_; }
   const StreamSettings& settings() const { return settings_; }
@@ -58,24 +58,26 @@ class Print {
   void end();
 
   const PreparedJob& prepared() const { return prepared_; }
-  Run& run() { return run_; }
+  ChunkMaker& maker() { return maker_; }
   const Lookahead& lookahead() const { return lookahead_; }
   Spool& spool() { return *spool_; }
   /// The name that `unicursal resume` takes.
   std::string kept_as() const { return spool_->folder().filename().string(); }
 
  private:
-  void open(const std::string& port);
-
   std::optional<Spool> spool_;
+  const bool continues_;
   const PreparedJob prepared_;
   const PrintOptions options_;
   StreamSettings settings_;
-  Run run_;
+  ChunkMaker maker_;
   Lookahead lookahead_;
   int port_ = -1;  ///< until a session has taken it over
   std::optional<PlannedSource> source_;
   std::optional<Session> session_;
 };
+
+/// Throws PrintError if a print has failed, PrinterUnfit if its printer was refused.
+void throw_if_failed(const StreamResult& result);
 
 }  // namespace unicursal::host

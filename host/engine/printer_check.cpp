@@ -46,9 +46,9 @@ std::string correction(const gcode::Identity& printer, const std::filesystem::pa
 std::optional<std::string> strangeness(const gcode::Identity& printer) {
   if (dialect_of(printer.family)) return std::nullopt;
   return fmt::format(
-      "this program has never met this printer's firmware ({}): the print may fail in ways that nobody has "
-      "tried, so stay with it",
-      printer.firmware.empty() ? "it does not tell its name" : printer.firmware);
+      "this program has never met this printer's firmware ({}): the print may fail in "
+      "unexpected ways, so stay with the printer",
+      printer.firmware.empty() ? "it does not report its name" : printer.firmware);
 }
 
 }  // namespace unicursal::host

@@ -1,5 +1,5 @@
-// Whether a print that was made for one firmware may run on the printer that is there. In the wrong dialect
-// every share of a mixture becomes zero, at which a Marlin stands still for ever with its heaters on.
+// Whether a print that was made for one firmware may run on the connected printer. In the wrong dialect every
+// share of a mixture becomes zero, and Marlin then hangs with its heaters on.
 #pragma once
 
 #include <filesystem>
@@ -10,24 +10,24 @@
 
 namespace unicursal::host {
 
-/// A question that changes nothing, since no printer has a feeder of that number: who does not know the
-/// command has no mixing extruder.
+/// A command that changes nothing, since no printer has a feeder of that number. A firmware that does not
+/// know it has no mixing extruder.
 inline constexpr auto mixing_question = "M163 S99 P1";
 bool denies_mixing(const std::string& line);
-/// The remedy is in it.
+/// A sentence with its remedy.
 inline constexpr auto does_not_mix =
     "its feeders do not mix: it does not know M163; build its firmware with MIXING_EXTRUDER";
 
-/// The profile's `firmware` for a family; nothing for those that this program does not speak to.
+/// The profile's word for a family of firmware; absent for families that this program does not support.
 std::optional<std::string> dialect_of(gcode::Family family);
 
-/// Why lines in the dialect `firmware` must not be sent to this printer, a clause; nothing when they may,
-/// also to those that do not tell who they are.
+/// Why lines in the dialect `firmware` must not be sent to this printer, a clause; absent if they may. A
+/// printer that does not name its firmware is accepted.
 std::optional<std::string> mismatch(const gcode::Identity& printer, const std::string& firmware);
-/// What to do about that, before anything is printed.
+/// The remedy for that.
 std::string correction(const gcode::Identity& printer, const std::filesystem::path& profile);
 
-/// What nobody has tried, a sentence; nothing for printers that are known.
+/// A warning about a firmware that this program has never met, a sentence; absent for known ones.
 std::optional<std::string> strangeness(const gcode::Identity& printer);
 
 }  // namespace unicursal::host

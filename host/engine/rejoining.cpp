@@ -7,8 +7,8 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double same_place = 0.05;  ///< mm; printers tell two decimals, and round to their steps
-/// Far from any line that the printer can have got, and not close to a multiple of 65536 from it.
+constexpr double same_place = 0.05;  ///< mm; printers report two decimals, and round to their steps
+/// Far from every line that the printer can have received, also modulo 65536.
 constexpr std::uint32_t number_distance = 20000;
 /// Lines that may count as acknowledged too early, after an ok was damaged (host/link/ledger.hpp).
 constexpr std::uint64_t uncertain_oks = 16;

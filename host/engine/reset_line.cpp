@@ -9,7 +9,8 @@
 namespace unicursal::host {
 namespace {
 
-constexpr auto pulse = std::chrono::milliseconds(100);  ///< the capacitor on the board needs a few
+constexpr auto pulse =
+    std::chrono::milliseconds(100);  ///< the capacitor on the board needs a few milliseconds
 
 }  // namespace
 

@@ -4,8 +4,8 @@
 
 namespace unicursal::host {
 
-/// Pulls DTR down and up again, blocking for a tenth of a second. False where the port has no such wire; true
-/// tells nothing of what the board makes of it.
+/// Pulls DTR down and up again; blocks for 0.1 s. Returns false if the port has no such wire. True does not
+/// mean that the board has reset.
 bool pulse_reset(int port);
 
 }  // namespace unicursal::host

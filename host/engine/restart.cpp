@@ -8,7 +8,7 @@
 namespace unicursal::host {
 namespace {
 
-/// Acknowledged lines that may not have been run: Marlin's 16 planned moves and its queue of 4 commands.
+/// Acknowledged lines that may not have been executed: Marlin's 16 planned moves and its queue of 4 commands.
 constexpr std::uint64_t planned_lines = 20;
 
 std::vector<std::string> commands(std::vector<std::string> lines) {
@@ -21,7 +21,7 @@ bool placed_somewhere(const gcode::ModalState& state) {
                      [](const auto& coordinate) { return coordinate.has_value(); });
 }
 
-/// Heights that the nozzle has passed between two places, and while it was parked.
+/// Notes the heights that the nozzle passed between two places, and while it was parked.
 void note_heights(Restart& restart, const std::filesystem::path& chunks, const JournalState& journal,
                   std::uint64_t from, std::uint64_t to) {
   gcode::ModalState state = state_at(chunks, journal.leg, from);
@@ -70,7 +70,7 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   return restart;
 }
 
-void catch_up(Run& run, const Spool& spool) {
+void catch_up(ChunkMaker& maker, const Spool& spool) {
   const auto same = [&](const gcode::Chunk& made, const SpooledChunk& kept) {
     if (commands(made.lines) == kept.lines) return;
     throw SpoolError(spool.folder().string(), "",
@@ -81,16 +81,16 @@ void catch_up(Run& run, const Spool& spool) {
   while (const auto chunk = reader.next()) {
     switch (chunk->kind) {
       case SpooledChunk::Kind::start:
-        same(run.start(), *chunk);
+        same(maker.start(), *chunk);
         break;
       case SpooledChunk::Kind::layer:
-        same(run.replay(chunk->layer), *chunk);
+        same(maker.replay(chunk->layer), *chunk);
         break;
       case SpooledChunk::Kind::rest:
-        same(run.rest(), *chunk);
+        same(maker.rest(), *chunk);
         break;
       case SpooledChunk::Kind::finish:
-        same(run.finish(), *chunk);
+        same(maker.finish(), *chunk);
     }
   }
 }

@@ -1,4 +1,4 @@
-// Going on with a print whose printer has lost its place: from where, and what is known of that.
+// Continuing a print whose printer has lost its place: where to continue, and how certain that is.
 #pragma once
 
 #include <cstdint>
@@ -6,32 +6,33 @@
 #include <string>
 #include <vector>
 
+#include "host/engine/chunk_maker.hpp"
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/run.hpp"
-#include "host/engine/stream.hpp"
+#include "host/engine/session_types.hpp"
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool.hpp"
 
 namespace unicursal::host {
 
 struct Restart {
-  Leg leg;                          ///< to begin; from the print's start when nothing had been laid yet
-  std::optional<LayerPlace> layer;  ///< where it goes on
-  std::uint64_t repeated = 0;       ///< lines, at most, that the printer may have run before and runs again
-  double lowest = 0, highest = 0;   ///< mm, between which the nozzle stands now; the lower one is assumed
-  double drawn = 0;                 ///< mm of filament by which it is drawn back
+  Leg leg;                          ///< to begin; at the print's start if nothing had been laid yet
+  std::optional<LayerPlace> layer;  ///< where it continues
+  std::uint64_t repeated = 0;       ///< at most so many lines are executed a second time
+  double lowest = 0, highest = 0;   ///< mm, bounds of the nozzle's height; the lower one is assumed
+  double drawn = 0;                 ///< mm of filament that is retracted
   std::vector<std::string> warnings;
 
   bool from_start() const { return leg.begins_at == 0; }
 };
 
-/// Everything before the place is certain: a firmware acknowledges a move when it is planned, so the last
-/// ones acknowledged may be undone unless it has told otherwise (`lost.place`) or the print had been ended
-/// in order, or held aside. Precondition: `prepared` is the spool's job.
+/// Everything before the returned place has certainly been executed. A firmware acknowledges a move when it
+/// is planned, so the last acknowledged moves may be missing, unless the printer reported its place
+/// (`lost.place`), or the print had been ended or paused in order. Precondition: `prepared` is the spool's
+/// job.
 Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost);
 
-/// Brings the encoder of a fresh run to where the spool's last chunk has left it. Throws SpoolError when it
-/// makes other lines than were spooled.
-void catch_up(Run& run, const Spool& spool);
+/// Brings a fresh chunk maker to where the spool's last chunk has left the encoder. Throws SpoolError if it
+/// makes lines that differ from the spooled ones.
+void catch_up(ChunkMaker& maker, const Spool& spool);
 
 }  // namespace unicursal::host

@@ -7,7 +7,6 @@
 #include <asio/co_spawn.hpp>
 #include <asio/post.hpp>
 #include <exception>
-#include <new>
 
 #include "host/engine/printer_check.hpp"
 #include "host/engine/rejoining.hpp"
@@ -74,18 +73,6 @@ Duration duration(double seconds) {
 }
 
 }  // namespace
-
-std::string sentence(const std::exception_ptr& error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) {
-    return "memory ran out; close other programs or choose a coarser job";
-  } catch (const std::exception& known) {
-    return known.what();
-  } catch (...) {
-    return "something unknown went wrong";
-  }
-}
 
 Session::State::State(asio::any_io_executor on, int descriptor, Source& of, StreamSettings with)
     : executor(on),

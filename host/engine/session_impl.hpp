@@ -14,6 +14,7 @@
 #include "firmware_gcode/interruption/modal_state.hpp"
 #include "firmware_gcode/interruption/pause.hpp"
 #include "host/engine/session.hpp"
+#include "host/loop/sentence.hpp"
 #include "host/loop/signal.hpp"
 
 namespace unicursal::host {
@@ -169,8 +170,5 @@ struct Session::State {
 
 constexpr double no_time = 0;
 constexpr auto pause_when_hot = "it is held as soon as it is hot";
-
-/// Whatever was thrown, as a sentence for a person.
-std::string sentence(const std::exception_ptr& error);
 
 }  // namespace unicursal::host

@@ -5,20 +5,19 @@
 namespace unicursal::host {
 namespace {
 
-SpooledChunk record_of(const PlannedLayer& planned, const PreparedJob& prepared) {
-  SpooledChunk record;
-  record.kind = SpooledChunk::Kind::layer;
-  record.layer = placed(prepared, planned);
-  for (const core::IslandPlan& plan : planned.plans) record.efforts.push_back(plan.effort);
-  return record;
+std::vector<core::Effort> efforts_of(const PlannedLayer& planned) {
+  std::vector<core::Effort> efforts;
+  for (const core::IslandPlan& plan : planned.plans) efforts.push_back(plan.effort);
+  return efforts;
 }
 
 }  // namespace
 
 std::vector<NamedMixture> PlannedSource::mixtures() const {
   std::vector<NamedMixture> mixtures;
-  for (const MaterialVolume& material : run_.totals().materials)
-    mixtures.push_back({material.name, material.intended});
+  const std::vector<gcode::Material>& materials = maker_.prepared().job.print.materials;
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    mixtures.push_back({materials[i].name, maker_.encoder().intended(i)});
   return mixtures;
 }
 
@@ -28,13 +27,16 @@ std::optional<PrintStep> PlannedSource::next() {
   if (!layer) {
     if (std::exchange(ended_, true)) return std::nullopt;
     piece.record.kind = SpooledChunk::Kind::rest;
-    piece.chunk = run_.rest();
+    piece.chunk = maker_.rest();
     return piece;
   }
-  piece.record = record_of(*layer, run_.prepared());
+  piece.record.kind = SpooledChunk::Kind::layer;
+  piece.record.efforts = efforts_of(*layer);
   piece.ready_at = layer->ready_at;
+  ChunkMaker::Made made = maker_.layer(std::move(*layer));
+  piece.record.layer = std::move(made.layer);
+  piece.chunk = std::move(made.chunk);
   taken_ = piece.record.layer.index + 1;
-  piece.chunk = run_.layer(std::move(*layer));
   for (const gcode::LayerShare& share : piece.chunk.layers) {
     if (share.last) given_ = share.layer + 1;
   }

@@ -11,7 +11,7 @@
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/print/chunk.hpp"
 #include "firmware_gcode/print/printer.hpp"
-#include "host/engine/run.hpp"
+#include "host/engine/chunk_maker.hpp"
 #include "host/lookahead/foretold_times.hpp"
 #include "host/lookahead/lookahead.hpp"
 #include "host/spool/spooled_chunk.hpp"
@@ -67,26 +67,26 @@ class Source {
 /// A job's layers as they are planned. What it refers to must outlive it.
 class PlannedSource final : public Source {
  public:
-  /// `rest_given`: nothing is withheld by the run's encoder behind the last layer.
-  PlannedSource(Lookahead& lookahead, Run& run, bool rest_given = false)
+  /// `rest_given`: nothing is withheld by the maker's encoder behind the last layer.
+  PlannedSource(Lookahead& lookahead, ChunkMaker& maker, bool rest_given = false)
       : lookahead_(lookahead),
-        run_(run),
+        maker_(maker),
         ended_(rest_given),
-        times_(*run.prepared().part, run.prepared().first, run.prepared().count,
-               lookahead_options(run.prepared()).flow) {}
+        times_(*maker.prepared().part, maker.prepared().first, maker.prepared().count,
+               lookahead_options(maker.prepared()).flow) {}
 
-  const gcode::Printer& printer() const override { return run_.prepared().job.profile.printer; }
-  core::Box extent() const override { return run_.prepared().frame.extent; }
-  double flow() const override { return run_.flow(); }
+  const gcode::Printer& printer() const override { return maker_.prepared().job.profile.printer; }
+  core::Box extent() const override { return maker_.prepared().frame.extent; }
+  double flow() const override { return maker_.flow(); }
   std::vector<NamedMixture> mixtures() const override;
-  std::vector<std::string> warnings() const override { return run_.warnings(); }
+  std::vector<std::string> warnings() const override { return maker_.warnings(); }
 
-  std::size_t layers() const override { return run_.prepared().count; }
-  gcode::Chunk start() override { return run_.start(); }
+  std::size_t layers() const override { return maker_.prepared().count; }
+  gcode::Chunk start() override { return maker_.start(); }
   bool ready() const override { return lookahead_.ready(); }
   void on_ready(std::function<void()> listener) override { lookahead_.on_ready(std::move(listener)); }
   std::optional<PrintStep> next() override;
-  gcode::Chunk finish() override { return run_.finish(); }
+  gcode::Chunk finish() override { return maker_.finish(); }
   void cancel() override;
   void printed(double now, double left) override { lookahead_.printed(now, left); }
   Waiting waiting() const override;
@@ -96,7 +96,7 @@ class PlannedSource final : public Source {
 
  private:
   Lookahead& lookahead_;
-  Run& run_;
+  ChunkMaker& maker_;
   bool ended_;                         ///< nothing is withheld any more, or wanted
   std::size_t taken_ = 0, given_ = 0;  ///< layers of the print up to which the encoder has taken, and given
   ForetoldTimes times_;

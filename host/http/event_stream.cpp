@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto ping_interval = 20s;
-constexpr auto patience = 15s;  ///< for one write to get through, and for the client's good-bye
+constexpr auto patience = 15s;  ///< for one write, and for the client to close
 constexpr std::uint16_t try_again_later = 1013;
 
 }  // namespace
@@ -54,7 +54,7 @@ void EventStream::abort() {
   silence_.cancel();
 }
 
-/// Sends what waits, and a ping when nothing has for a while.
+/// Sends waiting texts, and a ping after a while of silence.
 asio::awaitable<void> EventStream::write() {
   const auto self = shared_from_this();
   asio::error_code error;
@@ -78,7 +78,7 @@ asio::awaitable<void> EventStream::write() {
     silence_.cancel();
   }
   if (error || !open_) co_return abort();
-  // The client has its time to say good-bye as well.
+  // The client gets the same time to close.
   silence_.expires_after(patience);
   silence_.async_wait([self](const asio::error_code& cut) {
     if (!cut) self->abort();
@@ -103,7 +103,7 @@ asio::awaitable<void> EventStream::read(std::string first) {
         asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
     frames.add({bytes.data(), size});
   }
-  // What was to be said still is; the writer has a deadline for it.
+  // Waiting texts are still sent; the writer has a deadline.
   while (!talking && open_ && !error) {
     co_await socket_.async_read_some(asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
   }

@@ -1,5 +1,5 @@
-// One client's WebSocket: texts go out in order, and a client that does not keep up is let go, so that it
-// costs neither memory nor the others' time. Everything belongs to the loop's thread.
+// One client's WebSocket: texts go out in order. A client that does not keep up is disconnected, so that it
+// costs neither memory nor time. Everything belongs to the loop's thread.
 #pragma once
 
 #include <asio/awaitable.hpp>
@@ -20,10 +20,10 @@ class EventStream : public std::enable_shared_from_this<EventStream> {
 
   explicit EventStream(asio::ip::tcp::socket socket);
 
-  /// Until either side closes. `first`: bytes that came behind the handshake.
+  /// Runs until either side closes. `first`: bytes that came behind the handshake.
   asio::awaitable<void> run(std::string first);
   void send(const std::string& text);
-  /// Says good-bye with this code (RFC 6455, 7.4.1); what waits is still sent.
+  /// Closes with this code (RFC 6455, 7.4.1) after sending the waiting texts.
   void close(std::uint16_t code);
   bool open() const { return open_; }
 

@@ -47,7 +47,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Takes the text up to the separator, and the separator, away from `rest`.
+/// Removes the text up to the separator, and the separator, from `rest`; returns the text.
 std::string_view take(std::string_view& rest, std::string_view separator) {
   const std::size_t at = rest.find(separator);
   const std::string_view taken = rest.substr(0, at);
@@ -63,16 +63,16 @@ void check_path(std::string_view path) {
   while (!rest.empty()) {
     const std::string_view segment = take(rest, "/");
     if (segment.empty() || segment == "." || segment == "..")
-      throw HttpError(400, "a path holds no empty segments and no dots alone");
+      throw HttpError(400, "a path may not contain empty segments, \".\" or \"..\"");
   }
 }
 
 void read_request_line(std::string_view line, RequestHead& head) {
   const std::string_view method = take(line, " ");
   const std::string_view target = take(line, " ");
-  if (!is_token(method)) throw HttpError(400, "this is no HTTP request");
+  if (!is_token(method)) throw HttpError(400, "this is not an HTTP request");
   if (target.size() > longest_target) throw HttpError(414, "the address is too long");
-  if (target.empty() || !is_visible(target)) throw HttpError(400, "this is no HTTP request");
+  if (target.empty() || !is_visible(target)) throw HttpError(400, "this is not an HTTP request");
   if (line != "HTTP/1.1" && line != "HTTP/1.0") {
     throw HttpError(line.starts_with("HTTP/") ? 505 : 400, "only HTTP/1.1 is spoken here");
   }
@@ -94,7 +94,7 @@ void read_header(std::string_view line, RequestHead& head) {
   head.headers.emplace_back(lower(name), value);
 }
 
-/// Whatever decides where a request ends and who sent it must not be there twice.
+/// Headers that decide where a request ends or who sent it must not occur twice.
 void check_single(const RequestHead& head) {
   for (const char* name : {"host", "content-length", "authorization", "origin", "content-type"}) {
     const auto same = [name](const auto& header) { return header.first == name; };
@@ -108,7 +108,7 @@ std::uint64_t read_length(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
   if (error == std::errc::result_out_of_range) throw HttpError(413, "the body is too large");
   if (error != std::errc() || end != text.data() + text.size())
-    throw HttpError(400, "the Content-Length is no number");
+    throw HttpError(400, "the Content-Length is not a number");
   return length;
 }
 

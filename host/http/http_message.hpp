@@ -1,11 +1,11 @@
-// HTTP/1.1 messages as far as this daemon needs them, read strictly: whatever is odd is refused, since what
-// two readers understand differently is how requests are smuggled. No chunked bodies, no folded headers, no
-// percent signs in paths (no name that the API knows needs them).
+// HTTP/1.1 messages as far as the API needs them, read strictly: anything unusual is refused, since requests
+// are smuggled in messages that two readers understand differently. No chunked bodies, no folded headers, no
+// percent signs in paths (no name of the API needs them).
 //
-// Not by RESTinio, though it is in Debian: 0.6.16 closes the connection without a word on a malformed, too
-// large or too slow request (tried: all five kinds), and shows a request only when its whole body has
-// arrived, so that a stranger's would be kept in memory before the token is asked for. A client is owed a
-// 4xx, before its body.
+// RESTinio is in Debian but does not fit: version 0.6.16 closes the connection without an answer on a
+// malformed, too large or too slow request (all five kinds were tried). It also shows a request only after
+// its whole body has arrived, so that the body of a client without the token would be kept in memory. Here a
+// client gets a 4xx before its body is read.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ inline constexpr std::size_t longest_head = 16 * 1024;
 inline constexpr std::size_t longest_target = 2048;  ///< bytes; more is refused with 414
 inline constexpr std::size_t most_headers = 64;
 
-/// A request that is not obeyed: the status to answer with, and a sentence.
+/// A refused request: the status to answer with, and a sentence.
 class HttpError : public std::runtime_error {
  public:
   HttpError(int status, const std::string& sentence) : std::runtime_error(sentence), status_(status) {}
@@ -42,9 +42,9 @@ struct RequestHead {
   std::uint64_t content_length = 0;                          ///< bytes
   bool keep_alive = true;
 
-  /// `name` in lower case; absent when there is none or several.
+  /// `name` in lower case; absent if there is none, or several.
   std::optional<std::string> header(std::string_view name) const;
-  /// Whether a list such as "keep-alive, Upgrade" has this word, in lower case.
+  /// Whether a list such as "keep-alive, Upgrade" contains this word, which is in lower case.
   bool lists(std::string_view name, std::string_view word) const;
 };
 

@@ -26,8 +26,9 @@ constexpr auto head_patience =
 constexpr auto body_patience = 10s;                 ///< and beyond that, at least:
 constexpr std::uint64_t slowest_body = 256 * 1024;  ///< bytes/s
 constexpr std::uint64_t large_body = 1024 * 1024;   ///< bytes
-constexpr auto answer_patience = 30s;               ///< for the client to take an answer
-constexpr auto farewell = 2s;  ///< in which a refused client's bytes are still taken, lest it miss the answer
+constexpr auto answer_patience = 30s;               ///< for the client to receive an answer
+constexpr auto farewell =
+    2s;  ///< for which a refused client's bytes are still read, so that it gets the answer
 constexpr std::size_t longest_farewell = 4 * 1024 * 1024;  ///< bytes
 
 constexpr std::string_view end_of_head = "\r\n\r\n";
@@ -71,7 +72,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   bool expired_ = false;
 };
 
-/// While it lives, nobody else may send a large body: together they would fill the memory.
+/// While one exists, no other client may send a large body: together they would fill the memory.
 class HttpServer::LargeBody {
  public:
   explicit LargeBody(std::shared_ptr<Shared> all) : all_(std::move(all)) {
@@ -103,7 +104,7 @@ void HttpServer::Connection::expire_after(asio::steady_timer::duration patience)
   });
 }
 
-/// False at the end of what comes.
+/// Returns false at the end of the stream.
 asio::awaitable<bool> HttpServer::Connection::read_some() {
   std::array<char, 16 * 1024> bytes;
   asio::error_code error;
@@ -114,7 +115,7 @@ asio::awaitable<bool> HttpServer::Connection::read_some() {
   co_return !error;
 }
 
-/// Nothing when the client has left between two requests.
+/// Returns nullopt if the client has left between two requests.
 asio::awaitable<std::optional<RequestHead>> HttpServer::Connection::read_head() {
   expire_after(head_patience);
   std::size_t end = buffer_.find(end_of_head);
@@ -156,8 +157,8 @@ asio::awaitable<void> HttpServer::Connection::write(std::string bytes) {
   if (error) throw asio::system_error(error);
 }
 
-/// Answers, and takes what still comes for a moment: closing at once would reset the connection, and the
-/// client would never see the answer.
+/// Answers, and reads on for a moment: closing at once would reset the connection before the client sees the
+/// answer.
 asio::awaitable<void> HttpServer::Connection::refuse(Response response) {
   co_await write(to_text(response, false));
   asio::error_code error;
@@ -200,7 +201,7 @@ asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head) {
   co_await events_->run(std::move(buffer_));
 }
 
-/// Whether another request may follow.
+/// Returns whether another request may follow.
 asio::awaitable<bool> HttpServer::Connection::serve_one() {
   std::optional<RequestHead> head = co_await read_head();
   if (!head) co_return false;
@@ -270,7 +271,7 @@ asio::awaitable<void> HttpServer::accept() {
     asio::error_code error;
     tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
     if (error == asio::error::operation_aborted || !acceptor_.is_open()) co_return;
-    if (error) {  // out of descriptors, say: it passes
+    if (error) {  // for example no descriptor is left, which passes
       pause.expires_after(100ms);
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, error));
       continue;
@@ -292,7 +293,7 @@ void HttpServer::stop() {
 tcp::endpoint parse_endpoint(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   const auto wrong = [&] {
-    return core::DataError("", "--listen", "\"" + text + "\" is no address and port",
+    return core::DataError("", "--listen", "\"" + text + "\" is not an address with a port",
                            "write for example 127.0.0.1:8377 or [::1]:8377");
   };
   if (colon == std::string::npos) throw wrong();

@@ -1,10 +1,9 @@
-// HTTP/1.1 over TCP on the loop that also runs the link, one coroutine a connection: what a request asks for
-// is then done on the session's own thread, without a strand or a lock between them. Requests are small and
-// few, and slow work is the handler's to put elsewhere.
+// HTTP/1.1 over TCP on the loop that also runs the link, with one coroutine for each connection. So requests
+// are carried out on the session's thread, without strands or locks. Requests are small and few; the handler
+// has to do slow work elsewhere.
 //
-// What a client may do is bounded on every side: connections, bytes of the head, bytes of the body (asked for
-// before it is read; of large ones there is one at a time), seconds of each. Whoever goes beyond gets a 4xx
-// and is disconnected.
+// Everything is limited: connections, bytes of the head, bytes of the body (checked before it is read; one
+// large body at a time), and the time for each. A client that exceeds a limit gets a 4xx and is disconnected.
 #pragma once
 
 #include <asio/awaitable.hpp>
@@ -22,24 +21,24 @@ namespace unicursal::host {
 class HttpHandler {
  public:
   virtual ~HttpHandler() = default;
-  /// Before the body is read: the most bytes that it may have. Throws HttpError.
+  /// Called before the body is read; returns the most bytes that it may have. Throws HttpError.
   virtual std::uint64_t admit(const RequestHead& head) = 0;
-  /// Throws HttpError; anything else becomes a 500.
+  /// Throws HttpError; any other exception becomes a 500.
   virtual asio::awaitable<Response> answer(Request request) = 0;
-  /// Whether this, having been admitted, asks for the stream of events.
+  /// Whether an admitted request asks for the stream of events.
   virtual bool wants_events(const RequestHead& head) const = 0;
   virtual void join(std::shared_ptr<EventStream> client) = 0;
 };
 
 class HttpServer {
  public:
-  /// Listens; throws core::DataError when that is not possible. `handler` must outlive it.
+  /// Starts to listen. Throws core::DataError if that is not possible. `handler` must outlive this object.
   HttpServer(asio::io_context& loop, const asio::ip::tcp::endpoint& at, HttpHandler& handler);
   ~HttpServer();
 
-  /// With the port that the system has chosen when 0 was asked for.
+  /// Has the port that the system chose if 0 was asked for.
   asio::ip::tcp::endpoint endpoint() const { return acceptor_.local_endpoint(); }
-  /// Nobody is accepted any more, and connections are closed.
+  /// Accepts no more clients and closes all connections.
   void stop();
 
  private:
@@ -52,9 +51,9 @@ class HttpServer {
   HttpHandler& handler_;
   struct Shared {
     std::set<Connection*> connections;
-    bool large_body = false;  ///< one is being received; one at a time may be
+    bool large_body = false;  ///< one is being received
   };
-  /// With the connections, which may outlive this object until the loop is gone.
+  /// Shared with the connections, which may outlive this object until the loop is gone.
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
 };
 

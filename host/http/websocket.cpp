@@ -46,7 +46,7 @@ void digest_block(const std::string& bytes, std::size_t at, Digest& digest) {
   for (std::size_t i = 0; i < 5; ++i) digest[i] += sum[i];
 }
 
-/// SHA-1, which the handshake asks for; nothing here rests on its strength.
+/// SHA-1, as the handshake requires; nothing here depends on its strength.
 std::string sha1(std::string text) {
   const std::uint64_t bits = text.size() * 8;
   text += '\x80';

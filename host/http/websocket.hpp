@@ -1,5 +1,5 @@
-// WebSocket frames (RFC 6455) as a server sends and takes them: events go out as text, and what comes in is
-// control frames only; a client that says more is heard, bounded, and not listened to.
+// WebSocket frames (RFC 6455) of a server that sends text. From clients only control frames matter; other
+// frames are read up to a limit and ignored.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace unicursal::host {
 
 /// The answer to a client's Sec-WebSocket-Key.
 std::string accept_key(const std::string& key);
-/// Whether it is sixteen bytes in base 64.
+/// Whether a key is sixteen bytes in base 64.
 bool is_websocket_key(const std::string& key);
 
 struct Frame {
@@ -22,11 +22,11 @@ struct Frame {
   std::string payload;
 };
 
-/// Unmasked and whole, as a server sends it.
+/// A whole, unmasked frame, as a server sends it.
 std::string encode(const Frame& frame);
 std::string close_frame(std::uint16_t code);
 
-/// The client has broken the protocol; the code to close with.
+/// The client has broken the protocol; holds the code to close with.
 class WebSocketError : public std::runtime_error {
  public:
   WebSocketError(std::uint16_t code, const char* what) : std::runtime_error(what), code_(code) {}
@@ -38,7 +38,7 @@ class WebSocketError : public std::runtime_error {
 
 class FrameReader {
  public:
-  static constexpr std::size_t longest_payload = 1024;  ///< bytes; no client has more to say
+  static constexpr std::size_t longest_payload = 1024;  ///< bytes; no client needs more
 
   void add(std::string_view bytes) { buffer_ += bytes; }
   /// The next whole frame. Throws WebSocketError.

@@ -1,5 +1,5 @@
 // A job: which part to print, how, and on what printer, as written in a TOML file.
-// Lengths in mm, flow in mm³/s, angles in the file in degrees, in memory in radians.
+// Lengths in mm, flow in mm³/s, angles in radians (degrees in the file).
 #pragma once
 
 #include <cstddef>
@@ -8,24 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/model/part.hpp"
 #include "firmware_gcode/print/print_settings.hpp"
+#include "host/job/job_error.hpp"
 #include "host/job/profile.hpp"
 
 namespace unicursal::host {
-
-/// A mistake in a job or a profile; names file, line and key.
-class JobError : public core::DataError {
- public:
-  using DataError::DataError;
-};
 
 /// Where the part goes on the bed.
 struct Placement {
   enum class Kind { center, as_is, at };
   Kind kind = Kind::center;
-  core::Vec2 point{0, 0};  ///< on the bed, where the centre of the part's extent goes, for Kind::at
+  core::Vec2 point{0, 0};  ///< mm on the bed, the centre of the part's extent, for Kind::at
 };
 
 struct Job {

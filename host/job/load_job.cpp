@@ -17,12 +17,12 @@ constexpr double least_flow = 0.01, most_flow = 1000;  ///< mm³/s; below, moves
 /// Spacing of the curve ÷ distance of the seeds; the inverse of what the planner takes (tests/bench/spacing).
 constexpr double bead_width_per_seed_distance = 1 / 1.4;
 
-/// Far above anything printable, so that a slip of the keyboard is told here and not by a full memory.
+/// Far above anything printable, so that a typing error is reported instead of filling the memory.
 constexpr double greatest_length = 10000;  // mm
 
 constexpr double least_layer_height = 0.02;  ///< mm; below what the z axes of such printers can step
 
-/// Seed distances that a given bead width goes with, in bead widths; outside, one of the two is a slip.
+/// Plausible seed distances, in bead widths; outside, one of the two numbers is a typing error.
 constexpr double least_seed_distance = 0.5;
 constexpr double greatest_seed_distance = 4;
 
@@ -37,7 +37,7 @@ std::vector<std::filesystem::path> read_files(const Section& part) {
   std::vector<std::filesystem::path> files;
   for (const toml::node& item : *node->as_array()) {
     const std::optional<std::string> name = item.value<std::string>();
-    if (!name) part.fail("file", "holds something that is no text", remedy);
+    if (!name) part.fail("file", "holds something that is not a text", remedy);
     files.push_back(folder / *name);
   }
   if (files.empty()) part.fail("file", "is an empty list", remedy);
@@ -165,7 +165,7 @@ void read_perimeters(const Section& part, Job& job) {
   const double count =
       part.number_or("perimeters", 0, between(0, 100, ""), "write a whole number of contours");
   job.perimeters = static_cast<int>(count);
-  if (count != job.perimeters) part.fail("perimeters", "is no whole number", "write for example 1");
+  if (count != job.perimeters) part.fail("perimeters", "is not a whole number", "write for example 1");
 }
 
 void read_seam(const Section& part, Job& job) {

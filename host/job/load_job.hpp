@@ -12,7 +12,7 @@ namespace unicursal::host {
 /// to it. Throws JobError, core::FileError, core::DataError.
 Job load_job(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile = {});
 
-/// The bead width that seeds at distance `d` (mm, the paper's d) come out with, mm.
+/// The bead width that results from seeds at distance `d` (the paper's d), both in mm.
 double bead_width_from_seed_distance(double d);
 
 }  // namespace unicursal::host

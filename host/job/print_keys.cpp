@@ -11,7 +11,7 @@ namespace {
 
 constexpr double most_loops = 20;           ///< of a skirt
 constexpr double farthest_skirt = 100;      ///< mm
-constexpr double least_first_speed = 0.05;  ///< of the others'; less is a slip of the keyboard
+constexpr double least_first_speed = 0.05;  ///< fraction of the others'; less is a typing error
 constexpr double most_layers = 1e6;
 constexpr double least_printing = 150, most_printing = 450;  ///< °C of a nozzle that prints
 
@@ -20,7 +20,7 @@ Range layers() {
 }
 
 std::size_t whole(const Section& section, std::string_view key, double value) {
-  if (value != std::floor(value)) section.fail(key, "is no whole number", "write for example 1");
+  if (value != std::floor(value)) section.fail(key, "is not a whole number", "write for example 1");
   return static_cast<std::size_t>(value);
 }
 
@@ -86,10 +86,10 @@ void read_temperatures(const Section& part, Job& job) {
   const toml::node* node = part.find("temperatures");
   if (!node) return;
   const toml::array* list = node->as_array();
-  if (!list) part.fail("temperatures", "is no list", remedy);
+  if (!list) part.fail("temperatures", "is not a list", remedy);
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::table* table = (*list)[i].as_table();
-    if (!table) part.fail("temperatures", "holds something that is no table", remedy);
+    if (!table) part.fail("temperatures", "holds something that is not a table", remedy);
     const Section entry(part.file(), *table, fmt::format("part.temperatures[{}]", i),
                         {"layer", "nozzle", "bed"});
     job.print.temperatures.push_back(read_temperature(entry));

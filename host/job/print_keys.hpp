@@ -1,5 +1,4 @@
-// The keys of a job's [part] that say how it is printed and nothing of its shape: speed, skirt, fan,
-// temperatures.
+// The keys of a job's [part] that do not concern its shape: speed, skirt, fan, temperatures.
 #pragma once
 
 #include "host/job/job.hpp"

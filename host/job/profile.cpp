@@ -22,7 +22,7 @@ Range within(const gcode::Bounds& bounds, const char* unit) {
 unsigned read_whole(const Section& section, const char* key, unsigned otherwise, const Range& range) {
   const std::string remedy = fmt::format("write for example {} = {}", key, otherwise);
   const double number = section.number_or(key, otherwise, range, remedy.c_str());
-  if (number != std::floor(number)) section.fail(key, "is no whole number", remedy.c_str());
+  if (number != std::floor(number)) section.fail(key, "is not a whole number", remedy.c_str());
   return static_cast<unsigned>(number);
 }
 
@@ -58,7 +58,7 @@ void read_machine(const Section& section, Profile& profile) {
                                                 "write max_acceleration = [x, y, z] in mm/s²");
   gcode::Motion& motion = printer.motion;
   motion.jerk = section.numbers_or("jerk", motion.jerk, within(gcode::bounds::jerk, "mm/s"),
-                                   "write jerk = [x, y, z] in mm/s, as M205 or M503 tells");
+                                   "write jerk = [x, y, z] in mm/s, as M503 reports");
   motion.junction_deviation = section.number_or("junction_deviation", motion.junction_deviation,
                                                 within(gcode::bounds::junction_deviation, "mm"),
                                                 "write for example junction_deviation = 0.013");
@@ -79,7 +79,7 @@ void read_extruder_motion(const Section& section, gcode::Motion& motion) {
                                            "write for example jerk = 5");
 }
 
-/// Braces that stand for nothing are told with the name that was probably meant.
+/// Reads a script; an unknown placeholder is an error that names the nearest known one.
 std::string read_script(const Section& section, const char* key) {
   const std::string text = section.text_or(key, "", "write the extra lines in \"\"\"triple quotes\"\"\"");
   const std::vector<std::string> known = gcode::placeholder_names();
@@ -94,7 +94,8 @@ std::string read_script(const Section& section, const char* key) {
 void read_extruder(const Section& section, gcode::Printer& printer) {
   const double feeders = section.number_or("feeders", printer.feeders, between(1, gcode::max_feeders, ""),
                                            "write how many feeders meet in the nozzle");
-  if (feeders != static_cast<int>(feeders)) section.fail("feeders", "is no whole number", "write 1, 2 or 3");
+  if (feeders != static_cast<int>(feeders))
+    section.fail("feeders", "is not a whole number", "write 1, 2 or 3");
   printer.feeders = static_cast<int>(feeders);
   printer.filament_diameter = section.number_or("filament_diameter", printer.filament_diameter,
                                                 within(gcode::bounds::filament_diameter, "mm"),
@@ -139,7 +140,7 @@ void read_transition(const Section& section, gcode::Printer& printer) {
   const char* const remedy = "write a whole number, for example tanks = 2";
   const double tanks = section.number_or("tanks", static_cast<double>(printer.tanks),
                                          between(1, static_cast<double>(gcode::max_tanks), ""), remedy);
-  if (tanks != std::floor(tanks)) section.fail("tanks", "is no whole number", remedy);
+  if (tanks != std::floor(tanks)) section.fail("tanks", "is not a whole number", remedy);
   printer.tanks = static_cast<std::size_t>(tanks);
   printer.overshoot = section.flag_or("overshoot", printer.overshoot, "write true or false");
 }

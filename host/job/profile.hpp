@@ -1,4 +1,4 @@
-// A printer's profile: the machine itself and the port it hangs on. Units as in printer.hpp; baud in bits/s.
+// A printer's profile: the machine and the port it is connected to. Units as in printer.hpp; baud in bits/s.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct Profile {
   gcode::Printer printer;
   std::string port = "auto";  ///< "auto": the only serial port there is
   unsigned baud = 250000;
-  unsigned receive_buffer = 128;  ///< bytes, of the board
+  unsigned receive_buffer = 128;  ///< bytes, of the firmware
 };
 
 /// Throws core::FileError or JobError.

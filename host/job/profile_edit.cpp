@@ -35,7 +35,7 @@ std::string read(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// Where the parser's line and column, which counts characters and not bytes, lie in the text.
+/// The offset in the text of the parser's line and column; columns count characters, not bytes.
 std::size_t offset_of(const std::string& text, const toml::source_position& position) {
   std::size_t at = 0;
   for (std::size_t line = 1; line < position.line; ++line) at = text.find('\n', at) + 1;
@@ -56,7 +56,7 @@ const char* line_break_of(const std::string& text) {
   return text.find("\r\n") == std::string::npos ? "\n" : "\r\n";
 }
 
-/// Replaces a value; a comment behind it stays in its column if there are blanks enough.
+/// Replaces a value; a comment behind it keeps its column if there are enough spaces.
 void replace_value(std::string& text, const toml::source_region& where, const std::string& value) {
   const std::size_t begin = offset_of(text, where.begin), end = offset_of(text, where.end);
   const std::size_t old = end - begin;
@@ -74,7 +74,7 @@ const toml::node* find(const toml::table& root, const char* key) {
   return table == nullptr ? nullptr : table->get(key);
 }
 
-/// Adds `key` beside its sister, in the form in which that is written.
+/// Adds `key` after the section's other key, in the same form.
 void add_beside(std::string& text, const toml::table& root, const char* sister, const std::string& key,
                 const std::string& value) {
   const toml::source_region& where = find(root, sister)->source();
@@ -86,12 +86,12 @@ void add_beside(std::string& text, const toml::table& root, const char* sister, 
   const std::size_t start = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
   std::string line = text.substr(start, at - start);
   const std::size_t name = line.rfind(sister);
-  if (name == std::string::npos) return;  // written with escapes: found out afterwards
+  if (name == std::string::npos) return;  // written with escapes: the final check refuses it
   line.replace(name, std::string(sister).size(), key);
   text.insert(line_end(text, at), line_break_of(text) + line + value);
 }
 
-/// Adds `key` as the first one below the section's heading, and the section at the end if there is none.
+/// Adds `key` as the first one below the section's heading; a missing section is added at the end.
 void add_to_section(std::string& text, const toml::table& root, const std::string& key,
                     const std::string& value) {
   const std::string line_break = line_break_of(text), line = fmt::format("{} = {}", key, value);
@@ -131,7 +131,7 @@ bool holds(const toml::table& root, const char* key, const std::string& value) {
   return node != nullptr && node->value<double>() == std::stod(value);
 }
 
-/// Whether the edit did all of what it should and nothing else.
+/// Whether the edit changed exactly what it should.
 bool differs_only_there(const std::string& before, const std::string& after, const std::string& dead,
                         const std::string& mixing, const std::filesystem::path& file) {
   try {
@@ -167,15 +167,11 @@ void ProfileText::set_transition(double dead_volume, double mixing_volume) const
   const std::string changed = with_transition(text_, dead_volume, mixing_volume, file_);
   if (read(file_) != text_) {
     throw core::FileError(
-        file_.string(), "", "has been changed by somebody else meanwhile",
+        file_.string(), "", "has been changed by another program meanwhile",
         fmt::format("write dead_volume = {:.2f} and mixing_volume = {:.2f} into it yourself", dead_volume,
                     mixing_volume));
   }
-  std::ofstream stream = open_draft(file_);
-  std::error_code ignored;
-  std::filesystem::permissions(draft_of(file_), std::filesystem::status(file_).permissions(), ignored);
-  stream << changed;
-  publish_draft(stream, file_);
+  write_whole_file(file_, changed, WholeFile::Access::as_before);
 }
 
 }  // namespace unicursal::host

@@ -1,5 +1,5 @@
 // Changes the transition's two numbers in the text of a profile and leaves every other character as it is:
-// comments, order, spaces, line ends. A comment behind a number keeps its column where there is room.
+// comments, order, spaces, line ends. A comment behind a number keeps its column if there is room.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 namespace unicursal::host {
 
 /// `text` with transition.dead_volume and transition.mixing_volume set to these values (mm³, two decimals),
-/// added where they are missing. Throws JobError when `text` is no TOML, or is written in a way that this
-/// does not master; `file` is for messages.
+/// added where they are missing. Throws JobError if `text` is not TOML, or is written in a form that this
+/// cannot edit; `file` is for messages.
 std::string with_transition(const std::string& text, double dead_volume, double mixing_volume,
                             const std::filesystem::path& file);
 
@@ -19,8 +19,8 @@ class ProfileText {
   /// Throws core::FileError.
   explicit ProfileText(std::filesystem::path file);
 
-  /// Puts the changed text in the file's place in one step. Throws core::FileError, also when the file has
-  /// been changed meanwhile, and JobError; the file is untouched then.
+  /// Replaces the file by the changed text. Throws core::FileError, also if the file has been changed
+  /// meanwhile, and JobError; the file is untouched then.
   void set_transition(double dead_volume, double mixing_volume) const;
 
  private:

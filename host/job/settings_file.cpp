@@ -8,13 +8,13 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "host/job/job.hpp"
+#include "host/job/job_error.hpp"
 #include "host/job/nearest.hpp"
 
 namespace unicursal::host {
 namespace {
 
-/// Settings are written by hand; a bigger file is something else that was named by mistake.
+/// Bytes. Settings are written by hand; a larger file was named by mistake.
 constexpr std::uintmax_t largest_file = 1 << 20;
 
 std::string read_text(const std::filesystem::path& file) {
@@ -88,7 +88,7 @@ Section::Section(const std::filesystem::path& file, const toml::table& table, st
     : file_(file), table_(table), name_(std::move(name)) {
   for (auto&& [key, node] : table_) {
     if (known.empty() || std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    fail(key.str(), "is no key that is known here",
+    fail(key.str(), "is not a known key here",
          fmt::format("did you mean \"{}\"?", nearest(key.str(), known)));
   }
 }
@@ -99,7 +99,7 @@ std::string Section::path(std::string_view key) const {
 
 std::size_t Section::line(std::string_view key) const {
   const toml::node* node = table_.get(key);
-  // Keys of dotted or inline tables may carry no position of their own; the table's is the next best.
+  // Keys of dotted or inline tables may lack a position; the table's is the next best.
   if (node && node->source().begin.line > 0) return node->source().begin.line;
   return std::max<std::size_t>(1, table_.source().begin.line);
 }
@@ -120,7 +120,7 @@ double Section::checked(std::string_view key, const toml::node& node, const Rang
   if (!node.is_number())
     fail(key, fmt::format("is {} where a number is expected", kind_of(node)), std::string(remedy));
   const std::optional<double> value = node.value<double>();
-  if (!value) fail(key, "has more digits than can be told apart", std::string(remedy));
+  if (!value) fail(key, "has more digits than can be distinguished", std::string(remedy));
   if (!range.holds(*value)) {
     fail(key, fmt::format("is {}, but must be {}", *value, range.words()), std::string(remedy));
   }

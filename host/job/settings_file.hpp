@@ -1,4 +1,4 @@
-// Reading settings from TOML so that every mistake is told with file, line, key and remedy.
+// Reads settings from TOML; every mistake is reported with file, line, key and remedy.
 // This header pulls in toml++; only the files of host/job that parse include it.
 //
 //   const SettingsFile file("job.toml");
@@ -16,7 +16,7 @@
 
 namespace unicursal::host {
 
-/// The numbers that a key may take, with their unit for messages.
+/// The allowed range of a number, with its unit for messages.
 struct Range {
   double low;
   double high;
@@ -32,7 +32,7 @@ Range above(double low, const char* unit);
 Range at_least(double low, const char* unit);
 Range between(double low, double high, const char* unit);
 
-/// A table of a settings file. Refuses keys it does not know as soon as it is made.
+/// A table of a settings file. The constructor refuses unknown keys.
 class Section {
  public:
   Section(const std::filesystem::path& file, const toml::table& table, std::string name,
@@ -54,7 +54,7 @@ class Section {
   std::array<double, n> numbers_or(std::string_view key, std::array<double, n> otherwise, const Range& range,
                                    std::string_view remedy) const;
 
-  /// A sub-table; a missing one is an error or, for the second form, reads as empty.
+  /// A sub-table. If it is missing, the first form throws and the second returns an empty one.
   Section section(std::string_view key, std::vector<std::string> known, std::string_view remedy) const;
   Section section_or_empty(std::string_view key, std::vector<std::string> known) const;
 
@@ -81,7 +81,7 @@ class Section {
 /// A parsed file; sections refer to it and must not outlive it.
 class SettingsFile {
  public:
-  /// Throws core::FileError when it cannot be read, JobError when it is no TOML.
+  /// Throws core::FileError if it cannot be read, JobError if it is not TOML.
   explicit SettingsFile(std::filesystem::path file);
 
   Section root(std::vector<std::string> known) const;

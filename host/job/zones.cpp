@@ -13,7 +13,7 @@ namespace {
 
 using Palette = std::vector<gcode::Material>;
 
-constexpr std::size_t most_materials = 200;  ///< that the report's labels can tell apart
+constexpr std::size_t most_materials = 200;  ///< limit of the report's labels, which are bytes
 
 const char* const mixture_remedy =
     "write the name of a mixture below [mixture] in quotes, or { from = \"…\", to = \"…\", along = [1, 0, 0] "
@@ -123,7 +123,7 @@ bool equal(const std::optional<gcode::Gradient>& a, const std::optional<gcode::G
   return equal(a->to, b->to) && a->along == b->along && a->begin == b->begin && a->end == b->end;
 }
 
-/// Zones of equal mixture form one material zone, whatever the names of the mixtures.
+/// Zones of equal mixture form one material zone, also if the mixtures' names differ.
 std::size_t index_in(std::vector<gcode::Material>& used, const gcode::Material& material) {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (equal(used[i].mixture, material.mixture) && equal(used[i].gradient, material.gradient) &&
@@ -138,13 +138,13 @@ std::size_t index_in(std::vector<gcode::Material>& used, const gcode::Material& 
 std::array<double, 3> read_direction(const Section& gradient) {
   const char* const remedy = "write the direction in the part's frame, for example along = [1, 0, 0]";
   const std::vector<double> along = gradient.numbers("along", between(-1e6, 1e6, ""), remedy);
-  if (along.size() != 3) gradient.fail("along", "has not three numbers", remedy);
+  if (along.size() != 3) gradient.fail("along", "does not have three numbers", remedy);
   const double length = std::hypot(along[0], along[1], along[2]);
   if (!(length > 0)) gradient.fail("along", "has no length", remedy);
   return {along[0] / length, along[1] / length, along[2] / length};
 }
 
-/// From one end of its zones to the other, unless it is said where.
+/// A gradient without `over` goes from one end of its zones to the other.
 gcode::Material read_gradient(const Section& zone, const Palette& palette) {
   const Section section = zone.section("mixture", {"from", "to", "along", "over"}, mixture_remedy);
   gcode::Material material = find_material(section, "from", palette);
@@ -154,7 +154,7 @@ gcode::Material read_gradient(const Section& zone, const Palette& palette) {
   if (section.has("over")) {
     const char* const remedy = "write where it begins and ends along the direction, mm in the part's frame";
     const auto over = section.numbers_or<2>("over", {0, 0}, between(-1e4, 1e4, "mm"), remedy);
-    if (over[0] >= over[1]) section.fail("over", "does not end behind its beginning", remedy);
+    if (over[0] >= over[1]) section.fail("over", "does not end after it begins", remedy);
     material.gradient->begin = over[0];
     material.gradient->end = over[1];
   }
@@ -192,7 +192,7 @@ ZonesAndMaterials read_zones(const Section& root, int feeders) {
   if (!node) root.fail("zone", "is missing", remedy);
   const toml::array* list = node->as_array();
   if (!list || list->empty() || !list->is_homogeneous<toml::table>()) {
-    root.fail("zone", "is no list of zones", remedy);
+    root.fail("zone", "is not a list of zones", remedy);
   }
   const Palette palette = read_palette(root, feeders);
   ZonesAndMaterials result;

@@ -15,8 +15,8 @@ struct ZonesAndMaterials {
   std::vector<gcode::Material> materials;
 };
 
-/// Reads [[zone]] and [mixture] of a job's root. `feeders`: how many shares a mixture has.
-/// A gradient that does not say where it begins and ends has both at 0 (prepared_job.hpp finds them). Throws
+/// Reads [[zone]] and [mixture] of a job's root. `feeders`: number of shares of a mixture. A gradient without
+/// `over` begins and ends at 0; prepare() (host/engine/prepared_job.hpp) then computes its ends. Throws
 /// JobError.
 ZonesAndMaterials read_zones(const Section& root, int feeders);
 

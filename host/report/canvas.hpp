@@ -1,4 +1,4 @@
-// A picture that is drawn on in the part's frame: mm in, y up; pixels out, y down.
+// A picture that is drawn in the part's frame: mm and y up go in, pixels and y down come out.
 #pragma once
 
 #include "core/geometry/polygon.hpp"
@@ -10,7 +10,7 @@ namespace unicursal::host {
 struct CanvasSize {
   core::Box extent;         ///< mm
   double scale = 1;         ///< pixels per mm
-  double least_width = 0;   ///< pixels; what is narrower is centred
+  double least_width = 0;   ///< pixels; a narrower drawing is centred
   double caption_room = 0;  ///< pixels, left free below
 };
 

@@ -16,7 +16,7 @@ std::string hex(const picture::Colour& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
 }
 
-/// From the part's frame to a drawing whose viewBox begins at 0 0.
+/// Transforms from the part's frame to a drawing whose viewBox begins at 0 0.
 struct SvgFrame {
   core::Box extent;
 
@@ -60,12 +60,6 @@ void append_curve(Text out, const SvgFrame& frame, const core::BeadPath& path, c
   }
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream = open_draft(file);
-  stream << text;
-  publish_draft(stream, file);
-}
-
 }  // namespace
 
 std::string curve_text(const core::IslandPlan& plan) {
@@ -107,11 +101,11 @@ void write_curve(const std::filesystem::path& file, const PlannedLayer& layer, c
   check_curve_file(file);
   const std::string ending = file.extension().string();
   if (ending == ".png") picture::write_png(file, draw_curves(layer, style));
-  if (ending == ".svg") write_text(file, curve_svg(layer, style));
+  if (ending == ".svg") write_whole_file(file, curve_svg(layer, style));
   if (ending != ".txt") return;
   std::string text;
   for (const core::IslandPlan& plan : layer.plans) text += curve_text(plan);
-  write_text(file, text);
+  write_whole_file(file, text);
 }
 
 }  // namespace unicursal::host

@@ -10,15 +10,14 @@
 
 namespace unicursal::host {
 
-/// What a mixture of the three feeders looks like on a screen: filaments in blue, red and white, as the
-/// simulator shows them.
+/// The colour of a mixture on a screen, with filaments in blue, red and white as in the simulator.
 picture::Colour colour_of(const gcode::Mixture& mixture);
 
-/// What the picture has to know beside the layer.
+/// What a picture needs to know besides the layer.
 struct CurveStyle {
   core::Box extent;                           ///< shown, mm in the part's frame
   std::vector<picture::Colour> zone_colours;  ///< by Bead::zone
-  double bead_width = 0.4;                    ///< mm; the line is drawn at some half of it
+  double bead_width = 0.4;                    ///< mm; the line is drawn about half as wide
 };
 
 /// The closed line, each stretch in its zone's colour.

@@ -9,7 +9,7 @@
 namespace unicursal::host {
 namespace {
 
-/// A longer print may have left more layers here than this one will have.
+/// Removes old pictures: a longer print may have left more layers than this one has.
 void remove_old_pictures(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -61,7 +61,7 @@ void DepositCheck::read_all(int descriptor) {
   try {
     while (const auto frame = reader.next()) take(*frame, reader);
   } catch (const std::exception& error) {
-    // Closing the stream lets the simulator go on without it.
+    // Closing the stream lets the simulator continue.
     problem_ = std::string("what was laid could not be judged to the end: ") + error.what();
   }
 }
@@ -79,7 +79,7 @@ void DepositCheck::take(const sim::RasterFrame& frame, sim::RasterReader& reader
   total_ += layer.findings;
 }
 
-/// The planned layer that lies there; those below it are done with, since the printer goes upwards.
+/// Returns the planned layer at that height and forgets those below, since the printer goes upwards.
 std::optional<TargetLayer> DepositCheck::target_at(double z) {
   const std::lock_guard lock(mutex_);
   const auto here = std::find_if(expected_.begin(), expected_.end(), [z](const TargetLayer& target) {

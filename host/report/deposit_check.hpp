@@ -1,6 +1,6 @@
-// Judges the layers of a dry run while it runs: the planned layers come from one side, the rasters of what
-// was laid from the other, as a stream. Memory holds the layers that have been planned and not yet laid, and
-// one raster.
+// Judges the layers of a dry run while it runs: planned layers come from one side, rasters of what was laid
+// from the other, as a stream. Memory holds the layers that have been planned and not yet laid, and one
+// raster.
 //
 //   DepositCheck check(materials, pictures);
 //   check.watch(descriptor);        // reads in a thread of its own
@@ -23,8 +23,8 @@ namespace unicursal::host {
 
 class DepositCheck {
  public:
-  /// `materials`: as the printer is to mix them. `pictures`: a folder that exists, for
-  /// gaps-NNNN.png and mixtures-NNNN.png; older ones are removed from it.
+  /// `materials`: as the printer is to mix them. `pictures`: an existing folder for gaps-NNNN.png and
+  /// mixtures-NNNN.png; older ones in it are removed.
   DepositCheck(std::vector<IntendedMaterial> materials, std::optional<std::filesystem::path> pictures);
   /// Waits for the end of the stream.
   ~DepositCheck();
@@ -39,7 +39,7 @@ class DepositCheck {
 
   // After finish():
   const DepositFindings& total() const { return total_; }
-  /// Layers that were laid, with their findings; a layer that was begun and not ended is among them.
+  /// The layers that were laid, also unfinished ones, with their findings.
   nlohmann::json to_json() const;
   /// Why judging ended early, if it did.
   const std::optional<std::string>& problem() const { return problem_; }

@@ -25,7 +25,7 @@ double AreaHistogram::percentile(double part) const {
       return bin_ * (bin + std::clamp((part * total_ - below) / area, 0.0, 1.0));
     below += area;
   }
-  // Rounding may leave the sum just below the whole.
+  // Rounding may leave the sum just below the total.
   return areas_.empty() ? 0 : bin_ * (areas_.rbegin()->first + 1);
 }
 

@@ -1,9 +1,9 @@
-// What was laid on the bed against what the job wanted: of one layer, and added up over a print. Areas in
-// mm², volumes in mm³, distances in mm; fills in layer heights.
+// What was laid on the bed compared with what the job wanted, of one layer or added up over a print. Areas in
+// mm², volumes in mm³, distances in mm, fills in layer heights.
 //
-// Outside is what lies farther from the outline than half the job's bead width: a bead whose middle runs on
-// the outline reaches as far, and none should run beyond it. What is nearer than that is the rim of beads
-// that belong there, which are as wide here and there as the curve has it.
+// "Outside" means farther from the outline than half the job's bead width. A bead whose middle runs on the
+// outline reaches so far, and none should run beyond it. Nearer than that lies the rim of beads that belong
+// there, whose widths vary along the curve.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace unicursal::host {
 
-/// How much area has which value, in bins of equal width, and what follows from it.
+/// Area by value, in bins of equal width.
 class AreaHistogram {
  public:
   explicit AreaHistogram(double bin) : bin_(bin) {}
@@ -21,7 +21,7 @@ class AreaHistogram {
   void add(double value, double area);
   AreaHistogram& operator+=(const AreaHistogram& more);
   double area() const { return total_; }
-  /// The value below which that part of the area lies; 0 when there is none.
+  /// The value below which this fraction of the area lies; 0 if the histogram is empty.
   double percentile(double part) const;
 
  private:
@@ -31,18 +31,18 @@ class AreaHistogram {
 };
 
 struct DepositFindings {
-  double area = 0;              ///< that was to be filled
-  double gaps = 0;              ///< of it, uncovered: the integral of what is missing to a full layer
-  double overfill = 0;          ///< the integral of what stands above it
-  double spilled = 0;           ///< laid beside the part, within a millimetre
-  double outside = 0;           ///< mm³, laid anywhere outside, other than skirt and prime line
-  double prime = 0, skirt = 0;  ///< mm³, where these are to be
+  double area = 0;              ///< area that was to be filled
+  double gaps = 0;              ///< integral of what is missing from a full layer
+  double overfill = 0;          ///< integral of what stands above a full layer
+  double spilled = 0;           ///< area laid beside the part, within 1 mm
+  double outside = 0;           ///< mm³ laid outside, without skirt and prime line
+  double prime = 0, skirt = 0;  ///< mm³ laid where these should be
   AreaHistogram fill{0.01};
   double fill_moment = 0, fill_squares = 0;  ///< ∫ fill, ∫ fill²
 
-  double transition = 0;  ///< area of zones that are there to take up changes: its mixtures are not judged
-  double wrong = 0;       ///< area where what arrived is nearer to another zone's mixture than to its own
-  AreaHistogram wrong_distance{0.05};  ///< of the wrong places from the border of their material zone
+  double transition = 0;               ///< area of transition zones, whose mixtures are not judged
+  double wrong = 0;                    ///< area whose mixture is nearer to another zone's than to its own
+  AreaHistogram wrong_distance{0.05};  ///< distance of wrong places from their material zone's border
   double mixture_error = 0;  ///< ∫ half the sum of the differences of all shares: area of misplaced plastic
 
   double gap_fraction() const { return area > 0 ? gaps / area : 0; }

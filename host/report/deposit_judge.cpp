@@ -12,12 +12,12 @@ namespace {
 
 using Shares = std::array<double, gcode::max_feeders>;
 
-constexpr double margin = 1;     // mm around the part that counts as beside it
-constexpr double widest = 1.5;   // of a stroke's width: how far its plastic gives way to its neighbours
+constexpr double margin = 1;     // mm around the part that count as beside it
+constexpr double widest = 1.5;   // stroke widths that its plastic may spread over
 constexpr double hardly = 0.05;  // fill below which no mixture has arrived
-constexpr double amiss = 0.1;    // of the plastic, misplaced: a gradient's shade is wrong
+constexpr double amiss = 0.1;    // fraction of misplaced plastic above which a gradient's shade is wrong
 
-/// The raster's own pixels, as far as they lie around the part.
+/// The raster's pixels on and around the part.
 PixelGrid grid_around(const TargetLayer& target, const sim::RasterFrame& frame) {
   core::Box box = core::bounds(target.zones.front().polygon);
   for (const auto& [polygon, label] : target.zones) {
@@ -33,13 +33,13 @@ PixelGrid grid_around(const TargetLayer& target, const sim::RasterFrame& frame) 
           static_cast<std::size_t>(std::ceil(count.y())) + 1};
 }
 
-/// What lies farther from the part than its rim, by what it is.
+/// Sorts plastic beyond the part's rim into prime line, skirt and the rest.
 class Outside {
  public:
   Outside(const TargetLayer& target, const sim::RasterFrame& frame)
       : target_(target), volume_(frame.pixel * frame.pixel * frame.height), pixel_(frame.pixel) {}
 
-  /// Of a place beyond the rim.
+  /// Adds a pixel beyond the rim.
   void beyond(const core::Vec2& place, double fill) {
     if (fill <= 0) return;
     double& of = lies_on(target_.prime, place) ? prime : lies_on(target_.skirt, place) ? skirt : elsewhere;
@@ -56,11 +56,11 @@ class Outside {
   }
 
   const TargetLayer& target_;
-  double volume_;  ///< of a full pixel
+  double volume_;  ///< mm³ of a full pixel
   double pixel_;
 };
 
-/// The part's rim on the grid: what is within `width` of a place of it, the nearest place first.
+/// The part's rim on the grid: pixels within `width` of the part, by distance.
 class Rim {
  public:
   Rim(const std::vector<RegionLabel>& labels, const PixelGrid& grid, double width)
@@ -98,7 +98,7 @@ class Rim {
   std::vector<Step> steps_;
 };
 
-/// The raster cut or padded to the grid.
+/// The raster, cut or padded to the grid.
 std::vector<sim::RasterPixel> read(const sim::RasterFrame& frame, const RowSource& rows,
                                    const PixelGrid& grid, Outside& outside) {
   const auto shift = [&](double from, double to) { return std::llround((to - from) / grid.pixel); };
@@ -139,8 +139,7 @@ double squared_difference(const Shares& a, const Shares& b) {
   return sum;
 }
 
-/// The materials of this layer alone: what another layer is made of is no zone that this place could belong
-/// to.
+/// The materials of this layer alone: a place cannot belong to a zone of another layer.
 std::vector<RegionLabel> materials_of(const TargetLayer& target) {
   std::vector<RegionLabel> materials;
   for (const auto& [polygon, label] : target.zones) materials.push_back(label);

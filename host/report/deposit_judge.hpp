@@ -1,5 +1,5 @@
-// One layer as the simulator laid it against the zones that it was to fill. Places are the raster's pixels
-// whose middle lies in the part; where the simulator's raster does not reach, nothing was laid. mm, mm².
+// Compares one layer as the simulator laid it with the zones that it was to fill, at every pixel of the
+// raster whose middle lies in the part. Nothing was laid where the raster does not reach. mm, mm².
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@
 
 namespace unicursal::host {
 
-/// What a material is to come out as.
+/// The mixture that a material should have.
 struct IntendedMaterial {
   gcode::Mixture mixture;  ///< of a gradient, where it begins
   std::optional<gcode::Gradient> gradient = {};
-  bool transition = false;  ///< it is there to take up changes: nothing is wrong in it
+  bool transition = false;  ///< a transition zone: no mixture is wrong in it
 
   IntendedMaterial(const gcode::Mixture& plain) : mixture(plain) {}
 
-  /// The shares that are wanted there.
+  /// The shares that are wanted at a place.
   std::array<double, gcode::max_feeders> at(const core::Vec2& place, double z) const;
 };
 
@@ -34,28 +34,28 @@ struct Stroke {
   double width = 0;
 };
 
-/// What a layer was to be, in the bed's frame.
+/// What a layer should look like, in the bed's frame.
 struct TargetLayer {
   std::size_t index = 0;
   double top = 0;  ///< where the nozzle runs
   double height = 0;
   std::vector<LabelledPolygon> zones;          ///< labelled by material
   double bead_width = 0;                       ///< of the job; the rim of the part is half as wide
-  std::vector<Stroke> prime = {}, skirt = {};  ///< that are to lie beside the part
+  std::vector<Stroke> prime = {}, skirt = {};  ///< beside the part
 };
 
-/// Gives the simulator's rows from the lowest up.
+/// Reads the next of the simulator's rows, the lowest first.
 using RowSource = std::function<void(std::span<sim::RasterPixel>)>;
 
 struct JudgedLayer {
   DepositFindings findings;
-  std::optional<picture::Image> gaps;      ///< what is missing and what is too much
-  std::optional<picture::Image> mixtures;  ///< the right ones in their colours, the wrong ones marked
+  std::optional<picture::Image> gaps;      ///< missing and surplus plastic
+  std::optional<picture::Image> mixtures;  ///< in their colours, wrong ones hatched
 };
 
-/// `materials`: as the printer was to mix them. A place of a gradient is wrong where a tenth of its plastic
-/// or more is misplaced, any other where what arrived is nearer to another material of the layer. Reads every
-/// row.
+/// `materials`: as the printer was to mix them. A place of a gradient is wrong if a tenth of its plastic or
+/// more is misplaced; any other place is wrong if its mixture is nearer to another material of the layer.
+/// Reads every row.
 JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, const RowSource& rows,
                   const std::vector<IntendedMaterial>& materials, bool draw);
 

@@ -1,4 +1,4 @@
-// What was measured of curves: of one island, and added up over a layer or a print. mm, mm², s.
+// Measurements of curves, of one island or added up over a layer or a print. mm, mm², s.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,11 @@ struct Figures {
   std::size_t empty_islands = 0;  ///< too thin for any curve
   std::size_t curves = 0;
   std::size_t vertices = 0;
-  double length = 0;                                ///< of the curves
-  double area = 0;                                  ///< that their segments fill
-  core::CurveObjectives objectives;                 ///< sums; the normalised one is computed from them
-  std::map<int, std::size_t> curves_by_perimeters;  ///< contours laid, and by how many curves
+  double length = 0;                 ///< of the curves
+  double area = 0;                   ///< that their segments fill
+  core::CurveObjectives objectives;  ///< sums
+  std::map<int, std::size_t>
+      curves_by_perimeters;  ///< number of contours → number of curves that laid so many
   std::size_t zone_crossings = 0;
   std::size_t self_intersections = 0;
   std::size_t outside_segments = 0;
@@ -26,8 +27,8 @@ struct Figures {
   std::size_t doubled_edges = 0;
   double farthest = 0;       ///< the greatest
   double unfilled_area = 0;  ///< too thin for a bead
-  double narrow_length = 0;  ///< whose bead is narrower than the nozzle can lay
-  double wide_length = 0;    ///< whose bead is wider than the nozzle can lay
+  double narrow_length = 0;  ///< of bead narrower than the nozzle can lay
+  double wide_length = 0;    ///< of bead wider than the nozzle can lay
   double far_area = 0;       ///< farther than 1.2 bead widths from the curve
   core::StageTime graph, cycle, fairing, widths;
 
@@ -41,7 +42,7 @@ Figures measure(const core::IslandPlan& plan);
 Figures measure(const PlannedLayer& layer);
 Figures& operator+=(Figures& sum, const Figures& more);
 
-/// The keys of the report's contract: vertices, area_mm2, length_mm, seconds { graph, … }, objectives, …
+/// The keys are explained in host/report/README.md.
 nlohmann::json to_json(const Figures& figures);
 
 }  // namespace unicursal::host

@@ -3,44 +3,36 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 
-#include "host/files/whole_file.hpp"
-
 namespace unicursal::host {
 namespace {
 
-/// File names come from the user and need not be valid UTF-8; replace what is not.
+/// Replaces invalid UTF-8: file names come from the user.
 std::string text_of(const nlohmann::json& value, int indent) {
   return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
 
-LayerLog::LayerLog(std::filesystem::path file) : file_(std::move(file)), stream_(open_draft(file_)) {
-  stream_ << "{\n\"layers\": [";
-}
-
-LayerLog::~LayerLog() {
-  if (!finished_) discard_draft(stream_, file_);
+LayerLog::LayerLog(std::filesystem::path file) : file_(std::move(file)) {
+  file_.stream() << "{\n\"layers\": [";
 }
 
 void LayerLog::add(const nlohmann::json& layer) {
-  stream_ << (layers_++ == 0 ? "\n" : ",\n") << text_of(layer, -1);
+  file_.stream() << (layers_++ == 0 ? "\n" : ",\n") << text_of(layer, -1);
 }
 
 void LayerLog::finish(const nlohmann::json& rest) {
-  assert(rest.is_object() && !finished_);
-  stream_ << "\n]";
+  assert(rest.is_object());
+  std::ostream& stream = file_.stream();
+  stream << "\n]";
   for (const auto& [key, value] : rest.items())
-    stream_ << ",\n" << text_of(key, -1) << ": " << text_of(value, 1);
-  stream_ << "\n}\n";
-  finished_ = true;
-  publish_draft(stream_, file_);
+    stream << ",\n" << text_of(key, -1) << ": " << text_of(value, 1);
+  stream << "\n}\n";
+  file_.publish();
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& value) {
-  std::ofstream stream = open_draft(file);
-  stream << text_of(value, 1) << '\n';
-  publish_draft(stream, file);
+  write_whole_file(file, text_of(value, 1) + "\n");
 }
 
 }  // namespace unicursal::host

@@ -9,7 +9,7 @@
 namespace unicursal::host {
 namespace {
 
-using Bins = std::vector<std::pair<double, double>>;  // flow, seconds; rising
+using Bins = std::vector<std::pair<double, double>>;  // flow, seconds; by rising flow
 
 double number(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
@@ -44,7 +44,7 @@ double share_near(const Bins& bins, double nominal) {
   return all > 0 ? near / all : 0;
 }
 
-/// The flow below which that share of the time lies.
+/// The flow below which this fraction of the time lies.
 double quantile(const Bins& bins, double share) {
   double left = share * seconds(bins);
   for (const auto& [flow, time] : bins) {

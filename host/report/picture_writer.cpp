@@ -10,7 +10,7 @@ void make_picture_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
-    throw core::FileError(folder.string(), "", "is no folder that pictures can be written to",
+    throw core::FileError(folder.string(), "", "is not a folder that pictures can be written to",
                           "name a folder in a place where you may write");
   }
 }

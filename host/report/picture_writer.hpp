@@ -1,4 +1,4 @@
-// Draws the curves of each layer in the background, so that neither planning nor the link waits for it.
+// Draws the curves of each layer in a thread of its own, so that neither planning nor the link waits.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,20 @@
 
 namespace unicursal::host {
 
-/// Throws core::FileError when there is no folder of that name and none can be made.
+/// Throws core::FileError if there is no folder of that name and none can be made.
 void make_picture_folder(const std::filesystem::path& folder);
 
 class PictureWriter {
  public:
-  /// Makes the folder. Throws core::FileError when that is not possible.
+  /// Makes the folder. Throws core::FileError if that is not possible.
   PictureWriter(std::filesystem::path folder, CurveStyle style);
 
-  /// Writes curve-NNNN.png by the layer's index. At most one picture is being drawn; waits for the one
-  /// before.
+  /// Starts to draw curve-NNNN.png, NNNN being the layer's index, after waiting for the picture before.
   void draw(PlannedLayer layer);
   /// Waits for the last picture.
   void finish();
 
-  /// What went wrong, if a picture could not be written; no more are tried then, and the print goes on.
+  /// Why a picture could not be written; absent if all were. After a problem no more pictures are drawn.
   const std::optional<std::string>& problem() const { return problem_; }
 
  private:

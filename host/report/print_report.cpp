@@ -5,22 +5,22 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "host/engine/print.hpp"
 #include "host/engine/session_json.hpp"
 
 namespace unicursal::host {
 
-void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra) {
+void conclude(Books& books, const StreamResult& result, const nlohmann::json& extra) {
   nlohmann::json rest = {{"ended", name(result.ending)}, {"link", link_json(result)}};
   if (result.ending == Ending::failed) rest["reason"] = result.reason;
   rest.update(extra);
   std::string problem;
   try {
-    run.write_report(rest);
+    books.write_report(rest);
   } catch (const std::exception& error) {
     problem = error.what();
   }
-  if (result.unfit) throw PrinterUnfit(result.reason);
-  if (result.ending == Ending::failed) throw PrintError(result.reason);
+  throw_if_failed(result);
   if (!problem.empty()) {
     throw PrintError(
         fmt::format("the print was {}, but its report is lost: {}", name(result.ending), problem));

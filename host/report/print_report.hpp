@@ -3,15 +3,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "host/engine/run.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/lookahead/lookahead.hpp"
+#include "host/report/books.hpp"
 
 namespace unicursal::host {
 
 /// Writes the report of a print, however it ended, with the keys of `extra` added. Throws PrintError if the
 /// print has failed, or if only the report could not be written, and PrinterUnfit if the printer was refused.
-void conclude(Run& run, const StreamResult& result, const nlohmann::json& extra);
+void conclude(Books& books, const StreamResult& result, const nlohmann::json& extra);
 
 /// The report's "planning": seconds, cpu_seconds, threads.
 nlohmann::json planning_json(const Lookahead& lookahead);

@@ -18,7 +18,7 @@ void collect_crossings(const core::Ring& ring, double y, std::vector<double>& cr
   }
 }
 
-/// Rows whose middle lies between two heights.
+/// The rows whose middle lies between two heights.
 std::pair<std::size_t, std::size_t> rows_between(const PixelGrid& grid, double low, double high) {
   const auto row = [&grid](double y) {
     const double index = std::ceil((y - grid.origin.y()) / grid.pixel - 0.5);
@@ -81,7 +81,7 @@ class Envelope {
   std::vector<float> source_;
 };
 
-/// In place, first along the columns, then along the rows.
+/// Works in place, first along the columns, then along the rows.
 void distance_transform(std::vector<float>& squares, const PixelGrid& grid) {
   Envelope envelope;
   std::vector<float> line(grid.rows);

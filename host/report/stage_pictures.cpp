@@ -14,7 +14,7 @@ namespace {
 
 using picture::Colour;
 
-// Pixels, but where a bead width is the unit.
+// Pixels unless the unit is a bead width.
 constexpr double pixels_per_bead = 14, longest_side = 1800;
 constexpr double least_width = 420, caption_room = 34;
 constexpr double caption_left = 10;
@@ -22,7 +22,7 @@ constexpr std::size_t text_dot = 3;
 constexpr double stroke_length = 1.05;  ///< of the field, bead widths
 constexpr double thin_line = 1.2, thick_line = 2.4;
 constexpr double wide_bead = 0.72;      ///< bead widths, of the line in the picture of widths
-constexpr double paleness = 0.72;       ///< share of white in what lies below lines
+constexpr double paleness = 0.72;       ///< share of white below lines
 constexpr double most_deviation = 0.5;  ///< of the bead width; beyond it colours stay the same
 
 constexpr Colour paper{255, 255, 255}, ink{46, 48, 56}, faint{176, 178, 186}, border{110, 110, 116};
@@ -36,7 +36,7 @@ Colour between(Colour a, Colour b, double share) {
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
-/// All pictures of one story: the island in its place, and a line of words below.
+/// All pictures of one story: the island, and a caption below.
 class Painter {
  public:
   Painter(const IslandStory& story, const CurveStyle& style) : story_(story), style_(style) {
@@ -131,7 +131,7 @@ class Painter {
                    text_dot, ink);
   }
 
-  /// The colours of widths, with the ratios at the ends and in the middle.
+  /// The scale of widths, with ratios at its ends and in the middle.
   static void draw_scale(Canvas& canvas) {
     constexpr double bar = 120, glyph = text_dot * picture::glyph_width;
     const double left = static_cast<double>(canvas.image().width()) - bar - 4 * glyph - caption_left;

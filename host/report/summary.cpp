@@ -8,8 +8,6 @@
 namespace unicursal::host {
 namespace {
 
-/// What fed_volumes() calls mixtures that no material has.
-
 std::string counted(std::uint64_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }

@@ -1,4 +1,4 @@
-// What a run came to, in plain words for a terminal.
+// The results of a plan, a print or a dry run in a few lines for a terminal.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace unicursal::host {
 
-/// A line on the beads outside of the profile's bead_width_range; empty if there are none.
+/// A line about beads outside the profile's bead_width_range; empty if there are none.
 std::string odd_widths(const Figures& figures);
 
 /// "2 h 05 min", "3 min 20 s", "12.4 s"
@@ -19,7 +19,7 @@ std::string duration_words(double seconds);
 /// Layers, curves, material and times, a line each.
 std::string summary(const RunTotals& totals, const PlanningEffort& planning);
 
-/// What the simulator's feeders and its line counts say about it.
+/// Lines and volumes by the simulator's count.
 std::string summary(const Comparison& comparison);
 
 /// Gaps, heights and mixtures of what was laid.

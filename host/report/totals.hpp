@@ -1,4 +1,4 @@
-// What a run adds up to. mm³, s.
+// Sums over a plan, a print or a dry run. mm³, s.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@ struct RunTotals {
   double print_seconds = 0;        ///< estimated
   double flow = 0;                 ///< mm³/s that is held
   double volume = 0;               ///< extruded by all chunks
-  std::uint64_t lines = 0;         ///< that the firmware gets: without comments
+  std::uint64_t lines = 0;         ///< for the firmware, without comments
   std::size_t hurried_layers = 0;  ///< planned with less effort, so that the nozzle did not have to wait
-  double least_effort = 1;         ///< of the full effort, that one of them took
+  double least_effort = 1;         ///< the smallest fraction of the full effort
   std::vector<MaterialVolume> materials;
-  std::vector<gcode::MixtureVolume> fed;  ///< by the mixture that the feeders were told
-  gcode::LayerMixing mixing;              ///< what the schedule expects of all layers together
+  std::vector<gcode::MixtureVolume> fed;  ///< by mixture, as the feeders were commanded
+  gcode::LayerMixing mixing;              ///< forecast of the schedule for all layers together
 };
 
 }  // namespace unicursal::host

@@ -12,7 +12,7 @@ namespace {
 
 using Shares = std::array<double, gcode::max_feeders>;
 
-/// Mixtures closer than this in every share are one to the printer.
+/// Mixtures closer than this in every share are the same to the printer.
 constexpr double same_mixture = 1e-4;
 
 double difference(const Shares& a, const Shares& b) {
@@ -21,7 +21,7 @@ double difference(const Shares& a, const Shares& b) {
   return greatest;
 }
 
-/// Up to three numbers of a list in a report; what is missing is zero.
+/// Up to three numbers of a list in a report; missing ones are zero.
 Shares numbers(const nlohmann::json& entry, const char* key) {
   Shares result{};
   const auto list = entry.find(key);
@@ -37,7 +37,7 @@ std::int64_t count(const nlohmann::json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<std::int64_t>() : 0;
 }
 
-/// One mixture as the printer tells them apart.
+/// One mixture, as far as the printer can distinguish them.
 struct Row {
   Comparison::Mixture mixture;
   Shares shares{};
@@ -103,7 +103,7 @@ double worst_in_between(const std::vector<Row>& rows) {
   return intended > 0 ? worst / intended : 0;
 }
 
-/// JSON knows no infinity.
+/// JSON cannot hold infinity.
 nlohmann::json finite(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }

@@ -1,4 +1,4 @@
-// How much of each mixture a job wants, and how far the simulator's feeders came to it. mm³, mm.
+// How much of each mixture a job wants, and how much the simulator's feeders fed. mm³, mm.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ namespace unicursal::host {
 struct MaterialVolume {
   std::string name;
   gcode::Mixture asked;
-  gcode::Mixture intended;  ///< after floor share and quantisation: what the feeders should do
+  gcode::Mixture intended;  ///< after floor share and quantisation
   double part = 0;          ///< Σ area × layer height
-  double prime = 0;         ///< laid beside the part before it
+  double prime = 0;         ///< laid beside the part beforehand
 
   double total() const { return part + prime; }
 };
@@ -27,11 +27,11 @@ struct MaterialVolume {
 void add_layer(std::vector<MaterialVolume>& volumes, const gcode::PlacedLayer& layer,
                const std::vector<std::size_t>& zone_materials);
 
-/// Of gradients, and of changes that are hurried on.
+/// The name of mixtures within gradients, and of overshoots.
 inline constexpr const char* mixed_between = "between";
 
-/// What the feeders were told, by mixture: the schedule's volumes, which are the zones' but for the changes.
-/// Those that no material has are called `mixed_between`.
+/// The volumes that the feeders were commanded, by mixture: those of the schedule, which differ from the
+/// zones' where mixtures change. Mixtures that no material has are called `mixed_between`.
 std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>& fed,
                                         const std::vector<MaterialVolume>& materials);
 
@@ -40,15 +40,15 @@ std::array<double, gcode::max_feeders> feeder_volumes(const std::vector<Material
 
 nlohmann::json to_json(const std::vector<MaterialVolume>& volumes);
 
-/// What the simulator needs for the comparison beside its own report.
+/// What the comparison needs besides the simulator's report.
 struct Fed {
   double filament_diameter = 1.75;  ///< mm
   double feeder_steps_per_mm = 400;
   std::uint64_t lines_sent = 0;                                  ///< numbered lines, each once
-  std::array<double, gcode::max_feeders> flow_factors{1, 1, 1};  ///< by how much more a feeder turns
+  std::array<double, gcode::max_feeders> flow_factors{1, 1, 1};  ///< the factors by which feeders turn more
 };
 
-/// Steps per feeder against the intended volume of each mixture, and the fate of every line.
+/// Steps of each feeder compared with the intended volume of each mixture, and what became of every line.
 struct Comparison {
   struct Mixture {
     std::string name;
@@ -59,9 +59,9 @@ struct Comparison {
         feeder_error{};  ///< of each feeder, relative to its intended volume
   };
   std::vector<Mixture> mixtures;
-  /// Greatest magnitude of the mixtures' relative errors, feeders included. Those in between are fed for so
-  /// short a while that single steps of a feeder with a small share would count: they are judged together,
-  /// and each feeder against them all.
+  /// Greatest magnitude of the mixtures' relative errors, feeders included. Mixtures in between are fed so
+  /// briefly that single steps of a feeder would count; they are judged together, and each feeder against all
+  /// of them.
   double worst_error = 0;
   std::int64_t lines_lost = 0;
   std::int64_t lines_twice = 0;
@@ -70,7 +70,7 @@ struct Comparison {
   bool lines_whole() const { return lines_lost == 0 && lines_twice == 0 && in_order; }
 };
 
-/// `simulator` is the report of sim; what it lacks counts as zero.
+/// `simulator`: the report of the simulator; missing numbers count as zero.
 Comparison compare(const std::vector<MaterialVolume>& volumes, const nlohmann::json& simulator,
                    const Fed& fed);
 

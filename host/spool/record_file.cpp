@@ -138,11 +138,4 @@ void RecordWriter::sync() {
   if (::fdatasync(descriptor_) != 0) refuse(errno);
 }
 
-void sync_folder(const std::filesystem::path& folder) noexcept {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 }  // namespace unicursal::host

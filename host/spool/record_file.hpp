@@ -65,7 +65,4 @@ class RecordWriter {
   std::uint64_t length_, before_last_ = 0;
 };
 
-/// Makes a folder's new names survive the computer; best effort.
-void sync_folder(const std::filesystem::path& folder) noexcept;
-
 }  // namespace unicursal::host

@@ -3,15 +3,15 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/files/descriptor.hpp"
+#include "host/files/state_home.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/job/load_job.hpp"
 #include "host/spool/bytes.hpp"
@@ -40,21 +40,16 @@ fs::path chunk_file(const fs::path& folder) {
 class Lock {
  public:
   explicit Lock(const fs::path& folder) : descriptor_(::open(folder.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-    const bool taken = descriptor_ >= 0 && errno == EWOULDBLOCK;
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (taken) {
+    if (descriptor_ && ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0) return;
+    if (descriptor_ && errno == EWOULDBLOCK) {
       throw SpoolError(folder.string(), "", "is being printed by another program",
                        "wait for its end, or stop it first");
     }
     throw SpoolError(folder.string(), "", "cannot be opened", "check that it is there and its permissions");
   }
-  ~Lock() { ::close(descriptor_); }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
 
  private:
-  int descriptor_;
+  Descriptor descriptor_;
 };
 
 /// "2026-11-22-101500-heart": sorts by time, and says what it is.
@@ -113,12 +108,6 @@ json copies_of(const Job& job, const fs::path& folder) {
     files["fields"].push_back(file.empty() ? "" : copies.add(file));
   }
   return files;
-}
-
-void write(const fs::path& file, const json& content) {
-  std::ofstream stream = open_draft(file);
-  stream << content.dump(1) << '\n';
-  publish_draft(stream, file);
 }
 
 json read_order(const fs::path& folder) {
@@ -230,8 +219,8 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
   auto state = std::make_unique<State>(folder, record, 0, 0);
   state->lock = std::move(lock);
   state->journal.begin_leg({});
-  write(order_file(folder), record);  // last: only now it counts as a print
-  sync_folder(folder);
+  // Last: only now it counts as a print.
+  write_whole_file(order_file(folder), record.dump(1) + "\n");
   sync_folder(root);
   remove_old(root);
   return Spool(std::move(state));
@@ -324,10 +313,7 @@ void Spool::append(const SpooledChunk& chunk) {
 }
 
 fs::path default_spool_root() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  if (state && *state == '/') return fs::path(state) / "unicursal" / "prints";
-  const char* home = std::getenv("HOME");
-  if (home && *home == '/') return fs::path(home) / ".local/state/unicursal/prints";
+  if (const auto home = state_home()) return *home / "prints";
   throw SpoolError("", "", "there is no home folder to keep the print in", "name a folder with --spool");
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/engine/prepared_job.hpp"
-#include "host/engine/run.hpp"
+#include "host/report/peak_memory.hpp"
 #include "host/job/load_job.hpp"
 
 namespace {

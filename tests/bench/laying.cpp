@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "core/geometry/region.hpp"
-#include "host/engine/run.hpp"
+#include "host/report/target.hpp"
 #include "host/job/load_job.hpp"
 #include "host/report/motion_findings.hpp"
 #include "sim/bed/deposit.hpp"
@@ -97,7 +97,7 @@ class Judges : public sim::RasterSink {
   void layer(const sim::LayerRaster& raster) override {
     laying_.rastered += volume_of(raster);
     for (const host::PlannedLayer& planned : curves_.layers) {
-      host::TargetLayer target = host::target_of(job_, planned);
+      host::TargetLayer target = host::target_of(job_, planned, host::placed(job_, planned));
       if (std::abs(target.top - raster.frame().z) > target.height / 4) continue;
       laying_.whole += judged(target, raster);
       core::Region all;

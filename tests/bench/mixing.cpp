@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "firmware_gcode/route/route.hpp"
-#include "host/engine/run.hpp"
+#include "host/report/target.hpp"
 #include "host/job/load_job.hpp"
 #include "sim/bed/deposit.hpp"
 #include "sim/firmware/repetier.hpp"
@@ -60,7 +60,7 @@ class Judges : public sim::RasterSink {
 
   void layer(const sim::LayerRaster& raster) override {
     for (const host::PlannedLayer& planned : layers_) {
-      const host::TargetLayer target = host::target_of(job_, planned);
+      const host::TargetLayer target = host::target_of(job_, planned, host::placed(job_, planned));
       if (std::abs(target.top - raster.frame().z) > target.height / 4 || target.zones.empty()) continue;
       std::uint64_t row = 0;
       const auto rows = [&](std::span<sim::RasterPixel> pixels) { raster.read_row(row++, pixels); };

@@ -1,4 +1,4 @@
-// Requests that mean no good, over real sockets, to a real daemon: each gets a 4xx, and nothing is opened.
+// Hostile requests over real sockets to a real daemon: each gets a 4xx, and nothing is opened.
 #include <catch2/catch.hpp>
 
 #include "tests/host/support/daemon_process.hpp"
@@ -8,7 +8,7 @@ using test::DaemonBench;
 using test::RawConnection;
 using test::status_of;
 
-TEST_CASE("hostile requests are refused, and the daemon serves on") {
+TEST_CASE("hostile requests are refused, and the daemon continues to serve") {
   DaemonBench bench;
   bench.serve();
   REQUIRE(bench.status(bench.request("GET", "/api/status")) == 200);
@@ -22,7 +22,7 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
                        "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n") == 401);
   }
-  SECTION("a stranger's body is not waited for") {
+  SECTION("the body of an unknown client is not read") {
     RawConnection stranger(bench.port());
     stranger.send("PUT /api/files/a/b HTTP/1.1\r\n" + host + "Content-Length: 1000000\r\n\r\n");
     CHECK(status_of(stranger.read_until("\r\n\r\n")) == 401);
@@ -37,7 +37,7 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
                                             "application/json", "text/plain");
     CHECK(bench.status(form) == 415);
   }
-  SECTION("for files that are nobody's business") {
+  SECTION("for files outside the folders of jobs") {
     for (const char* target : {"/../../etc/passwd", "/api/files/../../secret.toml", "/api/%2e%2e/x"})
       CHECK(bench.status(bench.request("GET", target)) == 400);
     CHECK(bench.status(bench.request("PUT", "/api/files/a/..", "x")) == 400);
@@ -57,7 +57,7 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
     CHECK(bench.status("GET / HTTP/1.1\r\nX: " + std::string(100000, 'a') + "\r\n\r\n") == 431);
     CHECK(bench.status(std::string(1000000, 'a')) == 431);
   }
-  SECTION("that are none") {
+  SECTION("that are not HTTP") {
     CHECK(bench.status("\r\n\r\n") == 400);
     CHECK(bench.status(std::string("\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", 11)) == 400);
     CHECK(bench.status("GET / HTTP/3.0\r\n\r\n") == 505);
@@ -85,7 +85,7 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
     half.finish_sending();
     CHECK(status_of(half.read_all()) == 400);
   }
-  SECTION("listeners that leave, or say what they must not, are let go") {
+  SECTION("followers that leave or break the protocol are disconnected") {
     const std::string upgrade =
         test::replaced(bench.request("GET", "/api/events"), "Connection: close",
                        "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
@@ -110,7 +110,7 @@ TEST_CASE("hostile requests are refused, and the daemon serves on") {
   CHECK(bench.ask("GET", "/api/jobs")["jobs"].empty());
 }
 
-TEST_CASE("bodies and heads that never end are given up, others are served meanwhile", "[long]") {
+TEST_CASE("endless bodies and heads are given up, and others are served meanwhile", "[long]") {
   DaemonBench bench;
   bench.serve();
   RawConnection head(bench.port()), body(bench.port());
@@ -122,7 +122,7 @@ TEST_CASE("bodies and heads that never end are given up, others are served meanw
   CHECK(status_of(body.read_all()) == 408);
 }
 
-TEST_CASE("without a token others than this computer are not listened to") {
+TEST_CASE("without a token only this computer is served") {
   DaemonBench bench;
   const auto outcome = bench.command({"serve", "--listen", "0.0.0.0:0", "--no-token"});
   CHECK(outcome.code == 2);

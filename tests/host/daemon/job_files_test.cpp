@@ -1,4 +1,4 @@
-// Names from outside become files only where they may, and the queue outlives its daemon.
+// Names from clients lead to allowed files only, and the queue outlives its daemon.
 #include "host/daemon/job_files.hpp"
 
 #include <sys/stat.h>
@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "host/daemon/queue.hpp"
+#include "host/daemon/refused.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
@@ -13,6 +14,7 @@
 using namespace unicursal;
 using namespace unicursal::host;
 namespace fs = std::filesystem;
+using Why = Refused::Why;
 
 namespace {
 
@@ -30,37 +32,37 @@ class Folders {
   test::TempFolder folder;
 };
 
-int found(const JobFiles& files, const std::string& name) {
+std::optional<Why> refusal(const JobFiles& files, const std::string& name) {
   try {
     files.find(name);
-  } catch (const HttpError& error) {
-    return error.status();
+  } catch (const Refused& error) {
+    return error.why();
   }
-  return 200;
+  return std::nullopt;
 }
 
 }  // namespace
 
-TEST_CASE("jobs are found by their names in the folders, and nothing else is") {
+TEST_CASE("jobs in the folders are found by their names, and other files are not") {
   const Folders folders;
   fs::create_symlink(folders.folder / "secret.toml", folders.folder / "jobs/link.toml");
   fs::create_directory_symlink(folders.folder.path(), folders.folder / "jobs/up");
   const JobFiles files = folders.files();
   CHECK(files.find("leaf.toml") == fs::canonical(folders.folder / "jobs/leaf.toml"));
-  CHECK(found(files, "animals/fish.toml") == 200);
-  CHECK(found(files, "notes.txt") == 400);
-  CHECK(found(files, "missing.toml") == 404);
-  CHECK(found(files, "../secret.toml") == 400);
-  CHECK(found(files, "animals/../../secret.toml") == 400);
-  CHECK(found(files, (folders.folder / "secret.toml").string()) == 400);
-  CHECK(found(files, "link.toml") == 404);
-  CHECK(found(files, "up/secret.toml") == 404);
-  CHECK(found(files, std::string("leaf.toml\0.toml", 15)) == 400);
-  CHECK(found(files, "") == 400);
+  CHECK(refusal(files, "animals/fish.toml") == std::nullopt);
+  CHECK(refusal(files, "notes.txt") == Why::bad_name);
+  CHECK(refusal(files, "missing.toml") == Why::not_found);
+  CHECK(refusal(files, "../secret.toml") == Why::bad_name);
+  CHECK(refusal(files, "animals/../../secret.toml") == Why::bad_name);
+  CHECK(refusal(files, (folders.folder / "secret.toml").string()) == Why::bad_name);
+  CHECK(refusal(files, "link.toml") == Why::not_found);
+  CHECK(refusal(files, "up/secret.toml") == Why::not_found);
+  CHECK(refusal(files, std::string("leaf.toml\0.toml", 15)) == Why::bad_name);
+  CHECK(refusal(files, "") == Why::bad_name);
   CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml", "link.toml"});
 }
 
-TEST_CASE("an upload holds files beside one another, and its job names no others") {
+TEST_CASE("an upload is one folder of files, and its job can name no others") {
   const Folders folders;
   const JobFiles files = folders.files();
   files.keep("leaf", "job.toml", test::sample_job);
@@ -69,22 +71,22 @@ TEST_CASE("an upload holds files beside one another, and its job names no others
   CHECK(files.list().back() == "upload:leaf/job.toml");
   for (const char* name : {"upload:leaf", "upload:../job.toml", "upload:leaf/../../secret.toml",
                            "upload:/leaf/job.toml", "upload:.leaf/job.toml", "upload:leaf/job.txt"})
-    CHECK(found(files, name) == 400);
+    CHECK(refusal(files, name) == Why::bad_name);
   for (const char* name : {"", ".", "..", "a/b", "-x", "a b", "ä"}) {
-    CHECK_THROWS_AS(files.keep(name, "job.toml", ""), HttpError);
-    CHECK_THROWS_AS(files.keep("leaf", name, ""), HttpError);
-    CHECK_THROWS_AS(files.remove(name), HttpError);
+    CHECK_THROWS_AS(files.keep(name, "job.toml", ""), Refused);
+    CHECK_THROWS_AS(files.keep("leaf", name, ""), Refused);
+    CHECK_THROWS_AS(files.remove(name), Refused);
   }
   files.keep("bad", "a.toml", test::replaced(test::sample_job, "plate.svg", "../../secret.toml"));
   files.keep("bad", "b.toml", test::replaced(test::sample_job, "\"bench.toml\"", "\"/etc/hostname\""));
   files.keep("bad", "c.toml", "this is no TOML");
   for (const char* name : {"upload:bad/a.toml", "upload:bad/b.toml", "upload:bad/c.toml"})
-    CHECK(found(files, name) == 422);
+    CHECK(refusal(files, name) == Why::bad_job);
   files.remove("leaf");
-  CHECK(found(files, "upload:leaf/job.toml") == 404);
+  CHECK(refusal(files, "upload:leaf/job.toml") == Why::not_found);
 }
 
-TEST_CASE("the queue is found again, and what was being printed is told to be broken off") {
+TEST_CASE("the queue is found again, and the job that was being printed is interrupted") {
   const test::TempFolder folder;
   const fs::path file = folder / "queue.json";
   Queue queue(file);
@@ -92,18 +94,18 @@ TEST_CASE("the queue is found again, and what was being printed is told to be br
   const auto second = queue.add("b.toml", {}), third = queue.add("c.toml", {});
   queue.enter(first, QueuedJob::State::printing);
   queue.remove(third);
-  replace_file(file, queue.text());
+  write_state(file, queue.text());
   Queue again(file);
   REQUIRE(again.jobs().size() == 2);
   CHECK(again.find(first)->state == QueuedJob::State::interrupted);
   CHECK(again.find(first)->layers->last == 3);
   CHECK(again.next()->id == second);
-  CHECK(again.add("d.toml", {}) == third + 1);  // numbers are never given twice
+  CHECK(again.add("d.toml", {}) == third + 1);  // numbers are never used twice
   folder.write("queue.json", "{\"jobs\": 7}");
   CHECK_THROWS_AS(Queue(file), DaemonError);
 }
 
-TEST_CASE("of jobs that have ended the last ones are kept") {
+TEST_CASE("the last jobs that have ended are kept") {
   const test::TempFolder folder;
   Queue queue(folder / "queue.json");
   const auto waiting = queue.add("waits.toml", {});

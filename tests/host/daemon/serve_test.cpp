@@ -1,4 +1,4 @@
-// The daemon with a simulated printer, its clients and its ends: real processes, real sockets.
+// The daemon with a simulated printer and clients, and the ways in which it ends: real processes and sockets.
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -32,7 +32,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// Where it comes last.
+/// The place of the last occurrence.
 std::size_t last(const std::string& text, const std::string& part) {
   INFO(part);
   REQUIRE(text.find(part) != std::string::npos);
@@ -49,7 +49,7 @@ RawConnection& listen_to_events(RawConnection& connection, const DaemonBench& be
 
 }  // namespace
 
-TEST_CASE("two jobs are printed one after the other, each when it is told to") {
+TEST_CASE("two jobs are printed one after the other, each when it is started") {
   DaemonBench bench;
   bench.start_printer("0");
   bench.serve();
@@ -68,7 +68,7 @@ TEST_CASE("two jobs are printed one after the other, each when it is told to") {
   CHECK(status.out.find("idle; 0 waiting") == 0);
 }
 
-TEST_CASE("a print is held and steered by the daemon's commands") {
+TEST_CASE("a print is paused and steered by the daemon's commands") {
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
@@ -97,7 +97,7 @@ TEST_CASE("a print is held and steered by the daemon's commands") {
   CHECK(last(lines, "M140 S0") > last(lines, "M140 S57"));
 }
 
-TEST_CASE("clients come and go, and the print does not care") {
+TEST_CASE("clients come and go without disturbing the print") {
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
@@ -128,7 +128,7 @@ TEST_CASE("a daemon that is killed finds its queue again") {
   bench.await_print("printing");
   kill(bench.daemon().id(), SIGKILL);
   bench.daemon().wait();
-  CHECK(bench.command({"status"}).code == 2);  // the address it has left behind answers no more
+  CHECK(bench.command({"status"}).code == 2);  // nobody answers at the address that it left behind
   bench.serve();
   CHECK(job(bench, first)["state"] == "interrupted");
   CHECK(job(bench, first)["reason"].get<std::string>().find("unicursal resume") != std::string::npos);
@@ -136,7 +136,7 @@ TEST_CASE("a daemon that is killed finds its queue again") {
   CHECK(add(bench) == second + 1);
 }
 
-TEST_CASE("what a killed daemon has printed can be gone on with") {
+TEST_CASE("the print of a killed daemon can be continued") {
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
@@ -149,8 +149,9 @@ TEST_CASE("what a killed daemon has printed can be gone on with") {
   INFO(resumed.err);
   CHECK(resumed.code == 0);
   const std::string lines = bench.transcript();
-  CHECK(lines.find("M85 S1800") < lines.find("M104 S2"));  // with nobody to go on, the firmware cools it
-  CHECK(count(lines, "G28\n") == 1);                       // it had not lost its place
+  CHECK(lines.find("M85 S1800") <
+        lines.find("M104 S2"));       // the firmware cools the printer if nobody continues
+  CHECK(count(lines, "G28\n") == 1);  // the printer had not lost its place
   CHECK(last(lines, "M104 S0") > last(lines, "G1 "));
 }
 
@@ -175,7 +176,7 @@ TEST_CASE("two daemons, and a print beside them, do not share a port") {
   CHECK(bench.print_state() == "printing");
 }
 
-TEST_CASE("a job that a full disk cannot keep is not taken, and nothing else is lost") {
+TEST_CASE("a job that does not fit on the disk is refused, and nothing else is lost") {
   DaemonBench bench;
   bench.serve();
   const int first = add(bench);
@@ -187,8 +188,8 @@ TEST_CASE("a job that a full disk cannot keep is not taken, and nothing else is 
   CHECK(bench.status(bench.request("PUT", "/api/files/a/b.svg", std::string(5000, ' '))) == 507);
   CHECK(bench.ask("GET", "/api/jobs")["jobs"].size() == 1);
   CHECK(test::read_text(bench.path("state/queue.json")) == kept);
-  CHECK_FALSE(std::filesystem::exists(bench.path("state/queue.json.new")));
-  CHECK_FALSE(std::filesystem::exists(bench.path("state/files/a/b.svg.new")));
+  CHECK_FALSE(std::filesystem::exists(bench.path("state/queue.json.part")));
+  CHECK_FALSE(std::filesystem::exists(bench.path("state/files/a/b.svg.part")));
   REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &room, nullptr) == 0);
   CHECK(add(bench) > first);
 }
@@ -221,7 +222,7 @@ TEST_CASE("SIGTERM parks and cools the print before the daemon ends") {
   CHECK(last(lines, "M140 S0") > last(lines, "G1 "));
   bench.serve();
   CHECK(job(bench, id)["state"] == "stopped");
-  CHECK(job(bench, id)["reason"].get<std::string>().find("the daemon was told to end") == 0);
+  CHECK(job(bench, id)["reason"].get<std::string>().find("the daemon was asked to end") == 0);
 }
 
 TEST_CASE("stop is M112, and the job has failed") {
@@ -237,7 +238,7 @@ TEST_CASE("stop is M112, and the job has failed") {
   CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
 }
 
-TEST_CASE("a job that cannot be printed says why, and the next can") {
+TEST_CASE("a job that cannot be printed has a reason, and the next one is printed") {
   DaemonBench bench;
   bench.start_printer("0");
   bench.serve();
@@ -253,7 +254,7 @@ TEST_CASE("a job that cannot be printed says why, and the next can") {
   bench.await_job(sound, "done");
 }
 
-TEST_CASE("what was queued is what is printed, though another job of its name is sent after it") {
+TEST_CASE("a queued job is printed as it was, although another job of its name is uploaded later") {
   DaemonBench bench;
   bench.start_printer("0");
   bench.serve();
@@ -271,7 +272,7 @@ TEST_CASE("what was queued is what is printed, though another job of its name is
   CHECK(bench.status(bench.request("PUT", "/api/files/own/own.toml", "x")) == 201);
 }
 
-TEST_CASE("a user's own job is sent along with its files") {
+TEST_CASE("a user's own job is uploaded with its files") {
   DaemonBench bench;
   bench.start_printer("0");
   bench.serve();
@@ -288,7 +289,7 @@ TEST_CASE("a user's own job is sent along with its files") {
   CHECK(bench.command({"queue", "--upload", bench.path("far.toml")}).code == 2);
 }
 
-TEST_CASE("systemd hears that it is ready, alive, and stopping") {
+TEST_CASE("systemd gets messages: ready, alive, stopping") {
   DaemonBench bench;
   const std::string path = bench.path("notify");
   sockaddr_un address{};

@@ -1,5 +1,5 @@
-// Whole dry runs: the same job in every dialect, and what the program says beforehand against what the
-// simulated printer then does.
+// Whole dry runs: the same job in every dialect, and the estimates of the program compared with what the
+// simulated printer does.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -54,7 +54,7 @@ TEST_CASE("The same job in both dialects leaves the same deposit, up to the shar
   }
 }
 
-TEST_CASE("The time is known beforehand within 2 %, however the job is printed") {
+TEST_CASE("The printing time is estimated within 2 % for every kind of job") {
   const auto [job, profile] = GENERATE(table<std::string, std::string>({
       {test::sample_job, marlin},
       {test::sample_job, repetier},
@@ -75,7 +75,7 @@ TEST_CASE("The time is known beforehand within 2 %, however the job is printed")
   CHECK(report["estimated_print_seconds"].get<double>() > told);
 }
 
-TEST_CASE("Feeders that slip are fed by their factors, and the report tells what arrives") {
+TEST_CASE("Feeders that slip are corrected by their factors, and the report shows what arrives") {
   const json report = dry_run(test::sample_job, replaced(marlin, "max_flow = 5.0",
                                                          "max_flow = 5.0\nflow_factors = [1.1, 1, 0.95]\n"
                                                          "steps_per_mm = 420"));

@@ -1,4 +1,4 @@
-// A print on a printer that it was not made for: real processes, of every command that prints.
+// Prints on a printer that they were not made for, with every command that prints, as real processes.
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <map>
@@ -44,7 +44,7 @@ class Bench {
   std::vector<std::string> print_on(const std::string& port) const {
     return {"print", path("job.toml"), "--port", port, "--spool", path("spool")};
   }
-  /// What the printer was asked to do beside telling who it is; it is switched off for that.
+  /// The commands that the printer got besides M115; ends the printer.
   std::vector<std::string> orders(const std::string& link = "port") {
     kill(printers_[link]->id(), SIGTERM);
     printers_[link]->wait();
@@ -64,7 +64,7 @@ class Bench {
   std::map<std::string, std::unique_ptr<Child>> printers_;
 };
 
-/// A printer that says `answer`, then ok, to what begins with `command`.
+/// A printer that answers lines that begin with `command` by `answer`, then ok.
 test::FakeBehaviour answering(const std::string& command, const std::string& answer) {
   test::FakeBehaviour behaviour;
   behaviour.instead = [=](FakePrinter& printer, std::size_t, const std::string& line) {
@@ -76,7 +76,7 @@ test::FakeBehaviour answering(const std::string& command, const std::string& ans
   return behaviour;
 }
 
-/// A printer that calls its firmware so.
+/// A printer whose firmware has this name.
 test::FakeBehaviour called(const std::string& firmware) {
   test::FakeBehaviour behaviour;
   behaviour.outwards = [=](const std::string& line) {
@@ -87,7 +87,7 @@ test::FakeBehaviour called(const std::string& firmware) {
 
 }  // namespace
 
-TEST_CASE("a print for the other firmware is refused before anything moves, and told how to mend it") {
+TEST_CASE("a print for the other firmware is refused before anything moves, with the remedy") {
   const auto [mine, other] =
       GENERATE(table<std::string, std::string>({{"marlin", "repetier"}, {"repetier", "marlin"}}));
   Bench bench(profile_for(mine));
@@ -122,7 +122,7 @@ TEST_CASE("a tuning strip and a daemon's job are refused like a print") {
   CHECK_FALSE(says(daemon.transcript(), "M104"));
 }
 
-TEST_CASE("a broken-off print is not resumed on a printer of the other firmware, and is kept") {
+TEST_CASE("an interrupted print is not resumed on a printer with the other firmware, and is kept") {
   Bench bench;
   bench.start_printer("marlin");
   bench.start_printer("repetier", "other");
@@ -140,7 +140,7 @@ TEST_CASE("a broken-off print is not resumed on a printer of the other firmware,
   INFO(outcome.err);
   CHECK(outcome.code == 2);
   CHECK(says(outcome.err, "its firmware is Repetier"));
-  CHECK_FALSE(says(outcome.err, "set firmware"));  // what is kept of the print stays in its dialect
+  CHECK_FALSE(says(outcome.err, "set firmware"));  // the kept print stays in its dialect
   CHECK(bench.orders("other").empty());
   CHECK(resume_on("port").code == 0);
 }
@@ -170,7 +170,7 @@ TEST_CASE("a printer whose feeders do not mix is refused, also when it says so b
   CHECK(printer.executed() == std::vector<std::string>{"M163 S99 P1"});
 }
 
-TEST_CASE("a printer that nobody knows is printed on, with a warning") {
+TEST_CASE("an unknown printer is used, with a warning") {
   FakePrinter printer(called("Klipper v0.12.0"));
   const Bench bench;
   const Outcome outcome = test::run(bench.print_on(printer.path()));
@@ -179,7 +179,7 @@ TEST_CASE("a printer that nobody knows is printed on, with a warning") {
   CHECK(says(outcome.err, "never met this printer's firmware (Klipper v0.12.0)"));
 }
 
-TEST_CASE("doctor holds a profile's firmware against the printer's") {
+TEST_CASE("doctor compares a profile's firmware with the printer's") {
   FakePrinter printer(called("Repetier_1.0.4 PROTOCOL_VERSION:1.0"));
   const Bench bench;
   const Outcome outcome =
@@ -188,7 +188,7 @@ TEST_CASE("doctor holds a profile's firmware against the printer's") {
   CHECK(says(outcome.out, "set firmware = \"repetier\""));
 }
 
-TEST_CASE("firmwares that only call themselves after another are of its family; their own word counts") {
+TEST_CASE("a firmware that is named after another belongs to its family, unless it says otherwise") {
   const auto spoken = [](const char* line) { return dialect_of(gcode::identify(line).family); };
   CHECK(spoken("FIRMWARE_NAME:Prusa-Firmware 3.13.3 based on Marlin") == "marlin");
   CHECK(spoken("FIRMWARE_NAME:Repetier_0.92.9 FIRMWARE_URL:https://github.com/repetier/") == "repetier");

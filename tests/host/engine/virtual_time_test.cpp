@@ -35,7 +35,7 @@ class Runs {
     all.insert(all.end(), more.begin(), more.end());
     return test::run(all);
   }
-  /// Of this computer, for the whole job: builds differ by tens.
+  /// Planning time of this computer for the whole job; builds differ by factors of ten.
   double planning_seconds() const {
     const Outcome plan = test::run({"plan", (folder_ / "job.toml").string(), "-o",
                                     (folder_ / "job.gcode").string(), "--report", report().string()});
@@ -80,10 +80,10 @@ TEST_CASE("Another seed gives other faults, and every line is still executed onc
   CHECK(faults[0] != faults[1]);
 }
 
-TEST_CASE("Planning that is charged for makes the print wait in printer time") {
+TEST_CASE("Charged planning makes the print wait in printer time") {
   Runs runs;
   runs.write_profile(std::string(test::sample_profile) +
-                     barely_warm);  // or it would be done while that heats
+                     barely_warm);  // or planning would be done while the printer heats
   REQUIRE(runs.run({}).code == 0);
   const json free = runs.seen();
   REQUIRE(runs.run({"--charge-planning", fmt::format("{}", 600 / runs.planning_seconds())}).code == 0);
@@ -97,7 +97,7 @@ TEST_CASE("Planning that is charged for makes the print wait in printer time") {
   CHECK(longer < waited + 5);
 }
 
-TEST_CASE("A printer that falls silent is given up after the patience of a real print, in printer time") {
+TEST_CASE("A silent printer is given up after the timeout of a real print, in printer time") {
   Runs runs;
   const Outcome outcome = runs.run({"--fault", "silence@line=200"});
   CHECK(outcome.code == 1);
@@ -126,7 +126,7 @@ TEST_CASE(
 TEST_CASE("A simulator that fails at its very end leaves a report that says so") {
   Runs runs;
   const std::filesystem::path pictures = runs.folder() / "pictures";
-  // A folder in the place of its last picture; again, should the picture have been there first.
+  // A folder takes the place of its last picture; repeated in case the picture was there first.
   for (bool blocked = false; !blocked;) {
     std::filesystem::remove_all(pictures);
     test::Child child({"dry-run", (runs.folder() / "job.toml").string(), "--report", runs.report().string(),
@@ -146,7 +146,7 @@ TEST_CASE("A simulator that fails at its very end leaves a report that says so")
   }
 }
 
-TEST_CASE("Every personality that the host can print to prints a job whole") {
+TEST_CASE("Every personality that the host supports prints a whole job") {
   Runs runs;
   const std::string who = GENERATE("marlin", "marlin-8bit", "marlin-advanced-ok");
   const Outcome outcome = runs.run({"--personality", who});
@@ -156,7 +156,7 @@ TEST_CASE("Every personality that the host can print to prints a job whole") {
   CHECK(runs.seen()["simulator"]["lines"]["bytes_while_booting"] == 0);
 }
 
-TEST_CASE("Faults, personalities and chips that do not exist are refused with what there is") {
+TEST_CASE("Unknown faults, personalities and chips are refused with a list of the known ones") {
   Runs runs;
   const auto [option, value, answer] = GENERATE(table<std::string, std::string, std::string>({
       {"--fault", "gremlin:0.1", "bitflip"},

@@ -1,4 +1,4 @@
-// Requests as they are read, frames as they are made, and who is let in.
+// Reading of requests, frames of WebSockets, and access.
 #include "host/http/http_message.hpp"
 
 #include <catch2/catch.hpp>
@@ -53,7 +53,7 @@ TEST_CASE("a request's head is read") {
   CHECK_FALSE(head.lists("connection", "up"));
 }
 
-TEST_CASE("what two readers could understand differently is refused") {
+TEST_CASE("ambiguous requests are refused") {
   CHECK(refused("GET / HTTP/1.1\r\nContent-Length: 3\r\nContent-Length: 4") == 400);
   CHECK(refused("GET / HTTP/1.1\r\nHost: a\r\nHost: b") == 400);
   CHECK(refused("POST / HTTP/1.1\r\nTransfer-Encoding: chunked") == 411);
@@ -71,7 +71,7 @@ TEST_CASE("what two readers could understand differently is refused") {
   CHECK(refused(many) == 431);
 }
 
-TEST_CASE("no path leads upwards, however it is written") {
+TEST_CASE("no spelling of a path leads upwards") {
   for (const char* path :
        {"/..", "/api/../x", "/api/jobs/..", "//x", "/a//b", "/./a", "/%2e%2e/x", "/a\\..\\b"})
     CHECK(refused("GET " + std::string(path) + " HTTP/1.1") == 400);
@@ -79,7 +79,7 @@ TEST_CASE("no path leads upwards, however it is written") {
   CHECK(refused("GET /a..b HTTP/1.1") == 200);
 }
 
-TEST_CASE("only who knows the token and comes by a name of this computer is let in") {
+TEST_CASE("only clients with the token and a name of this computer are let in") {
   const std::string token(64, 'a'), metrics(64, 'b');
   const AccessRules rules{token, metrics, hosts_for("127.0.0.1", 8377, {"Printer.local"})};
   const std::string bearer = "\r\nAuthorization: Bearer ";
@@ -118,7 +118,7 @@ TEST_CASE("the handshake's answer is that of RFC 6455") {
   CHECK_FALSE(is_websocket_key("dGhlIHNhbXBsZSBub25j\r\n=="));
 }
 
-TEST_CASE("frames are as long as they say") {
+TEST_CASE("frames have the length that they announce") {
   for (const std::size_t size : {0u, 1u, 125u, 126u, 65535u, 65536u}) {
     const std::string bytes = encode({Frame::Kind::text, std::string(size, 'x')});
     const std::size_t head = size < 126 ? 2 : size < 65536 ? 4 : 10;
@@ -129,7 +129,7 @@ TEST_CASE("frames are as long as they say") {
   CHECK(close_frame(1001) == std::string("\x88\x02\x03\xe9", 4));
 }
 
-TEST_CASE("a client's frames are read, however they are cut") {
+TEST_CASE("a client's frames are read in pieces of any size") {
   const std::string bytes = masked(0x89, "ping") + masked(0x88, "");
   FrameReader reader;
   std::vector<Frame> frames;
@@ -156,8 +156,8 @@ TEST_CASE("a client's frames that break the protocol are refused") {
   };
   CHECK(code(std::string("\x81\x01", 2) + "a") == 1002);  // not masked
   CHECK(code(masked(0x09, "")) == 1002);                  // a control frame in pieces
-  CHECK(code(masked(0x83, "")) == 1002);                  // a kind that is none
-  CHECK(code(masked(0xc1, "")) == 1002);                  // an extension that nobody asked for
-  CHECK(code(std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10)) == 1009);  // as long as it gets
+  CHECK(code(masked(0x83, "")) == 1002);                  // an unknown kind
+  CHECK(code(masked(0xc1, "")) == 1002);                  // an extension that was not negotiated
+  CHECK(code(std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10)) == 1009);  // the greatest length
   CHECK(code(std::string("\x82\xfe\xff\xff", 4)) == 1009);
 }

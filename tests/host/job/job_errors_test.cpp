@@ -24,7 +24,7 @@ std::string complaint(const std::string& job, const std::string& profile) {
   return "";
 }
 
-/// One thing spoilt, and what the sentence about it must contain.
+/// One mistake, and what the sentence about it must contain.
 struct Case {
   const char* from;
   const char* to;
@@ -69,7 +69,7 @@ const std::vector<Case> spoilt_jobs = {
     {"layer_height = 0.2",
      "layer_heigth = 0.2",
      {"line 6", "part.layer_heigth", "did you mean \"layer_height\"?"}},
-    {"[part]", "colour = 3\n[part]", {"line 3", "colour", "no key", "did you mean"}},
+    {"[part]", "colour = 3\n[part]", {"line 3", "colour", "not a known key", "did you mean"}},
     {"bead_width = 1.0",
      "bead_width = 1.3",
      {"line 7", "part.bead_width", "1.3 mm", "0.4 to 1.2", "profile"}},
@@ -154,11 +154,11 @@ const std::vector<Case> spoilt_profiles = {
 
 }  // namespace
 
-TEST_CASE("The sample job is sound") {
+TEST_CASE("The sample job has no mistake") {
   CHECK(complaint(sample_job, sample_profile) == "");
 }
 
-TEST_CASE("A mistake in a job is told with file, line, key and remedy") {
+TEST_CASE("A mistake in a job is reported with file, line, key and remedy") {
   for (const Case& spoilt : spoilt_jobs) {
     const std::string sentence = complaint(replaced(sample_job, spoilt.from, spoilt.to), sample_profile);
     CHECK(sentence.find("job.toml") != std::string::npos);
@@ -166,7 +166,7 @@ TEST_CASE("A mistake in a job is told with file, line, key and remedy") {
   }
 }
 
-TEST_CASE("A mistake in a profile is told with file, line, key and remedy") {
+TEST_CASE("A mistake in a profile is reported with file, line, key and remedy") {
   for (const Case& spoilt : spoilt_profiles) {
     const std::string sentence = complaint(sample_job, replaced(sample_profile, spoilt.from, spoilt.to));
     CHECK(sentence.find("bench.toml") != std::string::npos);
@@ -174,7 +174,7 @@ TEST_CASE("A mistake in a profile is told with file, line, key and remedy") {
   }
 }
 
-TEST_CASE("A job uses at most two hundred mixtures, of which equal ones count once") {
+TEST_CASE("A job uses at most two hundred different mixtures") {
   const auto job_of = [](int mixtures, bool equal) {
     std::string zones, palette;
     for (int i = 0; i < mixtures; ++i) {
@@ -193,7 +193,7 @@ TEST_CASE("A job uses at most two hundred mixtures, of which equal ones count on
   CHECK(sentence.find("at most 200") != std::string::npos);
 }
 
-TEST_CASE("A job that is not there, is a folder or is huge is refused") {
+TEST_CASE("A missing job, a folder and a huge file are refused") {
   const test::TempFolder folder;
   CHECK_THROWS_AS(load_job(folder / "none.toml"), core::FileError);
   CHECK_THROWS_WITH(load_job(folder.path()), Catch::Contains("is a folder"));

@@ -24,7 +24,7 @@ Job load(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("What a job says arrives in its fields") {
+TEST_CASE("The keys of a job arrive in its fields") {
   const Job job = load(sample_job);
   CHECK(job.source.height == 0.4);
   CHECK(job.source.layer_height == 0.2);
@@ -47,7 +47,7 @@ TEST_CASE("What a job says arrives in its fields") {
   CHECK(job.warnings.empty());
 }
 
-TEST_CASE("Placement, deposit and seed distance take their other forms") {
+TEST_CASE("The other forms of placement, deposit and seed distance are read") {
   CHECK(load(replaced(sample_job, "flow = 3.0", "place = \"as-is\"")).place.kind == Placement::Kind::as_is);
   const Job at = load(replaced(sample_job, "flow = 3.0", "place = [30, 40.5]"));
   CHECK(at.place.kind == Placement::Kind::at);
@@ -100,20 +100,20 @@ TEST_CASE("A gradient is a material of its own, and so is a mixture that takes u
   CHECK_FALSE(same.print.materials[1].transition);
 }
 
-TEST_CASE("Perimeters are none unless asked for") {
+TEST_CASE("There are no perimeters by default") {
   CHECK(load(sample_job).perimeters == 0);
   const Job job = load(replaced(sample_job, "flow = 3.0", "perimeters = 2"));
   CHECK(job.perimeters == 2);
   CHECK(job.warnings.empty());
 }
 
-TEST_CASE("Zones of equal mixture share a material, whatever its name and scale") {
+TEST_CASE("Zones of equal mixture share a material, also if its name and scale differ") {
   const Job job = load(replaced(sample_job, "sun = [0.0, 1.0, 1.0]", "sun = [3, 0, 1]"));
   REQUIRE(job.print.materials.size() == 1);
   CHECK(job.source.zones[0].material == job.source.zones[1].material);
 }
 
-TEST_CASE("A profile that is given wins over the job's, even over a missing one") {
+TEST_CASE("A given profile wins over the job's, even if that is missing") {
   const test::TempFolder folder;
   const auto other = folder.write("other.toml", replaced(sample_profile, "Test bench", "Other"));
   const auto job = folder.write("job.toml", sample_job);

@@ -1,4 +1,4 @@
-// The keys that say how a part is printed and nothing of its shape, and the profile's newer ones.
+// The keys of a job that do not concern the part's shape, and the profile's newer keys.
 #include <catch2/catch.hpp>
 
 #include "host/engine/prepared_job.hpp"
@@ -20,7 +20,7 @@ Job load(const std::string& job, const std::string& profile = sample_profile) {
   return load_job(folder.write("job.toml", job));
 }
 
-/// `text` takes the place of the flow.
+/// The sample job with `text` in place of its flow.
 Job with(const std::string& text) {
   return load(replaced(sample_job, "flow = 3.0", text));
 }
@@ -65,7 +65,7 @@ TEST_CASE("Speed, first layer, skirt, fan and temperatures arrive in their field
   CHECK_FALSE(warm.print.temperatures[1].bed);
 }
 
-TEST_CASE("What they may not be is told with the line and the remedy") {
+TEST_CASE("Wrong values are reported with the line and the remedy") {
   const auto [text, words] = GENERATE(table<std::string, std::vector<std::string>>({
       {"flow = 3.0\nspeed = 20", {"part.speed", "flow", "leave out"}},
       {"speed = 0", {"part.speed", "0.1"}},
@@ -77,8 +77,8 @@ TEST_CASE("What they may not be is told with the line and the remedy") {
       {"skirt = { loop = 2 }", {"part.skirt.loop", "did you mean \"loops\"?"}},
       {"fan = 120", {"part.fan", "100 %"}},
       {"fan = { from = 2 }", {"part.fan.percent", "missing"}},
-      {"temperatures = 210", {"part.temperatures", "no list"}},
-      {"temperatures = [210]", {"part.temperatures", "no table"}},
+      {"temperatures = 210", {"part.temperatures", "not a list"}},
+      {"temperatures = [210]", {"part.temperatures", "not a table"}},
       {"temperatures = [{ layer = 1 }]", {"part.temperatures[0].layer", "neither"}},
       {"temperatures = [{ layer = 1, nozzle = 90 }]", {"part.temperatures[0].nozzle", "150"}},
       {"temperatures = [{ layer = 2, bed = 50 }, { layer = 2, bed = 60 }]", {"temperatures[1]", "sort"}},
@@ -88,7 +88,7 @@ TEST_CASE("What they may not be is told with the line and the remedy") {
   for (const std::string& word : words) CHECK(said.find(word) != std::string::npos);
 }
 
-TEST_CASE("A profile tells the firmware's corners, the extruder's motion and its calibration") {
+TEST_CASE("A profile holds the firmware's limits in corners, the extruder's motion and its calibration") {
   const Job job = with_printer("jerk = [8, 9, 0.4]\njunction_deviation = 0.013\nacceleration = 1200",
                                "max_speed = 40\nmax_acceleration = 5000\njerk = 4\nz_hop = 0.3\n"
                                "steps_per_mm = 415\nflow_factors = [1, 1.02, 0.99]");
@@ -107,7 +107,7 @@ TEST_CASE("A profile tells the firmware's corners, the extruder's motion and its
         std::string::npos);
 }
 
-TEST_CASE("A word in braces that stands for nothing is told with the nearest that does") {
+TEST_CASE("An unknown placeholder is reported with the nearest known one") {
   const auto load_script = [](const std::string& line) {
     return complaint(
         [&] { load(sample_job, std::string(sample_profile) + "[gcode]\nstart = \"" + line + "\"\n"); });

@@ -17,9 +17,9 @@ std::string edited(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("The two numbers are exchanged and all else stays, whatever way they are written in") {
+TEST_CASE("The two numbers are replaced and everything else stays, in every way of writing them") {
   const std::pair<const char*, const char*> cases[] = {
-      // Comments keep their columns where there is room.
+      // Comments keep their columns if there is room.
       {"# µm and ü\n[transition]\ndead_volume = 2.1      # mm³\nmixing_volume=4.0# x\n",
        "# µm and ü\n[transition]\ndead_volume = 3.46     # mm³\nmixing_volume=12.00 # x\n"},
       {"[printer]\nname = \"ü\" # µ\n\n[transition] # first\n\tmixing_volume = 4\n\n\tdead_volume = "
@@ -67,7 +67,7 @@ TEST_CASE("What cannot be edited safely is refused") {
   CHECK_THROWS_AS(edited("[transition]\n\"dead\\u005Fvolume\" = 1\n"), core::DataError);
 }
 
-TEST_CASE("A profile is exchanged in one step, and only the one that was read") {
+TEST_CASE("A profile is replaced in one step, and only if it is still as it was read") {
   const test::TempFolder folder;
   const auto file = folder.write("p.toml", "[printer]\nname = \"a\"\n");
   const auto link = folder / "link.toml";
@@ -83,7 +83,7 @@ TEST_CASE("A profile is exchanged in one step, and only the one that was read") 
   CHECK((status.st_mode & 0777) == 0640);
 
   const std::string present = test::read_text(file);
-  CHECK_THROWS_AS(text.set_transition(2, 7), core::FileError);  // it has been changed, by ourselves
+  CHECK_THROWS_AS(text.set_transition(2, 7), core::FileError);  // it has been changed meanwhile
   CHECK(test::read_text(file) == present);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))

@@ -31,7 +31,7 @@ TargetLayer two_zones() {
   return {3, 0.8, 0.2, {{box(10, 10, 20, 20), 0}, {box(20, 10, 30, 20), 1}}};
 }
 
-/// Whatever a function says of each place.
+/// A raster with the pixel that a function gives for each place.
 class Laid : public sim::LayerRaster {
  public:
   using Function = std::function<sim::RasterPixel(double x, double y)>;
@@ -89,7 +89,7 @@ TEST_CASE("A layer as it should be has no gaps and nothing wrong") {
   CHECK(f.fill.percentile(0.5) == Approx(1).margin(0.01));
 }
 
-TEST_CASE("What is missing, too high or beside the part is measured") {
+TEST_CASE("Missing plastic, surplus, and plastic beside the part are measured") {
   const DepositFindings f = judged([](double x, double y) {
                               if (y > 18 && inside(x, y)) return sim::RasterPixel{};  // 20 × 2 mm missing
                               if (y < 11 && inside(x, y))
@@ -106,7 +106,7 @@ TEST_CASE("What is missing, too high or beside the part is measured") {
 
 TEST_CASE(
     "A place is wrong where the other zone's mixture is nearer, and its way to the border is measured") {
-  // Blue begins 3 mm too late; in the middle of that a mixture of both, nearer to red.
+  // Blue begins 3 mm too late; the middle of that is a mixture of both, nearer to red.
   const DepositFindings f = judged([](double x, double y) {
                               if (!inside(x, y)) return sim::RasterPixel{};
                               if (x < 23) return plastic(1, red);
@@ -149,7 +149,7 @@ TEST_CASE("A bead that runs beside the part is outside; the rim, the prime line 
     return as_it_should(x, y);
   });
   CHECK(displaced.outside == Approx(10 * 0.6 * 0.2).epsilon(0.05));
-  // Far from the part, where the other figures do not look; and a skirt that is nowhere near its place.
+  // Far from the part, where the other figures do not look; and a skirt far from its place.
   const DepositFindings far = found([&](double x, double y) {
     if (within(x, y, 33, 10, 34, 12)) return plastic(1.5, red);
     return as_it_should(x, y);
@@ -160,7 +160,7 @@ TEST_CASE("A bead that runs beside the part is outside; the rim, the prime line 
   CHECK(found(as_it_should).outside == Approx(good.skirt).epsilon(0.01));
 }
 
-TEST_CASE("Where the raster does not reach, nothing was laid") {
+TEST_CASE("Nothing was laid beyond the raster") {
   const sim::RasterFrame half{0.8, 0.2, 5.03, 4.98, 0.05, 600, 200};  // up to y = 14.98
   CHECK(judged(perfect, half).findings.gaps == Approx(200 * 5.02 / 10).epsilon(0.01));
   const sim::RasterFrame none{0.8, 0.2, 100, 100, 0.05, 10, 10};
@@ -201,7 +201,7 @@ TEST_CASE("Regions are scanned with their holes, and the later ones cover") {
   CHECK(labels[static_cast<std::size_t>(70) * 200 + 60] == outside_all);  // (5, 5) lies in the hole
 }
 
-TEST_CASE("The distance to another region is what counting says") {
+TEST_CASE("The distance to another region agrees with a count of pixels") {
   const PixelGrid grid{{0, 0}, 0.25, 37, 29};
   std::mt19937 random(3);
   std::discrete_distribution<int> kind{70, 25, 2, 1};
@@ -278,7 +278,7 @@ TEST_CASE("Layers are judged as they come out of the stream, each against its ow
   CHECK(check.total().outside == Approx(200 * 0.2).epsilon(0.01));
 }
 
-TEST_CASE("A stream that breaks off is told, and the layers before it are kept") {
+TEST_CASE("An interrupted stream is reported, and the layers before are kept") {
   TempFolder folder;
   const auto file = folder / "rasters";
   {
@@ -301,7 +301,7 @@ TEST_CASE("A stream that breaks off is told, and the layers before it are kept")
   CHECK(check.to_json()["layers"].size() == 1);
 }
 
-TEST_CASE("Flow is judged by the time it kept to the nominal one") {
+TEST_CASE("Flow is judged by the time for which it was nominal") {
   const nlohmann::json seen = {
       {"motion",
        {{"bead_seconds", 100.0},
@@ -315,7 +315,8 @@ TEST_CASE("Flow is judged by the time it kept to the nominal one") {
   const MotionFindings f = motion_findings(seen, 2);
   CHECK(f.instants_in_tolerance == Approx(0.9));
   CHECK(f.seconds_in_tolerance == Approx(0.92));
-  // 2 % of the seconds push less than 1.6, 8 % less than 2; so a fifth is lacking where a twentieth may.
+  // In 2 % of the seconds the flow is below 1.6, in 8 % below 2: a fifth is missing where a twentieth is
+  // allowed.
   CHECK(f.holdable_flow == Approx(2 * std::cbrt(0.05 / 0.2)));
   CHECK(f.travels == 3);
   CHECK(f.travel == Approx(14.5));
@@ -323,7 +324,7 @@ TEST_CASE("Flow is judged by the time it kept to the nominal one") {
   CHECK(summary(f).find("2 starvations, 1 stop for") != std::string::npos);
 }
 
-TEST_CASE("A simulator's report that lacks everything is no crash") {
+TEST_CASE("An empty report of the simulator does no harm") {
   const MotionFindings f = motion_findings(nlohmann::json::object(), 2);
   CHECK(f.seconds_in_tolerance == 0);
   CHECK(f.travels == 0);

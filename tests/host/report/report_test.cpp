@@ -78,7 +78,7 @@ TEST_CASE("Figures of islands add up, and spacing and E follow from the sums") {
   CHECK(Figures{}.normalised_coverage() == 0);
 }
 
-TEST_CASE("The report of a curve has the keys that others rely on") {
+TEST_CASE("The report of a curve has the keys that other programs rely on") {
   const nlohmann::json report = to_json(measure(plan_of(1)));
   for (const char* key : {"vertices", "area_mm2", "length_mm", "zone_crossings", "self_intersections",
                           "outside_segments", "split_and_reconnect", "doubled_edges", "mean_spacing_mm",
@@ -94,7 +94,7 @@ TEST_CASE("The report of a curve has the keys that others rely on") {
   CHECK(report.at("objectives").at("E") == report.at("objectives").at("normalised_coverage"));
 }
 
-TEST_CASE("Volumes go to the materials of the beads' zones; what was fed, to the mixtures by name") {
+TEST_CASE("Volumes count for the materials of the beads' zones, fed volumes for the named mixtures") {
   auto volumes = two_materials();
   gcode::PlacedLayer layer;
   layer.height = 0.5;
@@ -112,7 +112,7 @@ TEST_CASE("Volumes go to the materials of the beads' zones; what was fed, to the
   CHECK(feeders[1] == Approx(0.025 + 4.5));
 }
 
-TEST_CASE("Feeder steps are judged against the intended volume of each mixture") {
+TEST_CASE("Feeder steps are compared with the intended volume of each mixture") {
   auto volumes = two_materials();
   volumes[0].part = 200;
   volumes[1].part = 90;
@@ -124,7 +124,7 @@ TEST_CASE("Feeder steps are judged against the intended volume of each mixture")
   CHECK(more.worst_error == Approx(0.02));
 }
 
-TEST_CASE("What is mixed in between is judged together, since single steps count in so little") {
+TEST_CASE("Mixtures in between are judged together, since single steps matter in small volumes") {
   const auto volumes = fed_volumes(
       {{gcode::Mixture({0.5, 0.48, 0.02}), 50}, {gcode::Mixture({0.02, 0.48, 0.5}), 50}}, two_materials());
   REQUIRE(volumes[0].name == mixed_between);
@@ -134,12 +134,12 @@ TEST_CASE("What is mixed in between is judged together, since single steps count
                             {{"shares", {0.02, 0.48, 0.5}}, {"feeder_steps", {floor, 24, 25}}}}}};
   };
   CHECK(compare(volumes, report(1, 25), unit_steps()).worst_error == Approx(0).margin(1e-9));
-  // One step more of a feeder that has one: twice its share, but a hundredth of what is fed.
+  // One more step of a feeder that has one: twice its share, but 1 % of the volume.
   CHECK(compare(volumes, report(1, 26), unit_steps()).worst_error == Approx(0.01));
   CHECK(compare(volumes, report(2, 25), unit_steps()).worst_error == Approx(0.02));
 }
 
-TEST_CASE("A feeder that ran where it should not is seen though the sum is right") {
+TEST_CASE("A feeder that ran by mistake is found although the sum is right") {
   auto volumes = two_materials();
   volumes[0].part = 200;
   volumes[1].part = 100;
@@ -150,7 +150,7 @@ TEST_CASE("A feeder that ran where it should not is seen though the sum is right
   CHECK(comparison.worst_error == Approx(1));
 }
 
-TEST_CASE("Materials that are one mixture to the printer are compared as one") {
+TEST_CASE("Materials that the printer cannot distinguish are compared as one") {
   auto volumes = two_materials();
   volumes[0].part = 120;
   volumes.push_back(volumes[0]);
@@ -163,7 +163,7 @@ TEST_CASE("Materials that are one mixture to the printer are compared as one") {
   CHECK(comparison.worst_error == Approx(0).margin(1e-9));
 }
 
-TEST_CASE("Lost, repeated and disordered lines are told apart") {
+TEST_CASE("Lost, repeated and disordered lines are distinguished") {
   const auto volumes = two_materials();
   nlohmann::json report = seen(1);
   CHECK(compare(volumes, report, unit_steps()).lines_whole());
@@ -179,7 +179,7 @@ TEST_CASE("Lost, repeated and disordered lines are told apart") {
   CHECK_FALSE(compare(volumes, nlohmann::json::object(), unit_steps()).lines_whole());
 }
 
-TEST_CASE("A report is streamed, valid, and only there when it is whole") {
+TEST_CASE("A report is streamed, valid, and appears only when it is complete") {
   const test::TempFolder folder;
   const auto file = folder / "deep/report.json";
   {
@@ -199,7 +199,7 @@ TEST_CASE("A report is streamed, valid, and only there when it is whole") {
   CHECK_THROWS_AS(LayerLog(folder.path()), core::FileError);
 }
 
-TEST_CASE("A curve's text gives back its areas to the last digit") {
+TEST_CASE("A curve's text restores its areas to the last digit") {
   core::IslandPlan plan = plan_of(1);
   plan.curves[0].path.beads[0].area = 1.0 / 3;
   std::istringstream text(curve_text(plan));
@@ -211,7 +211,7 @@ TEST_CASE("A curve's text gives back its areas to the last digit") {
   CHECK(vertices == 4);
 }
 
-TEST_CASE("Durations are told as people say them") {
+TEST_CASE("Durations are written as people say them") {
   CHECK(duration_words(12.34) == "12.3 s");
   CHECK(duration_words(200) == "3 min 20 s");
   CHECK(duration_words(7500) == "2 h 05 min");

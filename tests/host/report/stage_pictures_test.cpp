@@ -29,7 +29,7 @@ TEST_CASE("Narrow beads are blue, wide ones red, and beyond the scale nothing ch
   CHECK(width_colour(1.5).r > width_colour(1.5).b);
 }
 
-TEST_CASE("A canvas puts mm where they belong, y up, and centres what is narrow") {
+TEST_CASE("A canvas draws in mm with y up, and centres narrow drawings") {
   const core::Box extent{{10, 20}, {14, 22}};
   Canvas canvas({extent, 10, 0, 30}, paper);
   CHECK(canvas.image().width() == 40 + 16);

@@ -37,7 +37,7 @@ class SessionBench {
       : job_(write_job(profile_more, sample)),
         prepared_(host::prepare(host::load_job(job_, {}))),
         printer_(simulate(simulator)),
-        run_(prepared_, "test", {}),
+        maker_(prepared_),
         clock_(connect()) {}
 
   host::StreamSettings settings;
@@ -57,7 +57,7 @@ class SessionBench {
     std::optional<host::StreamResult> result;
     {
       asio::io_context loop{1};
-      host::PlannedSource source(lookahead, run_);
+      host::PlannedSource source(lookahead, maker_);
       host::Session session(loop.get_executor(), host::open_port(port_, 115200), source, settings);
       session.on_event([&](const host::SessionEvent& event) {
         if (script) script(session, event);
@@ -128,7 +128,7 @@ class SessionBench {
   host::PreparedJob prepared_;
   Child printer_;
   std::string port_;
-  host::Run run_;
+  host::ChunkMaker maker_;
   std::shared_ptr<host::LockstepClock> clock_;
   host::SessionStatus last_;
 };

@@ -199,7 +199,7 @@ TEST_CASE("A profile that somebody edits meanwhile is not overwritten", "[tuning
   const Outcome outcome = child.wait();
   close(hand);
   CHECK(outcome.code == 2);
-  CHECK(outcome.err.find("changed by somebody else") != std::string::npos);
+  CHECK(outcome.err.find("changed by another program") != std::string::npos);
   CHECK(test::read_text(shop.profile) == theirs);
 }
 

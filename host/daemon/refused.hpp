@@ -1,0 +1,27 @@
+// Why the daemon does not do what a client asks for.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace unicursal::host {
+
+/// The message is a sentence for the client.
+class Refused : public std::runtime_error {
+ public:
+  enum class Why {
+    bad_name,   ///< not a name that a job or an upload can have
+    not_found,  ///< there is no such job or upload
+    conflict,   ///< not now: something else is being printed or waits
+    bad_job,    ///< the job's text has a mistake
+    no_room     ///< a limit or the disk is full
+  };
+
+  Refused(Why why, const std::string& sentence) : std::runtime_error(sentence), why_(why) {}
+  Why why() const { return why_; }
+
+ private:
+  Why why_;
+};
+
+}  // namespace unicursal::host
