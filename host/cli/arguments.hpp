@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "host/engine/prepared_job.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/report/books.hpp"
 #include "sim/simulator_options.hpp"

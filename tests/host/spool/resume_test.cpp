@@ -325,7 +325,7 @@ TEST_CASE("a damaged record of a print is refused with a message") {
   const fs::path record = bench.print_folder() / "print.json";
   const std::string sound = test::read_text(record);
   for (const std::string& text :
-       {std::string("{"), std::string("[]"), test::replaced(sound, "\"format\": 1", "\"format\": 2"),
+       {std::string("{"), std::string("[]"), test::replaced(sound, "\"format\": 2", "\"format\": 3"),
         test::replaced(sound, "\"port\"", "\"pot\"")}) {
     std::ofstream(record) << text;
     const Outcome outcome = test::run(bench.resume());
