@@ -1,7 +1,7 @@
 // One print on one printer, from the first word on the line to cold heaters, steered while it runs. It lives
 // on an Asio loop that somebody else runs: the foreground command (stream.hpp) or the daemon.
 //
-//   PlannedSource source(lookahead, run);
+//   PlannedSource source(lookahead, maker);
 //   Session session(loop.get_executor(), open_port(path, baud), source);
 //   session.on_event([&](const SessionEvent& event) { show(to_json(event, session.status())); });
 //   asio::co_spawn(loop, session.run(), [](std::exception_ptr, StreamResult result) { … });

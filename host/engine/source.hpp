@@ -62,7 +62,7 @@ class Source {
 /// Reports to the source that the lines sent so far leave `left` s of printing, at the clock's present time.
 void report_printed(Source& source, const Clock& clock, double left);
 
-/// A job's layers as they are planned. The look-ahead and the run must outlive it.
+/// A job's layers as they are planned. The look-ahead and the chunk maker must outlive it.
 class PlannedSource final : public Source {
  public:
   /// `rest_given`: the maker's encoder withholds nothing after the last layer, since that was sent before.

@@ -3,7 +3,7 @@
 // power cut finds half a file.
 //
 //   WholeFile file("out.gcode");
-//   file.stream() << …;
+//   file.stream() << "G28\n";
 //   file.publish();
 //
 // A device or a pipe, such as /dev/null, is written directly.
