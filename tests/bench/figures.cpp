@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "host/engine/prepared_job.hpp"
-#include "host/report/peak_memory.hpp"
 #include "host/job/load_job.hpp"
+#include "host/report/peak_memory.hpp"
 
 namespace {
 

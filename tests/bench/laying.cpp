@@ -24,9 +24,9 @@
 #include <vector>
 
 #include "core/geometry/region.hpp"
-#include "host/report/target.hpp"
 #include "host/job/load_job.hpp"
 #include "host/report/motion_findings.hpp"
+#include "host/report/target.hpp"
 #include "sim/bed/deposit.hpp"
 #include "sim/firmware/repetier.hpp"
 #include "sim/motion/motion_log.hpp"

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "firmware_gcode/route/route.hpp"
-#include "host/report/target.hpp"
 #include "host/job/load_job.hpp"
+#include "host/report/target.hpp"
 #include "sim/bed/deposit.hpp"
 #include "sim/firmware/repetier.hpp"
 #include "sim/motion/move_sinks.hpp"
