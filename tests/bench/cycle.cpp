@@ -33,7 +33,7 @@ Tour first_tour(double side) {
 
 Demand isotropic(const Vec2&) {
   Demand demand;
-  demand.even_zone = 0;
+  demand.even_zone = EvenZoneIndex(0);
   return demand;
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("The examples of the man pages load") {
   const auto profile = folder.write("diamond.toml", first_example(page("unicursal-profile.5")));
   std::filesystem::copy_file(root / "host/examples/leaf.svg", folder / "leaf.svg");
   const Job job = load_job(folder.write("job.toml", first_example(page("unicursal-job.5"))));
-  CHECK(job.materials.size() == 2);
+  CHECK(job.print.materials.size() == 2);
   CHECK(job.profile.printer.nozzle == 0.6);
   CHECK(load_profile(profile).printer.start_gcode.find("{layer_count}") != std::string::npos);
 }
