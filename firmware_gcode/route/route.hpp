@@ -4,10 +4,9 @@
 // A closed curve ends where it began, so that its start and direction decide everything. They are found by
 // dynamic programming along the chain of all paths of the layers at hand. The states of a path are its
 // vertices, each in both directions. The cost of a transition between states of two paths is the sum of
-//   - the length of the way, and a travel if it is longer than 1.5 bead widths (this outweighs everything
-//   else);
-//   - a change of mixture between the end of one path and the beginning of the next;
-//   - the visibility of the seam.
+// - the length of the way, and a travel if it is longer than 1.5 bead widths: this outweighs all the others;
+// - a change of mixture between the end of one path and the beginning of the next;
+// - the visibility of the seam.
 // A curve that begins on a border between zones has one change less inside. After each optimisation the first
 // layer is final and the next layer joins.
 #pragma once
