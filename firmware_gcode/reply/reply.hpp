@@ -78,7 +78,7 @@ struct Echo {
 /// "X:0.00 Y:0.00 Z:0.00 E:0.00 Count X:0 …", the answer to M114 and to G28.
 struct Position {
   std::string text;
-  std::optional<std::array<double, 3>> mm;  ///< x y z, if all of them are told
+  std::optional<std::array<double, 3>> mm;  ///< x y z, if the reply has all of them
 };
 struct Blank {};
 /// Anything else, noise included.

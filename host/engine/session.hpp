@@ -5,10 +5,10 @@
 //   Session session(loop.get_executor(), open_port(path, baud), source);
 //   session.on_event([&](const SessionEvent& event) { show(to_json(event, session.status())); });
 //   asio::co_spawn(loop, session.run(), [](std::exception_ptr, StreamResult result) { … });
-//   session.pause("somebody at the door");          // any time, on the loop's thread
+//   session.pause("the bed is loose");              // any time, on the loop's thread
 //
-// Everything here belongs to the loop's thread. A command returns at once; what comes of it is told by events
-// and status(). s, °C, per cent.
+// Everything here belongs to the loop's thread. A command returns at once; events and status() report its
+// effect. s, °C, per cent.
 //
 // A pause ends a segment: what the printer has taken is finished, the filament is drawn back in equal shares,
 // the nozzle rises and goes aside (firmware_gcode/interruption/pause.hpp). Going on, the next line follows:
@@ -56,8 +56,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The whole print; ends when every line is acknowledged. Once. Throws nothing: whatever goes wrong is told
-  /// in the result, since a report is due then as well. When the spool's disk is full, the print waits.
+  /// Runs the whole print, until every line is acknowledged; call it once. Never throws: the result reports
+  /// what went wrong, since a report is due then as well. When the spool's disk is full, the print waits.
   asio::awaitable<StreamResult> run();
 
   Refusal pause(const std::string& reason = "the user has paused it");
