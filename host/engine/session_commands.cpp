@@ -94,8 +94,7 @@ asio::awaitable<void> Session::State::confirm_stop() {
       pulse_reset(port)
           ? "stopped at once: the printer did not confirm it and was reset by its cable; look whether it "
             "stands still and cools, and switch it off if not"
-          : "an emergency stop was sent, but the printer has not confirmed it: it may read the stop only "
-            "after "
+          : "an emergency stop was sent, but the printer has not confirmed it: it may read it only after "
             "it has done what is in its queue; switch it off by its own switch");
 }
 
