@@ -27,7 +27,7 @@ struct CurveOptions {
   std::vector<std::filesystem::path> outputs;
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> pictures;  ///< folder for one picture of each stage
-  int threads = 1;                                ///< that share the island
+  int threads = 1;                                ///< threads that share the island
   core::Preset preset = core::Preset::best;
   double quality = 1;                           ///< multiplies the time limits of the optimisers
   std::optional<double> budget;                 ///< s of planning, after which the best curve is finished

@@ -64,20 +64,21 @@ class Session {
   Refusal resume();
   /// Parks and cools. While it heats, the heating ends at once.
   Refusal cancel(const std::string& reason = "the user has stopped it");
-  /// M112, past every queue; then the board's reset line, if it does not confirm. Nothing is parked.
+  /// Sends M112 past every queue, and pulses the board's reset line if the printer does not confirm. The
+  /// nozzle is not parked.
   Refusal emergency_stop();
-  /// Of the speed that the print asks for, 10…300 %.
+  /// Sets the speed, 10…300 % of the print's own.
   Refusal set_speed(double percent);
-  /// Of the plastic that the print asks for, 50…200 %.
+  /// Sets the amount of plastic, 50…200 % of the print's own.
   Refusal set_flow(double percent);
-  /// °C, from 0 (off) up to what is sane; the print's own changes of temperature still come.
+  /// Sets a temperature, °C: nozzle 0 (off) to 450, bed 0 to 200. The print's own changes still take effect.
   Refusal set_nozzle(double temperature);
   Refusal set_bed(double temperature);
 
   SessionStatus status() const;
   /// Called after every change; keep it short. An observer may ask for status() and give commands.
   void on_event(std::function<void(const SessionEvent&)> observer);
-  /// What can be said when the loop itself has failed.
+  /// Cools the printer and returns the result when the loop itself has failed.
   StreamResult failed(std::exception_ptr error);
 
  private:

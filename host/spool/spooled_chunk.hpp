@@ -26,7 +26,7 @@ struct SpooledChunk {
   enum class Kind : std::uint8_t {
     start,
     layer,  ///< what became certain when the encoder was given a layer; may belong to earlier ones
-    rest,   ///< what it had withheld
+    rest,   ///< the lines that the encoder had withheld
     finish
   };
   Kind kind = Kind::start;
