@@ -159,7 +159,7 @@ CLI::App& Curve::declare(CLI::App& program) {
             "Write a picture of each stage to this folder, from 1-field.png to 6-width.png.")
       .group("Output");
   add_value(app, "--threads", options_.threads, "N",
-            "Number of threads that share the island; default: 1. The result does not depend on it.")
+            "Number of threads that share the island. Default: 1. The result does not depend on it.")
       .check(integer_between(1, most_threads))
       ->group("Planning");
   const auto choose = [this](const std::string& word) {
