@@ -20,8 +20,8 @@ constexpr std::size_t fewest_vertices = 8;
 constexpr int most_sweeps = 6;
 
 /// Finds corners that may be cut off although clearances do not allow it. The curve stays simple and inside
-/// if the corner's triangle holds no other vertex of curve or border, since whatever enters the triangle has
-/// to end in it.
+/// if the corner's triangle holds no other vertex of curve or border, since anything that enters the triangle
+/// has to end in it.
 class Corners {
  public:
   Corners(const Curve& curve, const BorderIndex& border, double pitch)

@@ -4,8 +4,8 @@
 // Terms:
 // - Per stop: half the chord from the stop before to the stop after stands for the curve there, as in the
 // point
-//   terms of (33). A long chord is rewarded everywhere, since whatever is folded up is lost when the curve is
-//   smoothed. A chord off the asked direction costs as the square of the angle.
+//   terms of (33). A long chord is rewarded everywhere, since anything that is folded up is lost when the
+//   curve is smoothed. A chord off the asked direction costs as the square of the angle.
 // - Per edge: alignment over a rectangle about the edge, and crossings of material borders (55). Both are
 // known
 //   beforehand.

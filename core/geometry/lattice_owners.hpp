@@ -1,5 +1,5 @@
 // Finds the nearest segment of each sample of a lattice: the segment Voronoi diagram for the inner loops of
-// the optimisers. Exact up to float rounding, whatever the distance of the segments.
+// the optimisers. Exact up to float rounding, for any distance of the segments.
 //
 // Every block of samples keeps a list of the segments that may be nearest to one of its samples. As with the
 // neighbour lists of molecular dynamics, lists remain valid until an end point has moved by more than

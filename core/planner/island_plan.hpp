@@ -96,7 +96,7 @@ struct IslandPlan {
                         ///< bead widths away from the curve, mm²
   StageTime graph, cycle, fairing, widths;
   LocalOperations operations;
-  Effort effort;  ///< to be recorded: with the same effort the same bytes result
+  Effort effort;  ///< spent on it; the same effort gives the same bytes
 };
 
 }  // namespace unicursal::core

@@ -7,7 +7,7 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double parts = 100;  ///< that a share is written in
+constexpr double parts = 100;  ///< in which a share is written
 
 Limits own_limits() {
   Limits limits;

@@ -40,7 +40,7 @@ struct PrintChoices {
   Skirt skirt;
   Fan fan;
   std::vector<LayerTemperature> temperatures;  ///< in ascending order of layers
-  std::vector<Material> materials;             ///< that zones use, equal ones once, in order of first use
+  std::vector<Material> materials;             ///< of the zones, each once, in order of first use
   double change_before_border = 0.5;  ///< fraction of every change of mixture that falls before its border
   bool look_ahead = true;             ///< false, for comparison: switch where the border is
   Seam seam = Seam::hidden;

@@ -26,7 +26,7 @@ struct Printer {
   std::string firmware = "marlin";
   std::array<double, 3> bed{200, 200, 200};                 ///< x y z, origin at the front left
   double nozzle = 0.4;                                      ///< diameter of the opening
-  std::array<double, 2> bead_width_range{0.24, 1.0};        ///< that the nozzle can lay
+  std::array<double, 2> bead_width_range{0.24, 1.0};        ///< mm; least and greatest
   std::array<double, 3> max_speed{150, 150, 10};            ///< x y z
   std::array<double, 3> max_acceleration{1500, 1500, 100};  ///< x y z
   int feeders = 3;

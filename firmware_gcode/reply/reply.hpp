@@ -1,6 +1,7 @@
 // The vocabulary of replies: what a firmware says, line by line, as typed values.
-// Forms of Marlin 2.1 and Repetier 1.0.4 as observed (sim/README.md, "Marlin 2.1" and "Repetier"). Text from a
-// printer is hostile input: every byte sequence parses to something, nothing is trusted, numbers are bounded.
+// Forms of Marlin 2.1 and Repetier 1.0.4 as observed (sim/README.md, "Marlin 2.1" and "Repetier"). Text from
+// a printer is hostile input: every byte sequence parses to something, nothing is trusted, numbers are
+// bounded.
 #pragma once
 
 #include <array>
@@ -77,7 +78,7 @@ struct Echo {
 /// "X:0.00 Y:0.00 Z:0.00 E:0.00 Count X:0 …", the answer to M114 and to G28.
 struct Position {
   std::string text;
-  std::optional<std::array<double, 3>> mm;  ///< x y z, if all of them are told
+  std::optional<std::array<double, 3>> mm;  ///< x y z, if the reply has all of them
 };
 struct Blank {};
 /// Anything else, noise included.

@@ -104,7 +104,7 @@ void JobOptions::declare(CLI::App& app) {
          "Switch mixtures at the borders instead of ahead of them, for comparison.")
       ->group("Planning");
   add_value(app, "--threads", threads, "N",
-            "Number of planning threads; default: one for each core. The result does not depend on it.")
+            "Number of planning threads. Default: one for each core. The result does not depend on it.")
       .check(integer_between(1, most_threads))
       ->group("Planning");
 }

@@ -27,7 +27,7 @@ struct CurveOptions {
   std::vector<std::filesystem::path> outputs;
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> pictures;  ///< folder for one picture of each stage
-  int threads = 1;                                ///< that share the island
+  int threads = 1;                                ///< threads that share the island
   core::Preset preset = core::Preset::best;
   double quality = 1;                           ///< multiplies the time limits of the optimisers
   std::optional<double> budget;                 ///< s of planning, after which the best curve is finished
@@ -159,7 +159,7 @@ CLI::App& Curve::declare(CLI::App& program) {
             "Write a picture of each stage to this folder, from 1-field.png to 6-width.png.")
       .group("Output");
   add_value(app, "--threads", options_.threads, "N",
-            "Number of threads that share the island; default: 1. The result does not depend on it.")
+            "Number of threads that share the island. Default: 1. The result does not depend on it.")
       .check(integer_between(1, most_threads))
       ->group("Planning");
   const auto choose = [this](const std::string& word) {

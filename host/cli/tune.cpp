@@ -291,7 +291,8 @@ void Tune::declare_printing(CLI::App& app) {
       ->group("Simulated printer");
   declare_tanks(app, options_.tanks);
   add_value(app, "--picture", options_.pictures, "DIR",
-            "Folder for the picture of the simulated strip. Default: transition-strip. Needs --simulate.")
+            "Folder for the picture of the simulated strip. Default: transition-strip, and no picture with "
+            "--read-simulated or --began. Needs --simulate.")
       .needs(simulate)
       ->group("Simulated printer");
 }

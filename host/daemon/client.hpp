@@ -18,7 +18,7 @@ class Client {
   /// Absent if no daemon has left its address there.
   static std::optional<Client> find(const std::filesystem::path& state);
 
-  /// Blocks for at most half a minute. Throws DaemonError if nobody answers, or somebody else does.
+  /// Blocks for at most half a minute. Throws DaemonError if there is no answer, or another program answers.
   Answer ask(const std::string& method, const std::string& path) const;
   Answer ask(const std::string& method, const std::string& path, const nlohmann::json& body) const;
   Answer send_file(const std::string& path, const std::string& bytes) const;

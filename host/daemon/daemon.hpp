@@ -36,7 +36,7 @@ struct DaemonOptions {
 class Follower {
  public:
   virtual ~Follower() = default;
-  /// False once nobody listens any more; the daemon then lets go of it.
+  /// False once its client has gone; the daemon then drops it.
   virtual bool open() const = 0;
   /// `event`: JSON, as in API.md.
   virtual void send(const std::string& event) = 0;

@@ -20,7 +20,7 @@ constexpr auto sign_of_life = 10s;
 /// How long the nozzle may stand on the part with nothing to do: it melts into it, and what drips stays
 /// there.
 constexpr auto idle_patience = 5s;
-/// How long a nozzle is kept hot although nobody comes: what is in it chars, and it is a danger.
+/// How long a nozzle is kept hot during a pause: the plastic in it chars, and a hot nozzle is a danger.
 constexpr auto hot_patience = 15min;
 constexpr auto look_interval = 2s;  ///< between looks whether what is missing has come
 
@@ -112,7 +112,7 @@ asio::awaitable<void> Holding::heat_again() {
   parts_.printer.may_wait_for_heat = false;
 }
 
-/// Returns when the pause is to end. What is asked for meanwhile is done at once.
+/// Returns when the pause ends. Changes that are requested meanwhile are made at once.
 asio::awaitable<void> Holding::wait_held() {
   const Intent& intent = parts_.intent;
   const auto& longest = parts_.settings.longest_pause;
@@ -136,7 +136,7 @@ asio::awaitable<void> Holding::stay_aside(bool moved) {
   if (cooled_ || (lower && moved)) co_return;  // on the way aside
   if (!(lower && parts_.intent.paused_by_session()) && now() < hot_until_) co_return;
   cooled_ = true;
-  parts_.announcer.notice("the nozzle cools, and is heated before it goes on");
+  parts_.announcer.notice("the nozzle cools; it is heated again before the print continues");
   std::vector<std::string> cool(1, gcode::cool_aside(parts_.printer.expected));
   co_await parts_.places.interpose(std::move(cool));
 }
@@ -208,13 +208,13 @@ Refusal Holding::pause(const std::string& reason) {
   if (over()) return ends_already;
   if (parts_.intent.pausing()) return "it is paused already";
   parts_.intent.pause(reason);
-  parts_.announcer.notice(parts_.printer.may_wait_for_heat ? pause_when_hot : "it is held in a moment");
+  parts_.announcer.notice(parts_.printer.may_wait_for_heat ? pause_when_hot : "the print pauses in a moment");
   return std::nullopt;
 }
 
 Refusal Holding::resume() {
   if (parts_.intent.ends()) return ends_already;
-  if (waits_aside_ && !parts_.intent.pausing()) return "it waits for something: " + parts_.announcer.reason();
+  if (waits_aside_ && !parts_.intent.pausing()) return "the print is waiting: " + parts_.announcer.reason();
   if (!parts_.intent.pausing() && !parts_.announcer.holds()) return "it is not paused";
   end_pause();
   return std::nullopt;
@@ -240,8 +240,8 @@ Refusal Holding::change(const std::string& line) {
 void Holding::pause_because_cold() {
   if (over() || !parts_.intent.printing() || waits_aside_ || parts_.announcer.holds()) return;
   parts_.intent.pause(
-      "the nozzle is too cold, the printer refuses to push filament: look at the heater before it goes on, "
-      "and at the part, since the last lines were not laid");
+      "the nozzle is too cold, so the printer refuses to push filament: check the heater before you resume, "
+      "and the part, since the last lines were not laid");
   parts_.announcer.notice("Error: " + parts_.intent.reason());
   parts_.wake.notify();
 }

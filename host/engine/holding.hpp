@@ -30,7 +30,7 @@
 namespace unicursal::host {
 
 // Answers to commands.
-constexpr auto pause_when_hot = "it is held as soon as it is hot";
+constexpr auto pause_when_hot = "the print pauses as soon as the printer is hot";
 constexpr auto ends_already = "the print is ending";
 
 /// Something that the print cannot go on without, and may have to wait for.

@@ -1,5 +1,6 @@
-// What is to become of a print: it prints, is held, or ends. Commands and the printer change the intent; the
-// print reads it between two batches of lines and while it waits. It belongs to the loop's thread.
+// The state that a print should take next: it prints, is held, or ends. Commands and the printer change the
+// intent; the print reads it between two batches of lines and while it waits. It belongs to the loop's
+// thread.
 //
 //   printing ── pause() ──▶ paused ── resume() ──▶ resuming ── end_pause() ──▶ printing
 //       any of these ── stop() ──▶ stopped;  any at all ── abort() ──▶ aborted
@@ -30,7 +31,7 @@ class Intent {
   bool ends() const { return stopped() || aborted(); }
   /// The printer is to be parked and cooled.
   bool stopped() const { return kind_ == Kind::stopped; }
-  /// The printer was told to stop at once.
+  /// An emergency stop was sent to the printer.
   bool aborted() const { return kind_ == Kind::aborted; }
   /// Why it is held or stopped, a sentence; empty otherwise.
   const std::string& reason() const { return reason_; }

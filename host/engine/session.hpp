@@ -5,10 +5,10 @@
 //   Session session(loop.get_executor(), open_port(path, baud), source);
 //   session.on_event([&](const SessionEvent& event) { show(to_json(event, session.status())); });
 //   asio::co_spawn(loop, session.run(), [](std::exception_ptr, StreamResult result) { … });
-//   session.pause("somebody at the door");          // any time, on the loop's thread
+//   session.pause("the bed is loose");              // any time, on the loop's thread
 //
-// Everything here belongs to the loop's thread. A command returns at once; what comes of it is told by events
-// and status(). s, °C, per cent.
+// Everything here belongs to the loop's thread. A command returns at once; events and status() report its
+// effect. s, °C, per cent.
 //
 // A pause ends a segment: what the printer has taken is finished, the filament is drawn back in equal shares,
 // the nozzle rises and goes aside (firmware_gcode/interruption/pause.hpp). Going on, the next line follows:
@@ -56,28 +56,29 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The whole print; ends when every line is acknowledged. Once. Throws nothing: whatever goes wrong is told
-  /// in the result, since a report is due then as well. When the spool's disk is full, the print waits.
+  /// Runs the whole print, until every line is acknowledged; call it once. Never throws: the result reports
+  /// what went wrong, since a report is due then as well. When the spool's disk is full, the print waits.
   asio::awaitable<StreamResult> run();
 
   Refusal pause(const std::string& reason = "the user has paused it");
   Refusal resume();
   /// Parks and cools. While it heats, the heating ends at once.
   Refusal cancel(const std::string& reason = "the user has stopped it");
-  /// M112, past every queue; then the board's reset line, if it does not confirm. Nothing is parked.
+  /// Sends M112 past every queue, and pulses the board's reset line if the printer does not confirm. The
+  /// nozzle is not parked.
   Refusal emergency_stop();
-  /// Of the speed that the print asks for, 10…300 %.
+  /// Sets the speed, 10…300 % of the print's own.
   Refusal set_speed(double percent);
-  /// Of the plastic that the print asks for, 50…200 %.
+  /// Sets the amount of plastic, 50…200 % of the print's own.
   Refusal set_flow(double percent);
-  /// °C, from 0 (off) up to what is sane; the print's own changes of temperature still come.
+  /// Sets a temperature, °C: nozzle 0 (off) to 450, bed 0 to 200. The print's own changes still take effect.
   Refusal set_nozzle(double temperature);
   Refusal set_bed(double temperature);
 
   SessionStatus status() const;
   /// Called after every change; keep it short. An observer may ask for status() and give commands.
   void on_event(std::function<void(const SessionEvent&)> observer);
-  /// What can be said when the loop itself has failed.
+  /// Cools the printer and returns the result when the loop itself has failed.
   StreamResult failed(std::exception_ptr error);
 
  private:

@@ -67,7 +67,7 @@ void Session::State::obey(const std::string& action) {
   } else if (is("cancel") && !intent.ends() && !announcer.is_ending()) {
     stop("the printer has asked for the end of the print");
   } else if (is("out_of_filament")) {
-    announcer.notice("the filament has run out (" + action + "): load more, then go on");
+    announcer.notice("the filament has run out (" + action + "): load more, then resume");
   }
   wake.notify();
 }
@@ -78,9 +78,10 @@ void Session::State::stop(const std::string& reason) {
   intent.stop(reason);
   source.cancel();
   if (printer.may_wait_for_heat || link.waits_for_user()) link.cool_down();
-  announcer.notice(printer.may_wait_for_heat
-                       ? "stopping: heating ends; once more stops the printer at once"
-                       : "stopping: the printer is parked and cooled; once more stops it at once");
+  announcer.notice(
+      printer.may_wait_for_heat
+          ? "stopping: heating ends; a second Ctrl-C or `stop` stops the printer at once"
+          : "stopping: the printer is parked and cooled; a second Ctrl-C or `stop` stops it at once");
   wake.notify();
 }
 
@@ -93,8 +94,8 @@ asio::awaitable<void> Session::State::confirm_stop() {
       pulse_reset(port)
           ? "stopped at once: the printer did not confirm it and was reset by its cable; look whether it "
             "stands still and cools, and switch it off if not"
-          : "the printer was told to stop at once but has not confirmed it: it may read that only when it "
-            "has done what is in its queue; switch it off by its own switch");
+          : "an emergency stop was sent, but the printer has not confirmed it: it may read it only after "
+            "it has done what is in its queue; switch it off by its own switch");
 }
 
 // ---- the public functions

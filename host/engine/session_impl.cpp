@@ -25,7 +25,8 @@ constexpr std::size_t batch = 16;
 
 constexpr auto late_answer = std::chrono::seconds(1);  ///< after the ok, of a printer that answers later
 
-constexpr auto fell_behind = "planning has fallen behind; it goes on by itself when the next layer is there";
+constexpr auto fell_behind =
+    "planning has fallen behind; the print continues by itself when the next layer is planned";
 
 bool moves_away(const std::string& line) {
   const bool move = line.starts_with("G0 ") || line.starts_with("G1 ");
@@ -120,7 +121,7 @@ void Session::State::check_firmware() {
   if (const auto why = mismatch(identity, source.printer().firmware)) {
     result.unfit = true;
     const std::string remedy = settings.continuation
-                                   ? "go on where the print was begun, or print the job anew"
+                                   ? "resume on the printer on which the print began, or print the job again"
                                    : correction(identity, settings.profile);
     throw LinkError(fmt::format("this printer cannot be used: {}; {}", *why, remedy));
   }

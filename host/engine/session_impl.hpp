@@ -1,5 +1,5 @@
-// The inside of a session: one coroutine goes through the print; commands leave marks that it finds between
-// two batches of lines. Each part has one duty:
+// The inside of a session: one coroutine runs the print. Commands leave marks, which it reads between two
+// batches of lines. Each part has one duty:
 //
 //   Link         the conversation with the firmware (host/link)
 //   Intent       whether the print goes on, is held, or ends

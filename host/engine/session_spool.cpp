@@ -18,7 +18,7 @@ asio::awaitable<std::string> Session::State::try_to_spool(SpooledChunk& record, 
 }
 
 /// The same; when the disk is full, the print waits until there is room. Returns false if it was stopped
-/// meanwhile: then nothing of the chunk may be sent.
+/// meanwhile: then no line of the chunk may be sent.
 asio::awaitable<bool> Session::State::spool_chunk(SpooledChunk record, gcode::Chunk& chunk) {
   std::string problem = co_await try_to_spool(record, chunk);
   if (problem.empty()) co_return true;

@@ -39,7 +39,7 @@ enum class Ending {
 
 /// Why the printer cannot go on with the next line; nothing was sent.
 struct Lost {
-  std::string why;                     ///< a clause: "it has started anew"
+  std::string why;                     ///< a clause: "it has restarted"
   std::optional<std::uint64_t> place;  ///< the next line's place in the leg, if the printer has reported it
 };
 
@@ -77,7 +77,7 @@ struct StreamSettings {
   /// For a resumed print. Precondition: a spool that holds the first layers; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;
-  /// s after which a pause ends by itself, for prints that nobody attends; absent: never.
+  /// s after which a pause ends by itself, for prints without an operator; absent: never.
   std::optional<double> longest_pause;
 };
 

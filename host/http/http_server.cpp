@@ -28,7 +28,7 @@ constexpr std::uint64_t slowest_body = 256 * 1024;  ///< bytes/s
 constexpr std::uint64_t large_body = 1024 * 1024;   ///< bytes
 constexpr auto answer_patience = 30s;               ///< for the client to receive an answer
 constexpr auto farewell =
-    2s;  ///< for which a refused client's bytes are still read, so that it gets the answer
+    2s;  ///< how long a refused client's bytes are still read, so that it gets the answer
 constexpr std::size_t longest_farewell = 4 * 1024 * 1024;  ///< bytes
 
 constexpr std::string_view end_of_head = "\r\n\r\n";

@@ -13,8 +13,8 @@ struct PlannedLayer {
   core::Layer layer;
   std::vector<core::IslandPlan> plans;  ///< one per island, in the same order
   double cpu_seconds = 0;               ///< processor time of slicing and planning it
-  /// The optimisers' steps as a share of those that unhurried islands take, weighted by area; 1 if no island
-  /// was hurried.
+  /// The optimisers' steps as a share of those with full effort, weighted by area; 1 if all islands had full
+  /// effort.
   double effort = 1;
   double ready_at = 0;  ///< in virtual time: when it would have been ready, s
 };

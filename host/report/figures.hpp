@@ -16,7 +16,7 @@ struct Figures {
   std::size_t curves = 0;
   std::size_t vertices = 0;
   double length = 0;                 ///< of the curves
-  double area = 0;                   ///< that their segments fill
+  double area = 0;                   ///< filled by the segments
   core::CurveObjectives objectives;  ///< sums
   std::map<int, std::size_t>
       curves_by_perimeters;  ///< number of contours → number of curves that laid so many

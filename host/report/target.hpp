@@ -1,4 +1,4 @@
-// What a job wants, in the report's words: what each layer is to look like, what the printer is to mix, and
+// What a job wants, in the report's words: what each layer should look like, what the printer is to mix, and
 // how its curves are drawn.
 #pragma once
 

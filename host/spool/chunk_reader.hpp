@@ -35,9 +35,9 @@ class ChunkReader {
 /// What a spool holds, in numbers.
 struct SpoolExtent {
   std::uint64_t lines = 0;
-  std::uint64_t start_lines = 0;  ///< of them, those before the first layer
+  std::uint64_t start_lines = 0;  ///< lines before the first layer
   std::size_t layers = 0;
-  bool rest = false;      ///< what the encoder had withheld is there
+  bool rest = false;      ///< the lines that the encoder had withheld are there
   bool finished = false;  ///< the lines that end the print are there, too
 
   void add(const SpooledChunk& chunk);

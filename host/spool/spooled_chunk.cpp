@@ -32,7 +32,7 @@ void put(ByteWriter& bytes, const core::Polygon& polygon) {
 
 double length_in(ByteReader& bytes) {
   const double value = bytes.number();
-  if (!std::isfinite(value)) throw DamagedBytes("holds a length that is no number");
+  if (!std::isfinite(value)) throw DamagedBytes("holds a length that is not a number");
   return value;
 }
 

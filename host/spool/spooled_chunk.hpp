@@ -1,5 +1,5 @@
 // A chunk as it is kept: its lines, and the bead paths that they were made from, so that the encoder can be
-// brought to the same state again without planning anew. What planning took (the effort of every island)
+// brought to the same state again without planning again. What planning took (the effort of every island)
 // stands beside them, so that the same curves can also be computed again.
 #pragma once
 
@@ -26,7 +26,7 @@ struct SpooledChunk {
   enum class Kind : std::uint8_t {
     start,
     layer,  ///< what became certain when the encoder was given a layer; may belong to earlier ones
-    rest,   ///< what it had withheld
+    rest,   ///< the lines that the encoder had withheld
     finish
   };
   Kind kind = Kind::start;

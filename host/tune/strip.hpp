@@ -7,8 +7,8 @@
 //   to the end.
 //
 // The lanes before a line hold as much as the strip does, so that the nozzle is full of the line's mixture
-// whatever its volumes are. The strip is thin at first and becomes thicker: a tick is worth at most 2 % of
-// what has passed. So small volumes can be read as finely as the nozzle allows, and large ones do not need
+// for any volumes of its chamber. The strip is thin at first and becomes thicker: a tick is worth at most 2 %
+// of what has passed. So small volumes can be read as finely as the nozzle allows, and large ones do not need
 // metres. Even ticks are behind the bead and odd ones in front of it, because lines as thick as the nozzle's
 // opening must stay apart. If the bed is too short, the strip turns and comes back; the turn counts, and has
 // only even ticks. All sizes follow from the nozzle's opening. mm, mm³, in the frame of the bed.

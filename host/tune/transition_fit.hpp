@@ -39,7 +39,7 @@ struct ReadVolumes {
 
 struct Estimate {
   double value = 0;
-  double uncertainty = 0;  ///< if the readings are right, the truth lies within value ± uncertainty
+  double uncertainty = 0;  ///< the true value lies within value ± uncertainty, if the readings are right
 };
 
 struct Transition {

@@ -278,7 +278,7 @@ double printers_own(const std::string& log) {
         line.find(" E") != std::string::npos)
       return last_ok - begun.value_or(time);
   }
-  throw std::runtime_error("the serial log tells of no extruding move");
+  throw std::runtime_error("the serial log has no extruding move");
 }
 
 /// `minutes` of printing follow the first extruding move; may be 0.

@@ -120,7 +120,7 @@ std::string request(Target& target, core::Random& random, bool known) {
 void check_answer(const std::string& answer, bool known) {
   if (answer.empty()) return;
   const int status = status_of(answer);
-  if (status < 100 || status > 599) throw std::runtime_error("an answer that is no HTTP");
+  if (status < 100 || status > 599) throw std::runtime_error("an answer that is not HTTP");
   if (status >= 500 && status != 503 && status != 505 && status != 507)
     throw std::runtime_error("an answer of " + std::to_string(status) + ": " + answer);
   if (!known && status < 400) throw std::runtime_error("a stranger was answered: " + answer);

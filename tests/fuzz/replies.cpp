@@ -69,7 +69,7 @@ void check(const std::string& line) {
                                    : report ? report->temperatures
                                             : gcode::Temperatures{};
   for (const auto& degrees : {heat.nozzle, heat.nozzle_target, heat.bed, heat.bed_target})
-    require(!degrees || std::isfinite(*degrees), "a temperature is no number");
+    require(!degrees || std::isfinite(*degrees), "a temperature is not a number");
   if (const auto* told = std::get_if<gcode::reply::Firmware>(&reply)) {
     const gcode::Identity identity = gcode::identify(told->text);
     require(is_printable(identity.firmware) && is_printable(identity.machine), "a name cannot be shown");

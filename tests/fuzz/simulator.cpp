@@ -108,7 +108,7 @@ void control(const fs::path& folder, core::Random& random) {
   message.resize(std::min(message.find('\n'), message.size()));
   kept(folder / "control.txt", message);
   const auto wait = sim::parse_wait(message);
-  if (!wait) throw core::DataError("control.txt", "", "is no message", "");
+  if (!wait) throw core::DataError("control.txt", "", "is not a message", "");
   constexpr double countable = 1e6;  // s; beyond this a double does not resolve 1 ns
   if (std::isfinite(wait->until) && wait->until > countable) return;
   const std::string until =

@@ -116,12 +116,12 @@ inline void demand(bool held, const char* what) {
 inline void demand_sound(const Firmware& firmware) {
   const Coordinates& at = firmware.coordinates();
   demand(firmware.planner().queued() <= Planner::usable_blocks, "more moves are queued than there is room");
-  demand(std::isfinite(firmware.now()), "time is no number");
-  demand(std::isfinite(firmware.nozzle().temperature(firmware.now())), "the temperature is no number");
+  demand(std::isfinite(firmware.now()), "time is not a number");
+  demand(std::isfinite(firmware.nozzle().temperature(firmware.now())), "the temperature is not a number");
   for (const Axis axis : {axis_x, axis_y, axis_z}) {
-    demand(std::isfinite(at.logical(axis)), "the position is no number");
+    demand(std::isfinite(at.logical(axis)), "the position is not a number");
   }
-  demand(std::isfinite(at.e()), "E is no number");
+  demand(std::isfinite(at.e()), "E is not a number");
   demand(firmware.counts().accepted <= firmware.counts().received, "more lines were taken than came");
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("an area without a zone is refused with colour, place and size") {
              Contains("#ff0000") && Contains("400 mm²") && Contains("near ("));
 }
 
-TEST_CASE("a zone that other shapes cover is told, and does no harm") {
+TEST_CASE("a zone that other shapes cover is reported, and does no harm") {
   const TempFolder folder;
   const auto file = folder.write("c.svg", drawing("<rect fill='red' width='9' height='9'/>"
                                                   "<rect fill='blue' width='9' height='9'/>"));

@@ -67,7 +67,7 @@ TEST_CASE("damaged text is refused with its line") {
   CHECK_THAT(refusal("solid x\nfasset\n"), Contains("line 2"));
 }
 
-TEST_CASE("coordinates that are no numbers are refused with triangle and vertex") {
+TEST_CASE("coordinates that are not numbers are refused with triangle and vertex") {
   const auto text = GENERATE("nan", "-nan(ind)", "inf", "-inf", "1e999", "1.#QNAN");
   CAPTURE(text);
   CHECK_THAT(refusal(ascii(text)), Contains("triangle 1, vertex 2") && Contains("not a finite number"));

@@ -45,7 +45,7 @@ TEST_CASE("a missing side follows from the viewBox") {
   check_point(placed({"", "50mm", "0 0 200 100", ""}, {200, 0}), 100, 50);
 }
 
-TEST_CASE("without any size a unit is a pixel, and the user is told") {
+TEST_CASE("without any size a unit is a pixel, and the user is warned") {
   Warnings warnings;
   const Page p = page({"", "100%", "0 0 96 96", ""}, warnings);
   check_point(p.to_part * Vec2(96, 96), 25.4, 0);

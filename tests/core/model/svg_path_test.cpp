@@ -110,7 +110,7 @@ TEST_CASE("damaged path data is refused") {
   CHECK_THROWS_AS(rings(text), Malformed);
 }
 
-TEST_CASE("no text is no ring") {
+TEST_CASE("an empty text is not a ring") {
   CHECK(rings("").empty());
   CHECK(rings("none").empty());
   CHECK(rings("M5 5").empty());

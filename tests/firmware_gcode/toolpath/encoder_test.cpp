@@ -33,11 +33,9 @@ struct Words {
 };
 
 std::vector<std::string> commands(const Chunk& chunk) {
-  std::vector<std::string> result;
-  for (const std::string& line : chunk.lines) {
-    if (!line.starts_with(';')) result.push_back(line);
-  }
-  return result;
+  std::vector<std::string> lines = chunk.lines;
+  keep_commands(lines);
+  return lines;
 }
 
 std::size_t index_of(const std::vector<std::string>& lines, const std::string& start) {

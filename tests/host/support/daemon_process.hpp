@@ -94,7 +94,7 @@ class DaemonBench {
     const std::string answer = send(request(method, target, body));
     return nlohmann::json::parse(answer.substr(answer.find("\r\n\r\n") + 4));
   }
-  /// A command of the program's, told where this daemon is.
+  /// A command of the program's, with the state folder of this daemon.
   Outcome command(std::vector<std::string> words) const {
     words.insert(words.end(), {"--state", path("state")});
     return run(words);

@@ -51,7 +51,7 @@ class PrintBench {
     arguments.push_back("--yes");
     return run(arguments);
   }
-  /// Whether a print has been begun, as far as its folder tells.
+  /// Whether a print has begun, judged by its folder.
   bool begun() const {
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(path("spool"), none)) {
