@@ -17,6 +17,7 @@ constexpr auto ask_again = 1000ms;      ///< Interval of questions to a firmware
 constexpr auto longest_drain = 1000ms;  ///< Limit for printers that never fall silent.
 constexpr int number_attempts = 5;      ///< Attempts to set the line number, on a noisy line.
 constexpr int probe_attempts = 4;       ///< Each waits for LinkOptions::silence.
+constexpr int longer_probe = 4;         ///< Multiple of that time, in later attempts during a slow command.
 constexpr int find_attempts = 2;        ///< When rejoining; each waits for LinkOptions::silence.
 constexpr int most_asks = 20;           ///< Repetitions of a question if refusals come in between.
 constexpr int most_resends = 50;        ///< Resends in a row without progress.
@@ -312,8 +313,8 @@ asio::awaitable<void> LinkState::resynchronise() {
   const auto waiting_since = ledger.in_flight() ? last_ok : now();
   holding = true;
   co_await quiet(options.quiet);
-  for (int attempt = 0; attempt < probe_attempts; ++attempt) {
-    if (!co_await probe()) continue;
+  for (int attempt = 0; attempt < probe_attempts || still_at_work(); ++attempt) {
+    if (!co_await probe(options.silence * (attempt < probe_attempts ? 1 : longer_probe))) continue;
     co_await quiet(options.quiet);
     probing = false;
     resume_from(*asked, true);
@@ -328,7 +329,14 @@ asio::awaitable<void> LinkState::resynchronise() {
               : "the printer has fallen silent; check its power and the cable");
 }
 
-asio::awaitable<bool> LinkState::probe() {
+/// A Marlin says ok when a slow command is done, others perhaps when it is queued.
+bool LinkState::still_at_work() const {
+  const bool slow = identity.family == gcode::Family::marlin ? ledger.slow_in_flight()
+                                                             : ledger.in_flight() && ledger.slow();
+  return slow && !stranger && now() < std::min(last_line + options.no_ok, ok_deadline());
+}
+
+asio::awaitable<bool> LinkState::probe(Duration patience) {
   ++statistics.probes;
   probing = true;
   doubt = false;
@@ -339,8 +347,8 @@ asio::awaitable<bool> LinkState::probe() {
   const std::function<bool()> answered = [this] { return asked || stranger; };
   last_life = now();
   // A printer whose command queue is full reads nothing, but reports that it is busy.
-  while (!answered() && now() < std::min(last_life + options.silence, ok_deadline())) {
-    co_await until(answered, std::min(last_life + options.silence, ok_deadline()));
+  while (!answered() && now() < std::min(last_life + patience, ok_deadline())) {
+    co_await until(answered, std::min(last_life + patience, ok_deadline()));
   }
   co_return asked.has_value();
 }

@@ -30,7 +30,7 @@ bool is_plain_ok(const Reply& reply) {
 
 void LinkState::hear(std::string_view line) {
   const Reply reply = parse_reply(line);
-  if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard;
+  if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard, last_line = now();
   std::visit([this](const auto& what) { take(what); }, reply);
   if (probing && std::holds_alternative<reply::Error>(reply)) return;  // the expected answer to a probe
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {

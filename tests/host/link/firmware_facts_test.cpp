@@ -159,6 +159,16 @@ TEST_CASE("facts: a working printer is not disturbed, however long it takes") {
   }
 }
 
+TEST_CASE("facts: a slow command may be silent for minutes") {
+  const std::string who = GENERATE(from_range(personalities));
+  VirtualPrinter printer({"--personality", who, "--fault", "stall:300@command=G28"});
+  std::vector<std::string> lines = moves(80);
+  lines.insert(lines.begin() + 20, "G28");
+  const Talk talk = printer.print(lines);
+  INFO(who);
+  check_all_executed(printer, talk, lines);
+}
+
 TEST_CASE("facts: damage of every kind is repaired, at rest and at work") {
   const std::string who = GENERATE(from_range(personalities));
   // The byte after the line of this number is damaged; at work the lines in flight wait behind a dwell.

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <functional>
 #include <random>
+#include <thread>
 
 #include "fake_printer.hpp"
 
@@ -380,6 +381,41 @@ TEST_CASE("heating may take longer than any other command") {
              p.reply(ticks < 12 ? " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?" : "ok");
            }});
   CHECK(stream(printer.path(), {"M109 S210"}, options).error.empty());
+}
+
+TEST_CASE("a slow command may be silent, or say anything, for many times the deadline of silence") {
+  const auto slow =
+      GENERATE(as<std::string>{}, "M190 S60", "G29", "G34", "M48 P10", "M303 E0 S200 C8", "M600", "G28X");
+  const auto chatter = GENERATE(as<std::string>{}, "", "Bed X: 10.000 Y: 20.000 Z: 0.123",
+                                "T:24.10 E:0 B:40.1", "Mean: 0.01 Min: 0.0 Max: 0.02 Range: 0.02");
+  FakePrinter printer({.instead = [&](FakePrinter& p, std::size_t, const std::string& command) {
+    for (int i = 0; command == slow && i < 12; ++i) {
+      std::this_thread::sleep_for(100ms);
+      if (!chatter.empty()) p.say(chatter);
+    }
+    return false;
+  }});
+  auto lines = moves(30);
+  lines.insert(lines.begin() + 10, slow);
+  auto options = impatient();
+  options.silence = 100ms;
+  const Outcome outcome = stream(printer.path(), lines, options);
+  printer.stop();
+  CAPTURE(slow, chatter);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+}
+
+TEST_CASE("a printer that is dead is given up even during a slow command") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n == 5) p.fall_silent();
+    return n >= 5;
+  }});
+  auto lines = moves(30);
+  lines[4] = "G28";
+  auto options = impatient();
+  options.no_ok = 1000ms;
+  CHECK_THAT(stream(printer.path(), lines, options).error, Catch::Contains("silent"));
 }
 
 TEST_CASE("a cool-down ends every wait for heat, and lines without a number are not sent") {
