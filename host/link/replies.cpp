@@ -21,6 +21,13 @@ int damaged_oks(std::string_view text) {
   return count;
 }
 
+/// Whether an ok has run together with the report before it. Reports hold only labels and numbers.
+bool ends_in_ok(const Reply& reply, std::string_view line) {
+  return (std::holds_alternative<reply::TemperatureReport>(reply) ||
+          std::holds_alternative<reply::Position>(reply)) &&
+         line.find("ok") != std::string_view::npos;
+}
+
 bool is_plain_ok(const Reply& reply) {
   const auto* ok = std::get_if<reply::Ok>(&reply);
   return ok != nullptr && ok->temperatures.empty();
@@ -32,6 +39,7 @@ void LinkState::hear(std::string_view line) {
   const Reply reply = parse_reply(line);
   if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard, last_line = now();
   std::visit([this](const auto& what) { take(what); }, reply);
+  if (ends_in_ok(reply, line)) take(reply::Ok{});
   if (probing && std::holds_alternative<reply::Error>(reply)) return;  // the expected answer to a probe
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
     listener(core::printable(line));

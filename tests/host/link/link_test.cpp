@@ -164,6 +164,24 @@ TEST_CASE("lost and damaged oks do not stop the stream") {
   CHECK(outcome.statistics.acknowledged == lines.size());
 }
 
+TEST_CASE("an ok that is glued to a report counts") {
+  const auto report =
+      GENERATE(as<std::string>{}, "T:24.1 /0.0 B:23.9 /0.0 @:0", " T:24.1 /0.0 B:23.9 /0.0 @:0 ",
+               " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?", "X:1.00 Y:2.00 Z:3.00 E:0.00 Count X:80 ");
+  FakePrinter printer({.outwards = some_oks_replaced(report + "ok\n")});
+  const auto lines = moves(60);
+  auto options = impatient();
+  options.silence = 20000ms;  // without those oks, the test would take minutes
+  const auto begun = std::chrono::steady_clock::now();
+  const Outcome outcome = stream(printer.path(), lines, options);
+  printer.stop();
+  CAPTURE(report);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(outcome.statistics.probes == 0);
+  CHECK(std::chrono::steady_clock::now() - begun < 15s);
+}
+
 TEST_CASE("a resend may come twice, damaged or not at all") {
   const auto instead = GENERATE(as<std::string>{}, "Resend: 40\nok\nResend: 40\n", "Resend: 42\n",
                                 "Resend: 38\n", "Resend: 4000\n", "Rese\x01\x02: 40\n", "");
