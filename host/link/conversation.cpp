@@ -214,9 +214,13 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
   // Numbering restarts only after lines that are proven to be done.
   const auto used_up = [this] { return !holding && ledger.exhausted(); };
   const auto idle = [this] { return idle_words > 1; };
-  const std::function<bool()> due = [&] { return asked || stranger || unproven() || used_up() || idle(); };
+  Duration expected{};  // a firmware that turns out to report that it is busy shortens the wait
+  const std::function<bool()> due = [&] {
+    return asked || stranger || unproven() || used_up() || idle() || patience() != expected;
+  };
   try {
     for (;;) {
+      expected = patience();
       co_await until(due, std::min(stall_deadline(), ask_at));
       if (asked)
         co_await answer_resend();
@@ -233,7 +237,9 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
 }
 
 Duration LinkState::patience() const {
-  return identity.can("BUSY_PROTOCOL") ? std::min(options.keepalive, options.silence) : options.silence;
+  const bool reports =
+      identity.can("BUSY_PROTOCOL") || (heard_busy && identity.family == gcode::Family::marlin);
+  return reports ? std::min(options.keepalive, options.silence) : options.silence;
 }
 
 TimePoint LinkState::stall_deadline() const {

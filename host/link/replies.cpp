@@ -130,6 +130,7 @@ void LinkState::take(const reply::Start&) {
 /// A wait for a person can take any time.
 void LinkState::take(const reply::Busy& busy) {
   last_life = now();
+  heard_busy = true;
   waits_for_user = busy.for_user;
   if (busy.for_user) last_ok = now();
 }
