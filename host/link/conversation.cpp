@@ -13,6 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto boot_chatter = 500ms;    ///< Silence after which the firmware has finished booting.
+constexpr int longest_boot = 4;         ///< Multiple of LinkOptions::silence.
 constexpr auto ask_again = 1000ms;      ///< Interval of questions to a firmware that may still boot.
 constexpr auto longest_drain = 1000ms;  ///< Limit for printers that never fall silent.
 constexpr int number_attempts = 5;      ///< Attempts to set the line number, on a noisy line.
@@ -184,7 +185,7 @@ asio::awaitable<void> LinkState::ask_firmware() {
     write("\nM115\n");
     if (co_await until(answered, now() + std::min<Duration>(ask_again, options.silence))) break;
     if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name
-    const auto patient_until = std::max(started, last_life) + options.silence;
+    const auto patient_until = std::max(started, last_life) + options.silence * longest_boot;
     if (now() < std::min(patient_until, started + options.no_ok)) continue;
     give_up(lines_heard > lines_before
                 ? "the answer to M115 is not that of a printer; check the baud rate in its profile"

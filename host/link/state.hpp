@@ -165,6 +165,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
 
   std::uint64_t bytes_heard = 0;
   std::uint64_t oks = 0, refusals = 0, lines_heard = 0, waits_heard = 0;
+  bool about_heat = false;      ///< Whether the line that is being handled reports a temperature.
   bool heard_busy = false;      ///< Whether it has ever reported that it is busy.
   bool waits_for_user = false;  ///< According to the printer's last message.
   TimePoint last_ok = now();

@@ -182,6 +182,40 @@ TEST_CASE("an ok that is glued to a report counts") {
   CHECK(std::chrono::steady_clock::now() - begun < 15s);
 }
 
+TEST_CASE("a temperature that is not a number answers a question for it") {
+  std::size_t probed = 0;
+  // Without its last ok, the link asks with an M105 whether the printer has finished.
+  FakePrinter printer({.outwards = [&, n = 0](std::string line) mutable -> std::string {
+    if (line.starts_with("ok T:")) return ++probed, "ok T:nan /0.00 B:nan /0.00 @:0 B@:0\n";
+    return line == "ok\n" && ++n == 32 ? "" : line;
+  }});
+  const auto lines = moves(30);
+  const Outcome outcome = stream(printer.path(), lines);
+  printer.stop();
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(probed >= 1);
+  CHECK(outcome.statistics.probes == 1);
+}
+
+TEST_CASE("a board may take several times the deadline of silence to boot, with or without a word") {
+  const auto word = GENERATE(as<std::string>{}, "", "echo: probe self-test");
+  const auto awake = std::chrono::steady_clock::now() + 1500ms;
+  auto options = impatient();
+  options.silence = 500ms;
+  FakePrinter printer(
+      {.inwards =
+           [&](std::string line) { return std::chrono::steady_clock::now() < awake ? std::string() : line; },
+       .on_tick =
+           [&](FakePrinter& p) {
+             if (!word.empty() && std::chrono::steady_clock::now() < awake) p.reply(word);
+           },
+       .boots = false});
+  CHECK(stream(printer.path(), {"G28"}, options).error.empty());
+  printer.stop();
+  CHECK(printer.executed() == std::vector<std::string>{"G28"});
+}
+
 TEST_CASE("a resend may come twice, damaged or not at all") {
   const auto instead = GENERATE(as<std::string>{}, "Resend: 40\nok\nResend: 40\n", "Resend: 42\n",
                                 "Resend: 38\n", "Resend: 4000\n", "Rese\x01\x02: 40\n", "");
