@@ -13,10 +13,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto boot_chatter = 500ms;    ///< Silence after which the firmware has finished booting.
+constexpr int longest_boot = 4;         ///< Multiple of LinkOptions::silence.
 constexpr auto ask_again = 1000ms;      ///< Interval of questions to a firmware that may still boot.
 constexpr auto longest_drain = 1000ms;  ///< Limit for printers that never fall silent.
 constexpr int number_attempts = 5;      ///< Attempts to set the line number, on a noisy line.
 constexpr int probe_attempts = 4;       ///< Each waits for LinkOptions::silence.
+constexpr int longer_probe = 4;         ///< Multiple of that time, in later attempts during a slow command.
 constexpr int find_attempts = 2;        ///< When rejoining; each waits for LinkOptions::silence.
 constexpr int most_asks = 20;           ///< Repetitions of a question if refusals come in between.
 constexpr int most_resends = 50;        ///< Resends in a row without progress.
@@ -183,7 +185,7 @@ asio::awaitable<void> LinkState::ask_firmware() {
     write("\nM115\n");
     if (co_await until(answered, now() + std::min<Duration>(ask_again, options.silence))) break;
     if (oks > 0 && asked_times >= 3) break;  // it understands, but has no name
-    const auto patient_until = std::max(started, last_life) + options.silence;
+    const auto patient_until = std::max(started, last_life) + options.silence * longest_boot;
     if (now() < std::min(patient_until, started + options.no_ok)) continue;
     give_up(lines_heard > lines_before
                 ? "the answer to M115 is not that of a printer; check the baud rate in its profile"
@@ -213,9 +215,13 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
   // Numbering restarts only after lines that are proven to be done.
   const auto used_up = [this] { return !holding && ledger.exhausted(); };
   const auto idle = [this] { return idle_words > 1; };
-  const std::function<bool()> due = [&] { return asked || stranger || unproven() || used_up() || idle(); };
+  Duration expected{};  // a firmware that turns out to report that it is busy shortens the wait
+  const std::function<bool()> due = [&] {
+    return asked || stranger || unproven() || used_up() || idle() || patience() != expected;
+  };
   try {
     for (;;) {
+      expected = patience();
       co_await until(due, std::min(stall_deadline(), ask_at));
       if (asked)
         co_await answer_resend();
@@ -232,7 +238,9 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
 }
 
 Duration LinkState::patience() const {
-  return identity.can("BUSY_PROTOCOL") ? std::min(options.keepalive, options.silence) : options.silence;
+  const bool reports =
+      identity.can("BUSY_PROTOCOL") || (heard_busy && identity.family == gcode::Family::marlin);
+  return reports ? std::min(options.keepalive, options.silence) : options.silence;
 }
 
 TimePoint LinkState::stall_deadline() const {
@@ -312,8 +320,8 @@ asio::awaitable<void> LinkState::resynchronise() {
   const auto waiting_since = ledger.in_flight() ? last_ok : now();
   holding = true;
   co_await quiet(options.quiet);
-  for (int attempt = 0; attempt < probe_attempts; ++attempt) {
-    if (!co_await probe()) continue;
+  for (int attempt = 0; attempt < probe_attempts || still_at_work(); ++attempt) {
+    if (!co_await probe(options.silence * (attempt < probe_attempts ? 1 : longer_probe))) continue;
     co_await quiet(options.quiet);
     probing = false;
     resume_from(*asked, true);
@@ -328,7 +336,14 @@ asio::awaitable<void> LinkState::resynchronise() {
               : "the printer has fallen silent; check its power and the cable");
 }
 
-asio::awaitable<bool> LinkState::probe() {
+/// A Marlin says ok when a slow command is done, others perhaps when it is queued.
+bool LinkState::still_at_work() const {
+  const bool slow = identity.family == gcode::Family::marlin ? ledger.slow_in_flight()
+                                                             : ledger.in_flight() && ledger.slow();
+  return slow && !stranger && now() < std::min(last_line + options.no_ok, ok_deadline());
+}
+
+asio::awaitable<bool> LinkState::probe(Duration patience) {
   ++statistics.probes;
   probing = true;
   doubt = false;
@@ -339,8 +354,8 @@ asio::awaitable<bool> LinkState::probe() {
   const std::function<bool()> answered = [this] { return asked || stranger; };
   last_life = now();
   // A printer whose command queue is full reads nothing, but reports that it is busy.
-  while (!answered() && now() < std::min(last_life + options.silence, ok_deadline())) {
-    co_await until(answered, std::min(last_life + options.silence, ok_deadline()));
+  while (!answered() && now() < std::min(last_life + patience, ok_deadline())) {
+    co_await until(answered, std::min(last_life + patience, ok_deadline()));
   }
   co_return asked.has_value();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <iterator>
 
@@ -19,12 +20,13 @@ bool is_query(std::string_view command) {
   return command == "M105" || command.starts_with("M105 ");
 }
 
+/// Heating, homing, probing, calibrating, dwelling, cleaning, and waiting for a person or for filament.
 bool is_slow(std::string_view command) {
-  const std::string_view word = command.substr(0, command.find(' '));
-  for (const char* slow : {"M109", "M190", "G28", "G4", "M0", "M1"}) {
-    if (word == slow) return true;
-  }
-  return false;
+  constexpr std::array slow{"G4",   "G12",  "G28",  "G29",  "G30",  "G32",  "G33",  "G34",  "G35",
+                            "G76",  "G80",  "G425", "M0",   "M1",   "M48",  "M109", "M116", "M125",
+                            "M190", "M191", "M192", "M226", "M303", "M306", "M600", "M701", "M702"};
+  const auto behind_number = command.find_first_not_of("0123456789", 1);
+  return std::find(slow.begin(), slow.end(), command.substr(0, behind_number)) != slow.end();
 }
 
 }  // namespace
@@ -109,8 +111,16 @@ std::optional<std::uint32_t> Ledger::locate(std::uint32_t number) const {
 }
 
 bool Ledger::slow() const {
-  const auto sent = lines_.begin() + static_cast<std::ptrdiff_t>(next_ - base_);
-  return std::any_of(lines_.begin(), sent, [](const Line& line) { return line.slow; });
+  return slow_since(base_);
+}
+
+bool Ledger::slow_in_flight() const {
+  return in_flight() && slow_since(front_);
+}
+
+bool Ledger::slow_since(std::uint32_t number) const {
+  const auto at = [this](std::uint32_t n) { return lines_.begin() + static_cast<std::ptrdiff_t>(n - base_); };
+  return std::any_of(at(number), at(next_), [](const Line& line) { return line.slow; });
 }
 
 void Ledger::rewind(std::uint32_t number) {

@@ -70,6 +70,8 @@ class Ledger {
   /// Whether one of the lines sent recently may keep the firmware busy for long: heating, homing, a pause.
   /// Acknowledged lines count as well, since some firmwares say ok when a command is queued.
   bool slow() const;
+  /// The same without the acknowledged lines.
+  bool slow_in_flight() const;
   /// Drops the lines without a number; returns how many.
   std::size_t forget_waiting() { return std::exchange(waiting_, {}).size(); }
   /// Whether the oldest line in flight is a fence: plain oks are then late ones of earlier lines.
@@ -92,6 +94,7 @@ class Ledger {
   std::uint32_t end() const { return base_ + static_cast<std::uint32_t>(lines_.size()); }
   Line& line(std::uint32_t number) { return lines_[number - base_]; }
   const Line& line(std::uint32_t number) const { return lines_[number - base_]; }
+  bool slow_since(std::uint32_t number) const;
   void number(std::string_view command, bool fence);
   void advance(std::uint32_t front);
   void leave_buffer(std::uint32_t front);

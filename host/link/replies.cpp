@@ -21,6 +21,18 @@ int damaged_oks(std::string_view text) {
   return count;
 }
 
+/// Whether a line reports a temperature, even one that is not a number ("ok T:nan /0.0 B:23.9 /0.0").
+bool mentions_heat(std::string_view line) {
+  return line.find("T:") != std::string_view::npos || line.find("B:") != std::string_view::npos;
+}
+
+/// Whether an ok has run together with the report before it. Reports hold only labels and numbers.
+bool ends_in_ok(const Reply& reply, std::string_view line) {
+  return (std::holds_alternative<reply::TemperatureReport>(reply) ||
+          std::holds_alternative<reply::Position>(reply)) &&
+         line.find("ok") != std::string_view::npos;
+}
+
 bool is_plain_ok(const Reply& reply) {
   const auto* ok = std::get_if<reply::Ok>(&reply);
   return ok != nullptr && ok->temperatures.empty();
@@ -30,8 +42,10 @@ bool is_plain_ok(const Reply& reply) {
 
 void LinkState::hear(std::string_view line) {
   const Reply reply = parse_reply(line);
-  if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard;
+  about_heat = mentions_heat(line);
+  if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard, last_line = now();
   std::visit([this](const auto& what) { take(what); }, reply);
+  if (ends_in_ok(reply, line)) about_heat = false, take(reply::Ok{});
   if (probing && std::holds_alternative<reply::Error>(reply)) return;  // the expected answer to a probe
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
     listener(core::printable(line));
@@ -52,7 +66,7 @@ void LinkState::take(const reply::Ok& ok) {
   bool expected;
   if (ok.line)
     expected = ledger.acknowledge_number(*ok.line, queued);
-  else if (!ok.temperatures.empty() && ledger.acknowledge_query())
+  else if (about_heat && ledger.acknowledge_query())
     expected = true;
   else
     expected = ledger.acknowledge() || ledger.at_fence();
@@ -122,6 +136,7 @@ void LinkState::take(const reply::Start&) {
 /// A wait for a person can take any time.
 void LinkState::take(const reply::Busy& busy) {
   last_life = now();
+  heard_busy = true;
   waits_for_user = busy.for_user;
   if (busy.for_user) last_ok = now();
 }

@@ -20,9 +20,12 @@
 // - "ok N7 P3 B1" (ADVANCED_OK) reveals how many commands wait in the queue after line 7. They have left the
 //   receive buffer, so others may follow. Lines that were sent out of band would be counted with them; from
 //   then on the link does not use this.
-// - A Marlin with Cap:BUSY_PROTOCOL is never silent for more than 2 s while it works, and an idle Repetier
-// says
-//   "wait": both reveal a lost ok long before the deadline for other printers.
+// - A Marlin that reports that it is busy is never silent for more than 2 s while it works, and an idle
+//   Repetier says "wait": both reveal a lost ok long before the deadline for other printers. A stock Marlin
+//   does not list Cap:BUSY_PROTOCOL; the link learns it from the first such report, which homing brings.
+// - During a slow command (heating, probing the bed) a printer may be silent for minutes, or say only things
+//   like "Bed X: 10 Y: 10 Z: 0.1". It reads nothing meanwhile. The link probes, too, since the ok may be
+//   lost, but goes on waiting: the answer comes when the command is done.
 // - Temperatures: the link uses M155 if the firmware has it, since M105 waits behind every move; otherwise a
 //   numbered M105, which shifts the numbers of the lines after it.
 #pragma once
@@ -98,7 +101,9 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   void insert_query();
   asio::awaitable<void> answer_resend();
   asio::awaitable<void> resynchronise();
-  asio::awaitable<bool> probe();
+  asio::awaitable<bool> probe(Duration patience);
+  /// Whether a slow command may still explain that the printer does not answer.
+  bool still_at_work() const;
   void resume_from(std::uint32_t number, bool with_fence);
   /// Waits until no byte has arrived for `pause`, but at most about a second longer.
   asio::awaitable<void> quiet(Duration pause);
@@ -160,9 +165,12 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
 
   std::uint64_t bytes_heard = 0;
   std::uint64_t oks = 0, refusals = 0, lines_heard = 0, waits_heard = 0;
+  bool about_heat = false;      ///< Whether the line that is being handled reports a temperature.
+  bool heard_busy = false;      ///< Whether it has ever reported that it is busy.
   bool waits_for_user = false;  ///< According to the printer's last message.
   TimePoint last_ok = now();
   TimePoint last_life = now();  ///< Time of the last ok or busy.
+  TimePoint last_line = now();  ///< Time of the last line of any kind.
 };
 
 }  // namespace unicursal::host

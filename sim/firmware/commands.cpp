@@ -352,9 +352,45 @@ void Firmware::say_position() {
 void Firmware::report_firmware(const Command&) {
   say("FIRMWARE_NAME:Marlin 2.1.2 (simulated) SOURCE_CODE_URL:none PROTOCOL_VERSION:1.0 "
       "MACHINE_TYPE:unicursal simulator EXTRUDER_COUNT:1 UUID:00000000-0000-0000-0000-000000000000");
-  for (const char* line : {"Cap:SERIAL_XON_XOFF:0", "Cap:EEPROM:0", "Cap:AUTOREPORT_TEMP:1", "Cap:PROGRESS:0",
-                           "Cap:EMERGENCY_PARSER:0", "Cap:HOST_ACTION_COMMANDS:1", "Cap:BUSY_PROTOCOL:1"}) {
-    say(line);
+  // As a stock Marlin 2.1.2 lists them. BUSY_PROTOCOL is not among them.
+  constexpr std::array can{"AUTOREPORT_TEMP", "PRINT_JOB", "HOST_ACTION_COMMANDS", "THERMAL_PROTECTION"};
+  for (const char* name : {"SERIAL_XON_XOFF",
+                           "BINARY_FILE_TRANSFER",
+                           "EEPROM",
+                           "VOLUMETRIC",
+                           "AUTOREPORT_POS",
+                           "AUTOREPORT_TEMP",
+                           "PROGRESS",
+                           "PRINT_JOB",
+                           "AUTOLEVEL",
+                           "RUNOUT",
+                           "Z_PROBE",
+                           "LEVELING_DATA",
+                           "BUILD_PERCENT",
+                           "SOFTWARE_POWER",
+                           "TOGGLE_LIGHTS",
+                           "CASE_LIGHT_BRIGHTNESS",
+                           "EMERGENCY_PARSER",
+                           "HOST_ACTION_COMMANDS",
+                           "PROMPT_SUPPORT",
+                           "SDCARD",
+                           "REPEAT",
+                           "SD_WRITE",
+                           "AUTOREPORT_SD_STATUS",
+                           "LONG_FILENAME",
+                           "LFN_WRITE",
+                           "CUSTOM_FIRMWARE_UPLOAD",
+                           "EXTENDED_M20",
+                           "THERMAL_PROTECTION",
+                           "MOTION_MODES",
+                           "ARCS",
+                           "BABYSTEPPING",
+                           "CHAMBER_TEMPERATURE",
+                           "COOLER_TEMPERATURE",
+                           "MEATPACK",
+                           "CONFIG_EXPORT"}) {
+    const bool on = std::find(can.begin(), can.end(), std::string_view(name)) != can.end();
+    say(fmt::format("Cap:{}:{}", name, on ? 1 : 0));
   }
 }
 

@@ -20,7 +20,7 @@ constexpr double no_thermistor = -15;  // °C: the reading of an open input
 HeaterModel HeaterModel::bed() {
   HeaterModel model{175, 300, 140};
   model.sensor_lag = 5;
-  model.gain = 0.1;
+  model.gain = 0.4;  // holds it within the runaway margin before the integral has grown
   model.integral_time = 60;
   model.watch_period = 60;
   model.runaway_period = 20;
@@ -62,10 +62,13 @@ void Heater::set_power(double now, int power) {
 }
 
 void Heater::set_target(double now, double target) {
-  target_ = std::clamp(target, 0.0, model_.highest_target);
-  reached_ = false;
-  behind_since_.reset();
-  integral_ = 0;
+  target = std::clamp(target, 0.0, model_.highest_target);
+  if (target != target_) {
+    reached_ = false;
+    behind_since_.reset();
+    integral_ = 0;
+  }
+  target_ = target;
   start_watch(now);
   set_power(now, wanted(temperature(now)));
   tick_at_ = now + period;

@@ -162,6 +162,11 @@ void FakePrinter::reply(std::string_view line) {
   output_ += behaviour_.outwards ? behaviour_.outwards(text) : text;
 }
 
+void FakePrinter::say(std::string_view line) {
+  reply(line);
+  flush();
+}
+
 void FakePrinter::flush() {
   while (!output_.empty() && master_ >= 0) {
     const auto count = ::write(master_, output_.data(), output_.size());

@@ -44,6 +44,8 @@ class FakePrinter {
 
   // For `instead`, which runs in the printer's thread.
   void reply(std::string_view line);
+  /// Like reply(), at once, although the command is not finished.
+  void say(std::string_view line);
   void fall_silent() { silent_ = true; }
   void forget_numbers(long last = 0) { last_ = last; }
   void hang_up();

@@ -159,6 +159,16 @@ TEST_CASE("facts: a working printer is not disturbed, however long it takes") {
   }
 }
 
+TEST_CASE("facts: a slow command may be silent for minutes") {
+  const std::string who = GENERATE(from_range(personalities));
+  VirtualPrinter printer({"--personality", who, "--fault", "stall:300@command=G28"});
+  std::vector<std::string> lines = moves(80);
+  lines.insert(lines.begin() + 20, "G28");
+  const Talk talk = printer.print(lines);
+  INFO(who);
+  check_all_executed(printer, talk, lines);
+}
+
 TEST_CASE("facts: damage of every kind is repaired, at rest and at work") {
   const std::string who = GENERATE(from_range(personalities));
   // The byte after the line of this number is damaged; at work the lines in flight wait behind a dwell.
@@ -317,10 +327,11 @@ TEST_CASE("facts: host actions are passed on") {
 TEST_CASE("facts: a lost last ok is detected within seconds, from other messages of the printer") {
   for (const std::string& who : personalities) {
     VirtualPrinter printer({"--personality", who, "--fault", "lostok@line=50"});
-    const auto lines = moves(50);
+    auto lines = moves(49);
+    lines.insert(lines.begin(), "G4 S3");  // long enough for a report that it is busy
     const Talk talk = printer.print(lines);
     INFO(who);
-    CHECK(talk.seconds < 6);
+    CHECK(talk.seconds < 3 + 6);
     CHECK(talk.statistics.probes >= 1);
     check_all_executed(printer, talk, lines);
   }

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <functional>
 #include <random>
+#include <thread>
 
 #include "fake_printer.hpp"
 
@@ -161,6 +162,58 @@ TEST_CASE("lost and damaged oks do not stop the stream") {
   CHECK(outcome.error.empty());
   CHECK((printer.executed() == lines));
   CHECK(outcome.statistics.acknowledged == lines.size());
+}
+
+TEST_CASE("an ok that is glued to a report counts") {
+  const auto report =
+      GENERATE(as<std::string>{}, "T:24.1 /0.0 B:23.9 /0.0 @:0", " T:24.1 /0.0 B:23.9 /0.0 @:0 ",
+               " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?", "X:1.00 Y:2.00 Z:3.00 E:0.00 Count X:80 ");
+  FakePrinter printer({.outwards = some_oks_replaced(report + "ok\n")});
+  const auto lines = moves(60);
+  auto options = impatient();
+  options.silence = 20000ms;  // without those oks, the test would take minutes
+  const auto begun = std::chrono::steady_clock::now();
+  const Outcome outcome = stream(printer.path(), lines, options);
+  printer.stop();
+  CAPTURE(report);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(outcome.statistics.probes == 0);
+  CHECK(std::chrono::steady_clock::now() - begun < 15s);
+}
+
+TEST_CASE("a temperature that is not a number answers a question for it") {
+  std::size_t probed = 0;
+  // Without its last ok, the link asks with an M105 whether the printer has finished.
+  FakePrinter printer({.outwards = [&, n = 0](std::string line) mutable -> std::string {
+    if (line.starts_with("ok T:")) return ++probed, "ok T:nan /0.00 B:nan /0.00 @:0 B@:0\n";
+    return line == "ok\n" && ++n == 32 ? "" : line;
+  }});
+  const auto lines = moves(30);
+  const Outcome outcome = stream(printer.path(), lines);
+  printer.stop();
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+  CHECK(probed >= 1);
+  CHECK(outcome.statistics.probes == 1);
+}
+
+TEST_CASE("a board may take several times the deadline of silence to boot, with or without a word") {
+  const auto word = GENERATE(as<std::string>{}, "", "echo: probe self-test");
+  const auto awake = std::chrono::steady_clock::now() + 1500ms;
+  auto options = impatient();
+  options.silence = 500ms;
+  FakePrinter printer(
+      {.inwards =
+           [&](std::string line) { return std::chrono::steady_clock::now() < awake ? std::string() : line; },
+       .on_tick =
+           [&](FakePrinter& p) {
+             if (!word.empty() && std::chrono::steady_clock::now() < awake) p.reply(word);
+           },
+       .boots = false});
+  CHECK(stream(printer.path(), {"G28"}, options).error.empty());
+  printer.stop();
+  CHECK(printer.executed() == std::vector<std::string>{"G28"});
 }
 
 TEST_CASE("a resend may come twice, damaged or not at all") {
@@ -380,6 +433,41 @@ TEST_CASE("heating may take longer than any other command") {
              p.reply(ticks < 12 ? " T:24.1 /210.0 B:23.9 /60.0 @:127 W:?" : "ok");
            }});
   CHECK(stream(printer.path(), {"M109 S210"}, options).error.empty());
+}
+
+TEST_CASE("a slow command may be silent, or say anything, for many times the deadline of silence") {
+  const auto slow =
+      GENERATE(as<std::string>{}, "M190 S60", "G29", "G34", "M48 P10", "M303 E0 S200 C8", "M600", "G28X");
+  const auto chatter = GENERATE(as<std::string>{}, "", "Bed X: 10.000 Y: 20.000 Z: 0.123",
+                                "T:24.10 E:0 B:40.1", "Mean: 0.01 Min: 0.0 Max: 0.02 Range: 0.02");
+  FakePrinter printer({.instead = [&](FakePrinter& p, std::size_t, const std::string& command) {
+    for (int i = 0; command == slow && i < 12; ++i) {
+      std::this_thread::sleep_for(100ms);
+      if (!chatter.empty()) p.say(chatter);
+    }
+    return false;
+  }});
+  auto lines = moves(30);
+  lines.insert(lines.begin() + 10, slow);
+  auto options = impatient();
+  options.silence = 100ms;
+  const Outcome outcome = stream(printer.path(), lines, options);
+  printer.stop();
+  CAPTURE(slow, chatter);
+  CHECK(outcome.error.empty());
+  CHECK((printer.executed() == lines));
+}
+
+TEST_CASE("a printer that is dead is given up even during a slow command") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
+    if (n == 5) p.fall_silent();
+    return n >= 5;
+  }});
+  auto lines = moves(30);
+  lines[4] = "G28";
+  auto options = impatient();
+  options.no_ok = 1000ms;
+  CHECK_THAT(stream(printer.path(), lines, options).error, Catch::Contains("silent"));
 }
 
 TEST_CASE("a cool-down ends every wait for heat, and lines without a number are not sent") {

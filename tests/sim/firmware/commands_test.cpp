@@ -205,6 +205,8 @@ TEST_CASE("M115 reports the firmware and its capabilities") {
   const Replies replies = bench.send("M115");
   CHECK(replies.front().starts_with("FIRMWARE_NAME:Marlin 2.1.2"));
   CHECK(std::find(replies.begin(), replies.end(), "Cap:AUTOREPORT_TEMP:1") != replies.end());
+  CHECK(replies.size() == 1 + 35 + 1);
+  for (const std::string& reply : replies) CHECK(reply.find("BUSY_PROTOCOL") == std::string::npos);
   CHECK(replies.back() == "ok");
 }
 

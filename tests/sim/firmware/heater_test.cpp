@@ -130,3 +130,24 @@ TEST_CASE("a working heater raises no alarm through a day of changes") {
     CHECK_FALSE(run(heater, now, now + 10000));
   }
 }
+
+TEST_CASE("a working heater raises no alarm, however near to its new target it starts") {
+  const auto [model, highest] =
+      GENERATE(table<HeaterModel, double>({{HeaterModel{}, 260.0}, {HeaterModel::bed(), 110.0}}));
+  for (double target = 40; target <= highest; target += 10) {
+    for (double away = -12; away <= 12; away += 0.5) {
+      Heater heater(model);
+      double now = 0;
+      // It cools after a reset of the board, for a time that depends on the host, and is heated again.
+      heater.set_target(now, std::min(target + away, highest));
+      REQUIRE_FALSE(run(heater, now, 2000));
+      heater.reset(now);
+      now += 1;
+      heater.set_target(now, target);
+      CAPTURE(target, away);
+      CHECK_FALSE(run(heater, now, now + 600));
+      heater.set_target(now, target);  // the same target again, as each resumed print sends it
+      CHECK_FALSE(run(heater, now, now + 600));
+    }
+  }
+}
