@@ -12,16 +12,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto boot_chatter = 500ms;    ///< Silence after which the firmware has finished booting.
-constexpr int longest_boot = 4;         ///< Multiple of LinkOptions::silence.
-constexpr auto ask_again = 1000ms;      ///< Interval of questions to a firmware that may still boot.
-constexpr auto longest_drain = 1000ms;  ///< Limit for printers that never fall silent.
-constexpr int number_attempts = 5;      ///< Attempts to set the line number, on a noisy line.
-constexpr int probe_attempts = 4;       ///< Each waits for LinkOptions::silence.
-constexpr int longer_probe = 4;         ///< Multiple of that time, in later attempts during a slow command.
-constexpr int find_attempts = 2;        ///< When rejoining; each waits for LinkOptions::silence.
-constexpr int most_asks = 20;           ///< Repetitions of a question if refusals come in between.
-constexpr int most_resends = 50;        ///< Resends in a row without progress.
+constexpr auto boot_chatter = 500ms;  ///< Silence after which the firmware has finished booting.
+constexpr int most_losses = 8;        ///< Within `losses_within` lines; more halve the window.
+constexpr std::uint64_t losses_within = 200;
+constexpr std::size_t least_window = 64;  ///< Bytes.
+constexpr int longest_boot = 4;           ///< Multiple of LinkOptions::silence.
+constexpr auto ask_again = 1000ms;        ///< Interval of questions to a firmware that may still boot.
+constexpr auto longest_drain = 1000ms;    ///< Limit for printers that never fall silent.
+constexpr int number_attempts = 5;        ///< Attempts to set the line number, on a noisy line.
+constexpr int probe_attempts = 4;         ///< Each waits for LinkOptions::silence.
+constexpr int longer_probe = 4;           ///< Multiple of that time, in later attempts during a slow command.
+constexpr int find_attempts = 2;          ///< When rejoining; each waits for LinkOptions::silence.
+constexpr int most_asks = 20;             ///< Repetitions of a question if refusals come in between.
+constexpr int most_resends = 50;          ///< Resends in a row without progress.
 constexpr auto finishes_nothing =
     "the printer is alive, but has not finished a command for a very long time; look at it, then start again";
 constexpr std::uint32_t probe_distance = 1000;  ///< Distance of a probe's number from any possible number.
@@ -300,7 +303,23 @@ asio::awaitable<void> LinkState::answer_resend() {
   resume_from(*asked, false);
 }
 
+/// A receive buffer that is smaller than the profile says loses lines all the time. Each loss is repaired,
+/// but some damage has a matching checksum.
+void LinkState::note_loss() {
+  if (ledger.acknowledged() > losses_since + losses_within) losses = 0, losses_since = ledger.acknowledged();
+  if (++losses < most_losses || ledger.window() / 2 < least_window - 1) return;
+  losses = 0;
+  ledger.halve_window();
+  if (!listener) return;
+  listener(
+      fmt::format("warning: the printer loses what is sent to it; from now on at most {} bytes are sent "
+                  "ahead; if the cable "
+                  "is sound, write receive_buffer = {} into the profile",
+                  ledger.window(), ledger.window() + 1));
+}
+
 void LinkState::resume_from(std::uint32_t number, bool with_fence) {
+  if (number < ledger.next()) note_loss();
   ledger.rewind(number);
   if (with_fence) insert_query();
   statistics.acknowledged = ledger.acknowledged();

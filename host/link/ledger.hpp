@@ -66,6 +66,10 @@ class Ledger {
   /// The firmware counts from 1 again. Precondition: nothing is in flight.
   void restart();
 
+  /// The number of bytes that may be in flight.
+  std::size_t window() const { return window_; }
+  void halve_window() { window_ /= 2; }
+
   bool in_flight() const { return front_ < next_; }
   /// Whether one of the lines sent recently may keep the firmware busy for long: heating, homing, a pause.
   /// Acknowledged lines count as well, since some firmwares say ok when a command is queued.

@@ -41,6 +41,7 @@ bool is_plain_ok(const Reply& reply) {
 }  // namespace
 
 void LinkState::hear(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);  // Repetier ends lines with both
   const Reply reply = parse_reply(line);
   about_heat = mentions_heat(line);
   if (!std::holds_alternative<reply::Blank>(reply)) ++lines_heard, last_line = now();

@@ -104,6 +104,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   asio::awaitable<bool> probe(Duration patience);
   /// Whether a slow command may still explain that the printer does not answer.
   bool still_at_work() const;
+  void note_loss();
   void resume_from(std::uint32_t number, bool with_fence);
   /// Waits until no byte has arrived for `pause`, but at most about a second longer.
   asio::awaitable<void> quiet(Duration pause);
@@ -161,6 +162,8 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   std::optional<std::uint32_t> stranger;  ///< A line that it asks for and that is no longer kept.
   int fruitless_resends = 0;              ///< Resends since the last progress.
   std::uint64_t best_acknowledged = 0;
+  int losses = 0;                  ///< Times that the printer lost lines since `losses_since`.
+  std::uint64_t losses_since = 0;  ///< Acknowledged lines at that time.
   std::string last_error;
 
   std::uint64_t bytes_heard = 0;

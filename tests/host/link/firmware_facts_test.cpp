@@ -262,6 +262,19 @@ TEST_CASE(
   CHECK(printer.report()["lines"]["lost_bytes"] > 0);
 }
 
+TEST_CASE("facts: a window that is too large is halved until the printer loses nothing more") {
+  const std::string who = GENERATE(from_range(personalities));
+  LinkOptions options;
+  options.receive_buffer = 1023;
+  VirtualPrinter printer({"--baud", "4000000", "--personality", who});
+  const auto lines = moves(20000);
+  const Talk talk = printer.print(lines, options);
+  INFO(who);
+  CHECK(talk.statistics.resends + talk.statistics.probes < 60);
+  CHECK(holds(talk.messages, "write receive_buffer = 1"));
+  check_all_executed(printer, talk, lines);
+}
+
 TEST_CASE("facts: refusals are reported") {
   VirtualPrinter printer;
   const Talk talk = printer.print({"M83", "G1 X10 E1 F600"});

@@ -384,6 +384,16 @@ TEST_CASE("hostile text is made safe before it is shown") {
   }
 }
 
+TEST_CASE("a carriage return at the end of a line is not shown") {
+  FakePrinter printer({.instead = [](FakePrinter& p, std::size_t, const std::string&) {
+    p.reply("Error:the filament is tangled\r");
+    return false;
+  }});
+  const Outcome outcome = stream(printer.path(), {"G28"});
+  CHECK(std::find(outcome.messages.begin(), outcome.messages.end(), "Error:the filament is tangled") !=
+        outcome.messages.end());
+}
+
 TEST_CASE("the message about a port that cannot be opened names the remedy") {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("unicursal-no-port-{}", ::getpid());
   std::ofstream(file) << "text";
