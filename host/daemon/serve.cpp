@@ -4,12 +4,12 @@
 
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
-#include <csignal>
 
 #include "host/daemon/api.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/http/http_server.hpp"
+#include "host/loop/print_signals.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -41,7 +41,8 @@ class Service {
         daemon_(loop_, options.daemon),
         api_(daemon_),
         server_(loop_, checked_endpoint(options), api_),
-        signals_(loop_, SIGINT, SIGTERM),
+        signals_(loop_),
+        signal_rules_(signals_),
         watchdog_(loop_) {
     const auto at = server_.endpoint();
     AccessRules rules;
@@ -65,8 +66,9 @@ class Service {
 
  private:
   void await_signal() {
-    signals_.async_wait([this](const asio::error_code& error, int) {
+    signals_.async_wait([this](const asio::error_code& error, int signal) {
       if (error) return;
+      if (stopping_ && !PrintSignals::counts_again(signal)) return await_signal();
       notify_service(fmt::format("STOPPING=1\nSTATUS=parking and cooling\nEXTEND_TIMEOUT_USEC={}",
                                  parking_time.count()));
       stopping_ = true;

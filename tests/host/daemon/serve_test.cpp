@@ -208,14 +208,19 @@ TEST_CASE("an upload does not change under a print") {
   CHECK(bench.status(bench.request("PUT", "/api/files/ow/own.toml", test::sample_job)) == 201);
 }
 
-TEST_CASE("SIGTERM parks and cools the print before the daemon ends") {
+TEST_CASE("SIGTERM, SIGHUP and SIGQUIT park and cool the print before the daemon ends") {
+  const int signal = GENERATE(SIGTERM, SIGHUP, SIGQUIT);
+  CAPTURE(signal);
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
   const int id = add(bench, "0:99");
   REQUIRE(bench.command({"start"}).code == 0);
   bench.await_laying();
-  kill(bench.daemon().id(), SIGTERM);
+  for (const int idle : {SIGUSR1, SIGUSR2, SIGTSTP, SIGALRM}) kill(bench.daemon().id(), idle);
+  CHECK(bench.print_state() == "printing");
+  kill(bench.daemon().id(), signal);
+  if (signal == SIGHUP) kill(bench.daemon().id(), signal);  // as a closed terminal does
   CHECK(bench.daemon().wait().code == 0);
   const std::string lines = bench.transcript();
   CHECK(last(lines, "M104 S0") > last(lines, "G1 "));
