@@ -1,14 +1,15 @@
 #include "host/daemon/job_files.hpp"
 
-#include <fmt/format.h>
-
-#include <toml++/toml.h>
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "core/text/printable.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/files/whole_file.hpp"
+#include "host/job/job_error.hpp"
+#include "host/job/parse_toml.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -64,10 +65,12 @@ void check_uploaded_job(const fs::path& file) {
   if (fs::file_size(file, error) > largest_job || error)
     throw Refused(Why::bad_job, "the job's text is too long to be one");
   try {
-    check_texts(toml::parse_file(file.string()));
-  } catch (const toml::parse_error& wrong) {
-    throw Refused(Why::bad_job, fmt::format("{}: line {}: is not TOML: {}", file.filename().string(),
-                                            wrong.source().begin.line, wrong.description()));
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    check_texts(parse_toml(text.str(), file.filename()));
+  } catch (const JobError& wrong) {
+    throw Refused(Why::bad_job, wrong.what());
   }
 }
 

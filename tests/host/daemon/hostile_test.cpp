@@ -49,6 +49,14 @@ TEST_CASE("hostile requests are refused, and the daemon continues to serve") {
     CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"secret.toml\"}")) == 404);
     CHECK_FALSE(std::filesystem::exists(bench.path("state/files")));
   }
+  SECTION("whose job would use up the stack") {
+    std::string deep = "a";
+    for (int dot = 0; dot < 500000; ++dot) deep += ".a";
+    CHECK(bench.status(bench.request("PUT", "/api/files/deep/a.toml", deep + " = 1\n")) == 201);
+    CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"upload:deep/a.toml\"}")) == 422);
+    bench.folder().write("jobs/deep.toml", deep + " = 1\n");
+    CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"deep.toml\"}")) == 422);
+  }
   SECTION("too large") {
     CHECK(bench.status("POST /api/jobs HTTP/1.1\r\n" + host + "Authorization: Bearer " + bench.token() +
                        "\r\nContent-Length: 99999999999\r\n\r\n") == 413);
