@@ -19,6 +19,8 @@ using namespace std::chrono_literals;
 /// Time by which systemd is repeatedly asked to extend its limit while the printer parks and cools.
 constexpr std::chrono::microseconds parking_time = 60s;
 
+constexpr auto farewell = 300ms;  ///< for clients to close at the daemon's end
+
 asio::ip::tcp::endpoint checked_endpoint(const ServeOptions& options) {
   const auto at = parse_endpoint(options.listen);
   if (options.no_token && !at.address().is_loopback()) {
@@ -62,6 +64,10 @@ class Service {
     notify_service("READY=1\nSTATUS=idle");
     ready(address_);
     loop_.run();
+    // The clients of event streams still get their close frames.
+    loop_.restart();
+    const auto end = std::chrono::steady_clock::now() + farewell;
+    while (!server_.deserted() && std::chrono::steady_clock::now() < end) loop_.run_one_for(farewell / 10);
   }
 
  private:
@@ -102,6 +108,7 @@ class Service {
   Api api_;
   HttpServer server_;
   asio::signal_set signals_;
+  const PrintSignals signal_rules_;
   asio::steady_timer watchdog_;
   std::string address_;
   bool stopping_ = false;
