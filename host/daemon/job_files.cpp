@@ -74,7 +74,8 @@ void check_uploaded_job(const fs::path& file) {
   }
 }
 
-/// Adds the jobs in `folder` by the names that find() takes; links are not followed.
+/// Adds the jobs in `folder` by the names that find() takes. Links to folders are not followed, and links to
+/// files must stay within the folder.
 void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std::string>& names) {
   std::error_code error;
   for (fs::recursive_directory_iterator item(folder, fs::directory_options::skip_permission_denied, error),
@@ -82,7 +83,8 @@ void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std
        !error && item != end && names.size() < most_listed_jobs; item.increment(error)) {
     if (item.depth() >= deepest_folder) item.disable_recursion_pending();
     std::error_code gone;
-    if (is_job(item->path()) && item->is_regular_file(gone))
+    if (is_job(item->path()) && item->is_regular_file(gone) &&
+        within(fs::canonical(item->path(), gone), folder))
       names.push_back(prefix + item->path().lexically_relative(folder).generic_string());
   }
 }
@@ -157,6 +159,8 @@ std::vector<std::string> JobFiles::list() const {
 void JobFiles::keep(const std::string& upload, const std::string& file, const std::string& bytes) const {
   if (!is_plain_name(upload) || !is_plain_name(file))
     throw Refused(Why::bad_name, "names of uploads hold letters, digits, dots, dashes and underscores only");
+  if (fs::path(file).extension() == ".part")  // a draft of another upload has such a name (whole_file.hpp)
+    throw Refused(Why::bad_name, "a name that ends in .part is that of an unfinished file; choose another");
   std::uint64_t kept = bytes.size();
   std::size_t files = 1;
   std::error_code error;

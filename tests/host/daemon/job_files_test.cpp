@@ -59,7 +59,7 @@ TEST_CASE("jobs in the folders are found by their names, and other files are not
   CHECK(refusal(files, "up/secret.toml") == Why::not_found);
   CHECK(refusal(files, std::string("leaf.toml\0.toml", 15)) == Why::bad_name);
   CHECK(refusal(files, "") == Why::bad_name);
-  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml", "link.toml"});
+  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml"});
 }
 
 TEST_CASE("an upload is one folder of files, and its job can name no others") {
@@ -77,6 +77,7 @@ TEST_CASE("an upload is one folder of files, and its job can name no others") {
     CHECK_THROWS_AS(files.keep("leaf", name, ""), Refused);
     CHECK_THROWS_AS(files.remove(name), Refused);
   }
+  CHECK_THROWS_AS(files.keep("leaf", "job.toml.part", ""), Refused);
   files.keep("bad", "a.toml", test::replaced(test::sample_job, "plate.svg", "../../secret.toml"));
   files.keep("bad", "b.toml", test::replaced(test::sample_job, "\"bench.toml\"", "\"/etc/hostname\""));
   files.keep("bad", "c.toml", "this is no TOML");
