@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/text/wording.hpp"
+#include "host/daemon/log.hpp"
 #include "host/daemon/metrics.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/engine/temperature_limits.hpp"
@@ -192,9 +193,13 @@ bool Api::is_urgent(const RequestHead& head) const {
 
 asio::awaitable<Response> Api::answer(Request request) {
   const Route& route = route_of(request);
+  const std::string asked = route.method == "GET" ? "" : request.method + " " + request.path;
   try {
-    co_return co_await (this->*route.handler)(std::move(request));
+    Response response = co_await (this->*route.handler)(std::move(request));
+    if (!asked.empty()) log_line(asked + ": done");
+    co_return response;
   } catch (const Refused& refused) {
+    if (!asked.empty()) log_line(asked + ": refused: " + refused.what());
     throw HttpError(status_of(refused.why()), refused.what());
   }
 }

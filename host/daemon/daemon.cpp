@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/text/printable.hpp"
+#include "host/daemon/log.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
@@ -260,6 +261,9 @@ std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {
   queue_.enter(id, state, reason);
   const QueuedJob* entered = queue_.find(id);
+  if (entered)
+    log_line(
+        fmt::format("job {} {}: {}{}{}", id, entered->name, name(state), reason.empty() ? "" : ": ", reason));
   if (entered && last_.contains("job") && last_["job"].value("id", id + 1) == id)
     last_["job"] = to_json(*entered);
   std::string trouble;
@@ -377,7 +381,12 @@ void Daemon::on_session_event(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
     return show_progress_soon();
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
-  if (!session || followers_.empty()) return;
+  if (!session) return;
+  if (event.kind == SessionEvent::Kind::state) {
+    const nlohmann::json status = to_json(session->status());
+    log_line("print: " + status.value("state", "") + " " + status.value("reason", ""));
+  }
+  if (followers_.empty()) return;
   SessionEvent shown = event;
   shown.text = event.kind == SessionEvent::Kind::printer ? core::printable(event.text) : event.text;
   broadcast(to_json(shown, session->status()));

@@ -2,6 +2,7 @@
 #include "host/daemon/job_files.hpp"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -116,6 +117,22 @@ TEST_CASE("the last jobs that have ended are kept") {
   CHECK(queue.find(waiting));
   CHECK_FALSE(queue.find(waiting + 1));
   CHECK(queue.jobs().back().id == waiting + Queue::most_kept + 5);
+}
+
+TEST_CASE("a state folder that others can write to is refused") {
+  const test::TempFolder folder;
+  const std::string path = folder / "state";
+  REQUIRE(mkdir(path.c_str(), 0700) == 0);
+  for (const mode_t mode : {0777, 0770, 01777, 0702}) {
+    REQUIRE(chmod(path.c_str(), mode) == 0);
+    CHECK_THROWS_WITH(StateFolder(path), Catch::Contains("only this user"));
+  }
+  REQUIRE(chmod(path.c_str(), 0755) == 0);
+  CHECK_NOTHROW(StateFolder(path));
+  if (geteuid() == 0) {
+    REQUIRE(chown(path.c_str(), 1000, 1000) == 0);
+    CHECK_THROWS_WITH(StateFolder(path), Catch::Contains("only this user"));
+  }
 }
 
 TEST_CASE("a state folder belongs to one daemon, and its secrets to their owner") {

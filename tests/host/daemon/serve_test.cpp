@@ -92,6 +92,11 @@ TEST_CASE("a print is paused and steered by the daemon's commands") {
   bench.await_print("printing");
   REQUIRE(bench.command({"cancel"}).code == 0);
   bench.await_job(id, "stopped");
+  const std::string log = bench.daemon().err();
+  for (const char* line : {"POST /api/jobs: done\n", "job 1 plate.toml: printing\n", "print: heating",
+                           "POST /api/print/pause: done\n", "job 1 plate.toml: stopped: "})
+    CHECK(count(log, line) >= 1);
+  CHECK(log.find("GET ") == std::string::npos);
   const std::string lines = bench.transcript();
   for (const char* line : {"M220 S150", "M104 S205", "M140 S55", "M221 S95", "M104 S207", "M140 S57"})
     CHECK(lines.find(line) != std::string::npos);
