@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "host/cli/for_terminal.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/link/link.hpp"
 
@@ -27,10 +28,20 @@ Exit exit_of(const std::exception& error) {
 
 std::string sentence_of(const std::exception& error) {
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
-    return fmt::format("{}: {}; check the name and the permissions", file->path1().string(),
+    return fmt::format("{}: {}; check the name and the permissions", for_terminal(file->path1().string()),
                        file->code().message());
   }
-  return error.what();
+  // A NUL in a name would cut what(), but not the parts.
+  if (const auto* data = dynamic_cast<const core::DataError*>(&error)) {
+    std::string text;
+    for (const std::string& where : {data->file(), data->place()}) {
+      if (!where.empty()) text += where + ": ";
+    }
+    text += data->problem();
+    if (!data->remedy().empty()) text += "; " + data->remedy();
+    return for_terminal(text);
+  }
+  return for_terminal(error.what());
 }
 
 }  // namespace unicursal::host

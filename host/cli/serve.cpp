@@ -30,8 +30,8 @@ class Serve final : public Command {
     add_note(
         app,
         "A print never starts by itself, because the last part may still lie on the bed: "
-        "`unicursal start` starts it. SIGTERM or Ctrl-C parks and cools the current print, then ends the "
-        "daemon; a second one stops the printer at once. API.md describes the HTTP interface.");
+        "`unicursal start` starts it. SIGTERM, SIGHUP, SIGQUIT or Ctrl-C parks and cools the current print, "
+        "then ends the daemon; a second one stops the printer at once. API.md describes the HTTP interface.");
     return app;
   }
 

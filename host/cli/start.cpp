@@ -11,12 +11,14 @@ namespace {
 
 using nlohmann::json;
 
-/// Waits until the daemon has read the part, which may still fail, and returns the job.
+/// Waits until the daemon has read the part, which may still fail, and returns the job. A job that waits
+/// again has a reason: its printer is off.
 json started(const Client& client, std::uint64_t id) {
   constexpr auto look_again = std::chrono::milliseconds(200);
   const std::string path = fmt::format("/api/jobs/{}", id);
   json job = accepted(client.ask("GET", path));
-  while (job.value("state", "") == "preparing" || job.value("state", "") == "queued") {
+  while (job.value("state", "") == "preparing" ||
+         (job.value("state", "") == "queued" && !job.contains("reason"))) {
     std::this_thread::sleep_for(look_again);
     job = accepted(client.ask("GET", path));
   }
@@ -44,7 +46,8 @@ class Start final : public Command {
       show_json(job);
     else
       show(stdout, "job {}\n", job_text(job));
-    return job.value("state", "") == "failed" ? Exit::failed : Exit::success;
+    const std::string state = job.value("state", "");
+    return state == "failed" || state == "queued" ? Exit::failed : Exit::success;
   }
 
  private:

@@ -12,7 +12,7 @@
 namespace unicursal::host {
 namespace {
 
-constexpr std::string_view bearer = "Bearer ";
+constexpr std::string_view bearer = "bearer ";  // in any case (RFC 9110, 11.1)
 constexpr std::string_view token_protocol = "token.";
 
 /// Compares in constant time.
@@ -26,16 +26,18 @@ bool same(const std::string& a, const std::string& b) {
 
 /// A page's script cannot set headers of a WebSocket, but it can offer protocols.
 std::optional<std::string> offered_token(const RequestHead& head) {
-  const std::string offered = head.header("sec-websocket-protocol").value_or("");
-  const std::size_t at = offered.find(token_protocol);
-  if (at == std::string::npos) return std::nullopt;
-  const std::size_t begin = at + token_protocol.size();
-  return offered.substr(begin, offered.find_first_of(", ", begin) - begin);
+  for (const std::string& offered : head.list("sec-websocket-protocol")) {
+    if (offered.starts_with(token_protocol)) return offered.substr(token_protocol.size());
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> token_of(const RequestHead& head) {
   const auto given = head.header("authorization");
-  if (given && given->starts_with(bearer)) return given->substr(bearer.size());
+  if (given && core::lower(given->substr(0, bearer.size())) == bearer) {
+    const std::size_t begin = given->find_first_not_of(' ', bearer.size());
+    return begin == std::string::npos ? "" : given->substr(begin);
+  }
   return offered_token(head);
 }
 

@@ -6,8 +6,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/text/wording.hpp"
+#include "host/daemon/log.hpp"
 #include "host/daemon/metrics.hpp"
 #include "host/daemon/refused.hpp"
+#include "host/engine/temperature_limits.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -28,9 +31,10 @@ Response reply(json body, int status = 200) {
 /// Reads an object that has known keys only; an empty body is an empty object. Throws HttpError 400 or 415.
 json read_object(const Request& request, std::initializer_list<const char*> keys) {
   if (request.body.empty()) return json::object();
-  const std::string type = request.header("content-type").value_or("");
-  if (type.substr(0, type.find(';')) != "application/json")
-    throw HttpError(415, "send JSON, as Content-Type: application/json");
+  std::string type = core::lower(request.header("content-type").value_or(""));
+  type.resize(std::min(type.find(';'), type.size()));  // parameters follow (RFC 9110, 8.3.1)
+  type.resize(type.find_last_not_of(" \t") + 1);
+  if (type != "application/json") throw HttpError(415, "send JSON, as Content-Type: application/json");
   const json body = json::parse(request.body, nullptr, false);
   if (!body.is_object()) throw HttpError(400, "the body is not a JSON object");
   for (const auto& [key, value] : body.items()) {
@@ -65,6 +69,8 @@ std::optional<LayerRange> layers_of(const json& body) {
   if (!found->is_array() || found->size() != 2 || !found->at(0).is_number_unsigned() ||
       !found->at(1).is_number_unsigned())
     throw HttpError(400, "layers is [first, last], counted from 0");
+  if (found->at(0).get<std::size_t>() > found->at(1).get<std::size_t>())
+    throw HttpError(422, "layers is [first, last]; the first is behind the last");
   return LayerRange{found->at(0).get<std::size_t>(), found->at(1).get<std::size_t>()};
 }
 
@@ -151,13 +157,15 @@ const Api::Route& Api::route_of(const RequestHead& head) {
       {"POST", "/api/flow", &Api::set_flow},
       {"POST", "/api/speed", &Api::set_speed},
   };
-  bool known = false;
+  const std::string_view asked = head.method == "HEAD" ? "GET" : std::string_view(head.method);
+  std::string allowed;
   for (const Route& route : routes) {
     if (!route.matches(head.path)) continue;
-    if (route.method == head.method) return route;
-    known = true;
+    if (route.method == asked) return route;
+    allowed += (allowed.empty() ? "" : ", ") + std::string(route.method);
+    if (route.method == "GET") allowed += ", HEAD";
   }
-  if (known) throw HttpError(405, "that cannot be done with this address");
+  if (!allowed.empty()) throw HttpError(405, "that cannot be done with this address", allowed);
   throw HttpError(404, "there is no such address; the API is described in API.md");
 }
 
@@ -177,11 +185,21 @@ bool Api::wants_events(const RequestHead& head) const {
   return !route_of(head).handler;
 }
 
+/// What makes a printer safe; it must not be locked out.
+bool Api::is_urgent(const RequestHead& head) const {
+  return head.path == "/api/print/stop" || head.path == "/api/print/cancel" ||
+         head.path == "/api/print/pause";
+}
+
 asio::awaitable<Response> Api::answer(Request request) {
   const Route& route = route_of(request);
+  const std::string asked = route.method == "GET" ? "" : request.method + " " + request.path;
   try {
-    co_return co_await (this->*route.handler)(std::move(request));
+    Response response = co_await (this->*route.handler)(std::move(request));
+    if (!asked.empty()) log_line(asked + ": done");
+    co_return response;
   } catch (const Refused& refused) {
+    if (!asked.empty()) log_line(asked + ": refused: " + refused.what());
     throw HttpError(status_of(refused.why()), refused.what());
   }
 }
@@ -287,8 +305,11 @@ asio::awaitable<Response> Api::set_temperature(Request request) {
   const json body = read_object(request, {"nozzle_c", "bed_c"});
   const auto nozzle = number(body, "nozzle_c"), bed = number(body, "bed_c");
   if (!nozzle && !bed) throw HttpError(400, "nozzle_c or bed_c is missing");
-  if (nozzle) obeyed(daemon_.session().set_nozzle(*nozzle));
-  if (bed) obeyed(daemon_.session().set_bed(*bed));
+  Session& session = daemon_.session();
+  // A bed that will be refused is refused before the nozzle is set: both are obeyed, or neither.
+  if (bed && (*bed < 0 || *bed > hottest_bed)) obeyed(session.set_bed(*bed));
+  if (nozzle) obeyed(session.set_nozzle(*nozzle));
+  if (bed) obeyed(session.set_bed(*bed));
   co_return reply(daemon_.status(), 202);
 }
 

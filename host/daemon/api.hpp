@@ -16,6 +16,7 @@ class Api : public HttpHandler {
   std::uint64_t admit(const RequestHead& head) override;
   asio::awaitable<Response> answer(Request request) override;
   bool wants_events(const RequestHead& head) const override;
+  bool is_urgent(const RequestHead& head) const override;
   void join(std::shared_ptr<EventStream> client) override;
 
  private:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/text/printable.hpp"
+#include "host/daemon/log.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
@@ -134,7 +135,12 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
     }
     return true;
   };
-  co_await elsewhere(disk_, check);
+  {
+    // The files must not be changed between the check and the queue.
+    const auto place = being_added_.insert(name);
+    const std::shared_ptr<void> added(nullptr, [this, place](void*) { being_added_.erase(place); });
+    co_await elsewhere(disk_, check);
+  }
   const std::uint64_t id = queue_.add(std::move(name), layers);
   std::string problem;
   try {
@@ -157,13 +163,27 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
   if (!queue_.find(id)) throw Refused(Why::not_found, "there is no job with that number");
   if (current_ && current_->id == id)
     throw Refused(Why::conflict, "that job is being printed; cancel it instead");
+  QueuedJob removed = *queue_.find(id);
   queue_.remove(id);
-  co_await save();
+  std::string problem;
+  try {
+    co_await save();
+  } catch (const core::DataError& error) {
+    problem = error.what();
+  }
+  if (!problem.empty()) {  // it would come back with the next daemon
+    queue_.put_back(std::move(removed));
+    throw Refused(Why::no_room, problem);
+  }
   broadcast({{"event", "queue"}, {"removed", id}});
 }
 
 /// Files of a job that waits or is being printed must not change.
 void Daemon::check_not_needed(const std::string& upload) const {
+  for (const std::string& name : being_added_) {
+    if (JobFiles::is_from(name, upload))
+      throw Refused(Why::conflict, "a job from there is being queued; choose another name");
+  }
   for (const QueuedJob& job : queue_.jobs()) {
     const bool current = current_ && current_->id == job.id;
     if ((current || job.state == QueuedJob::State::queued) && JobFiles::is_from(job.name, upload))
@@ -204,12 +224,24 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id) {
   if (!job)
     throw Refused(id ? Why::not_found : Why::conflict,
                   id ? "there is no job with that number" : "no job is waiting");
+  check_port_exists();
   const std::uint64_t chosen = job->id;
   current_.emplace();
   current_->id = chosen;
+  queue_.enter(chosen, QueuedJob::State::preparing);
   asio::co_spawn(
       loop_, [this, chosen]() -> asio::awaitable<void> { co_await print(chosen); }, asio::detached);
   return chosen;
+}
+
+/// Throws Refused if the printer's port is a device that is not there; then the job has not left the queue.
+void Daemon::check_port_exists() const {
+  const std::string port = options_.port ? *options_.port : profile_ ? profile_->port : "";
+  std::error_code error;
+  if (port.starts_with('/') && !std::filesystem::exists(port, error))
+    throw Refused(Why::conflict,
+                  "the printer's port " + core::printable(port) +
+                      " is not there: plug the printer in and switch it on; the job stays in the queue");
 }
 
 /// Reads files and opens the port; blocks.
@@ -229,6 +261,9 @@ std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {
   queue_.enter(id, state, reason);
   const QueuedJob* entered = queue_.find(id);
+  if (entered)
+    log_line(
+        fmt::format("job {} {}: {}{}{}", id, entered->name, name(state), reason.empty() ? "" : ": ", reason));
   if (entered && last_.contains("job") && last_["job"].value("id", id + 1) == id)
     last_["job"] = to_json(*entered);
   std::string trouble;
@@ -247,6 +282,9 @@ asio::awaitable<void> Daemon::print(std::uint64_t id) {
   std::exception_ptr error;
   try {
     reason = co_await print_prepared(id, ending);
+  } catch (const PortError& closed) {
+    ending = QueuedJob::State::queued;
+    reason = closed.what();
   } catch (...) {
     error = std::current_exception();
   }
@@ -282,6 +320,8 @@ asio::awaitable<std::string> Daemon::print_prepared(std::uint64_t id, QueuedJob:
   const StreamResult result = co_await session.run();
   firmware_ = result.firmware;
   ending = state_after(result.ending);
+  // A printer that is switched off, or does not answer, is not the job's fault.
+  if (result.ending == Ending::failed && !result.begun && !result.unfit) ending = QueuedJob::State::queued;
   std::string reason = result.ending == Ending::stopped ? session.status().reason : result.reason;
   if (result.ending != Ending::completed && result.begun)
     reason += "; to continue it: " + way_on() + " " + current_->print->kept_as();
@@ -341,7 +381,12 @@ void Daemon::on_session_event(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
     return show_progress_soon();
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
-  if (!session || followers_.empty()) return;
+  if (!session) return;
+  if (event.kind == SessionEvent::Kind::state) {
+    const nlohmann::json status = to_json(session->status());
+    log_line("print: " + status.value("state", "") + " " + status.value("reason", ""));
+  }
+  if (followers_.empty()) return;
   SessionEvent shown = event;
   shown.text = event.kind == SessionEvent::Kind::printer ? core::printable(event.text) : event.text;
   broadcast(to_json(shown, session->status()));

@@ -14,6 +14,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,8 +64,8 @@ class Daemon {
   asio::awaitable<void> keep_upload(std::string upload, std::string file, std::string bytes);
   asio::awaitable<void> remove_upload(std::string upload);
   asio::awaitable<std::vector<std::string>> job_names();
-  /// Prepares and then prints a job, the first that waits if `id` is absent. Returns its number at once.
-  /// Throws Refused.
+  /// Prepares and then prints a job, the first that waits if `id` is absent. Returns its number at once. A
+  /// job whose printer is off stays in the queue, or returns to it with a reason. Throws Refused.
   std::uint64_t start(std::optional<std::uint64_t> id);
   /// Cancels the print, also while it is being prepared. Throws Refused when there is none.
   void cancel(const std::string& reason);
@@ -88,6 +89,7 @@ class Daemon {
   asio::awaitable<std::string> print_prepared(std::uint64_t id, QueuedJob::State& ending);
   std::unique_ptr<Print> prepared(const QueuedJob& job) const;
   void check_not_needed(const std::string& upload) const;
+  void check_port_exists() const;
   std::string way_on() const;
   asio::awaitable<void> save();
   asio::awaitable<void> enter(std::uint64_t id, QueuedJob::State state, std::string reason);
@@ -101,6 +103,7 @@ class Daemon {
   std::optional<Profile> profile_;
   JobFiles files_;
   Queue queue_;
+  std::multiset<std::string> being_added_;  ///< names of jobs that are being checked
   std::optional<Current> current_;
   nlohmann::json last_;   ///< the final status of the last print, or null
   std::string firmware_;  ///< the printer's last answer to M115

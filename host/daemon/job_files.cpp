@@ -1,14 +1,15 @@
 #include "host/daemon/job_files.hpp"
 
-#include <fmt/format.h>
-
-#include <toml++/toml.h>
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "core/text/printable.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/files/whole_file.hpp"
+#include "host/job/job_error.hpp"
+#include "host/job/parse_toml.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -64,14 +65,17 @@ void check_uploaded_job(const fs::path& file) {
   if (fs::file_size(file, error) > largest_job || error)
     throw Refused(Why::bad_job, "the job's text is too long to be one");
   try {
-    check_texts(toml::parse_file(file.string()));
-  } catch (const toml::parse_error& wrong) {
-    throw Refused(Why::bad_job, fmt::format("{}: line {}: is not TOML: {}", file.filename().string(),
-                                            wrong.source().begin.line, wrong.description()));
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    check_texts(parse_toml(text.str(), file.filename()));
+  } catch (const JobError& wrong) {
+    throw Refused(Why::bad_job, wrong.what());
   }
 }
 
-/// Adds the jobs in `folder` by the names that find() takes; links are not followed.
+/// Adds the jobs in `folder` by the names that find() takes. Links to folders are not followed, and links to
+/// files must stay within the folder.
 void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std::string>& names) {
   std::error_code error;
   for (fs::recursive_directory_iterator item(folder, fs::directory_options::skip_permission_denied, error),
@@ -79,7 +83,8 @@ void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std
        !error && item != end && names.size() < most_listed_jobs; item.increment(error)) {
     if (item.depth() >= deepest_folder) item.disable_recursion_pending();
     std::error_code gone;
-    if (is_job(item->path()) && item->is_regular_file(gone))
+    if (is_job(item->path()) && item->is_regular_file(gone) &&
+        within(fs::canonical(item->path(), gone), folder))
       names.push_back(prefix + item->path().lexically_relative(folder).generic_string());
   }
 }
@@ -154,6 +159,8 @@ std::vector<std::string> JobFiles::list() const {
 void JobFiles::keep(const std::string& upload, const std::string& file, const std::string& bytes) const {
   if (!is_plain_name(upload) || !is_plain_name(file))
     throw Refused(Why::bad_name, "names of uploads hold letters, digits, dots, dashes and underscores only");
+  if (fs::path(file).extension() == ".part")  // a draft of another upload has such a name (whole_file.hpp)
+    throw Refused(Why::bad_name, "a name that ends in .part is that of an unfinished file; choose another");
   std::uint64_t kept = bytes.size();
   std::size_t files = 1;
   std::error_code error;

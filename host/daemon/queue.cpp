@@ -125,6 +125,12 @@ void Queue::remove(std::uint64_t id) {
   std::erase_if(jobs_, [id](const QueuedJob& job) { return job.id == id; });
 }
 
+void Queue::put_back(QueuedJob job) {
+  const auto behind =
+      std::find_if(jobs_.begin(), jobs_.end(), [&](const QueuedJob& j) { return j.id > job.id; });
+  jobs_.insert(behind, std::move(job));
+}
+
 void Queue::enter(std::uint64_t id, State state, const std::string& reason) {
   const auto job = std::find_if(jobs_.begin(), jobs_.end(), [id](const QueuedJob& j) { return j.id == id; });
   assert(job != jobs_.end());

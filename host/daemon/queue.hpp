@@ -53,6 +53,8 @@ class Queue {
 
   std::uint64_t add(std::string name, std::optional<LayerRange> layers);
   void remove(std::uint64_t id);
+  /// Undoes remove(): the job stands where its number belongs.
+  void put_back(QueuedJob job);
   /// Changes a job's state. Precondition: the job exists.
   void enter(std::uint64_t id, QueuedJob::State state, const std::string& reason = {});
   /// The content of the file.

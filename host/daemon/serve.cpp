@@ -4,12 +4,12 @@
 
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
-#include <csignal>
 
 #include "host/daemon/api.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/http/http_server.hpp"
+#include "host/loop/print_signals.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -18,6 +18,8 @@ using namespace std::chrono_literals;
 
 /// Time by which systemd is repeatedly asked to extend its limit while the printer parks and cools.
 constexpr std::chrono::microseconds parking_time = 60s;
+
+constexpr auto farewell = 300ms;  ///< for clients to close at the daemon's end
 
 asio::ip::tcp::endpoint checked_endpoint(const ServeOptions& options) {
   const auto at = parse_endpoint(options.listen);
@@ -41,7 +43,8 @@ class Service {
         daemon_(loop_, options.daemon),
         api_(daemon_),
         server_(loop_, checked_endpoint(options), api_),
-        signals_(loop_, SIGINT, SIGTERM),
+        signals_(loop_),
+        signal_rules_(signals_),
         watchdog_(loop_) {
     const auto at = server_.endpoint();
     AccessRules rules;
@@ -61,12 +64,17 @@ class Service {
     notify_service("READY=1\nSTATUS=idle");
     ready(address_);
     loop_.run();
+    // The clients of event streams still get their close frames.
+    loop_.restart();
+    const auto end = std::chrono::steady_clock::now() + farewell;
+    while (!server_.deserted() && std::chrono::steady_clock::now() < end) loop_.run_one_for(farewell / 10);
   }
 
  private:
   void await_signal() {
-    signals_.async_wait([this](const asio::error_code& error, int) {
+    signals_.async_wait([this](const asio::error_code& error, int signal) {
       if (error) return;
+      if (stopping_ && !PrintSignals::counts_again(signal)) return await_signal();
       notify_service(fmt::format("STOPPING=1\nSTATUS=parking and cooling\nEXTEND_TIMEOUT_USEC={}",
                                  parking_time.count()));
       stopping_ = true;
@@ -100,6 +108,7 @@ class Service {
   Api api_;
   HttpServer server_;
   asio::signal_set signals_;
+  const PrintSignals signal_rules_;
   asio::steady_timer watchdog_;
   std::string address_;
   bool stopping_ = false;

@@ -16,9 +16,9 @@ struct ServeOptions {
   bool no_token = false;                  ///< everyone on this computer may steer the printer
 };
 
-/// Runs until SIGTERM or SIGINT. The first signal parks and cools the current print, a second one stops the
-/// printer at once. `ready` is called with the address once clients may connect. Throws core::DataError
-/// before that.
+/// Runs until SIGTERM, SIGINT, SIGQUIT or SIGHUP. The first signal parks and cools the current print, a
+/// second one stops the printer at once. `ready` is called with the address once clients may connect. Throws
+/// core::DataError before that.
 void serve(const ServeOptions& options, const std::function<void(const std::string& address)>& ready);
 
 }  // namespace unicursal::host

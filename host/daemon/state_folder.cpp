@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -30,6 +31,12 @@ StateFolder::StateFolder(fs::path folder) : folder_(std::move(folder)) {
   std::error_code error;
   fs::create_directories(folder_.parent_path(), error);
   if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST) throw trouble(folder_, "cannot be made");
+  // Whoever else can write there could have put a token or a queue of his own into it.
+  struct stat found {};
+  if (stat(folder_.c_str(), &found) != 0) throw trouble(folder_, "cannot be examined");
+  if (!S_ISDIR(found.st_mode) || found.st_uid != geteuid() || (found.st_mode & 022) != 0)
+    throw DaemonError(folder_.string(), "", "is not a folder that only this user can write to",
+                      "make it yours with chown and chmod 700, or name another folder with --state");
   const fs::path lock = folder_ / "lock";
   lock_.reset(open(lock.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600));
   if (!lock_) throw trouble(lock, "cannot be opened");
@@ -48,8 +55,8 @@ std::string StateFolder::secret(const std::string& name) const {
   const fs::path file = folder_ / name;
   struct stat found {};
   if (lstat(file.c_str(), &found) == 0) {
-    if (!S_ISREG(found.st_mode) || (found.st_mode & 077) != 0) {
-      throw DaemonError(file.string(), "", "is a secret that others may read",
+    if (!S_ISREG(found.st_mode) || found.st_uid != geteuid() || (found.st_mode & 077) != 0) {
+      throw DaemonError(file.string(), "", "is a secret that others made or may read",
                         "delete it, and a new one is made; or chmod 600 it");
     }
     if (const auto known = read_line(file); known && known->size() >= 32) return *known;

@@ -6,6 +6,7 @@
 
 #include "host/engine/reset_line.hpp"
 #include "host/engine/session_impl.hpp"
+#include "host/engine/temperature_limits.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -16,8 +17,6 @@ constexpr auto stop_patience = 2s;  ///< for the printer to confirm an emergency
 
 constexpr double least_speed = 10, most_speed = 300;  ///< %
 constexpr double least_flow = 50, most_flow = 200;    ///< %
-constexpr double hottest_nozzle = 450,
-                 hottest_bed = 200;  ///< °C, as for a profile; a higher one is a typing error
 
 /// nullopt if the value is within its limits.
 Refusal outside(const char* what, double value, double least, double most, const char* unit) {

@@ -5,27 +5,22 @@
 #include <asio/posix/stream_descriptor.hpp>
 #include <asio/read_until.hpp>
 #include <asio/signal_set.hpp>
-#include <csignal>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "host/loop/print_signals.hpp"
+
 namespace unicursal::host {
 namespace {
-
-bool is_ignored(int signal) {
-  struct sigaction action {};
-  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
 
 constexpr std::size_t longest_words = 1000;  ///< bytes of a typed line
 
 /// Opens the terminal for itself, since O_NONBLOCK on the standard input would affect other programs that
-/// share it. A program in the background gets an error instead of being stopped. Returns −1 without a
-/// terminal.
+/// share it. A program in the background gets an error instead of being stopped, since PrintSignals ignores
+/// SIGTTIN. Returns −1 without a terminal.
 int open_terminal() {
   if (::isatty(STDIN_FILENO) != 1) return -1;
-  std::signal(SIGTTIN, SIG_IGN);
   return ::open("/dev/tty", O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 }
 
@@ -34,11 +29,11 @@ class Foreground {
   Foreground(int port, Source& source, const SessionObserver& observer, const StreamSettings& settings,
              const SessionConsole& console)
       : clock_(settings.clock),
-        signals_(loop_, SIGINT, SIGTERM),
+        signals_(loop_),
+        signal_rules_(signals_),
         console_(console),
         terminal_(loop_),
         session_(loop_.get_executor(), port, source, settings) {
-    if (!is_ignored(SIGHUP)) signals_.add(SIGHUP);
     session_.on_event([this, &observer](const SessionEvent& event) { observer(session_, event); });
   }
 
@@ -67,7 +62,7 @@ class Foreground {
       if (error) return;
       if (!stopped_)
         session_.cancel();
-      else if (signal != SIGHUP)
+      else if (PrintSignals::counts_again(signal))
         session_.emergency_stop();
       stopped_ = true;
       await_signal();
@@ -88,6 +83,7 @@ class Foreground {
   asio::io_context loop_{1};
   const std::shared_ptr<Clock> clock_;
   asio::signal_set signals_;
+  const PrintSignals signal_rules_;
   const SessionConsole& console_;
   asio::posix::stream_descriptor terminal_;
   std::string typed_;

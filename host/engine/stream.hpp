@@ -14,9 +14,9 @@ using SessionObserver = std::function<void(Session&, const SessionEvent&)>;
 using SessionConsole = std::function<void(Session&, const std::string& words)>;
 
 /// Sends a whole print to the descriptor `port`, which it takes over; blocks until the print has ended. Does
-/// not throw: a failure is in the result. SIGINT or SIGTERM once parks and cools, twice stops at once.
-/// SIGHUP, which a closed terminal may send twice, counts once at most, and not at all if it is ignored
-/// (nohup). `console` gets the lines that are typed into the program's terminal, if it has one.
+/// not throw: a failure is in the result. SIGINT, SIGTERM, SIGQUIT or SIGHUP once parks and cools, a second
+/// one stops at once; other signals are ignored (host/loop/print_signals.hpp). `console` gets the lines that
+/// are typed into the program's terminal, if it has one.
 StreamResult stream(int port, Source& source, const SessionObserver& observer,
                     const StreamSettings& settings = {}, const SessionConsole& console = {});
 

@@ -13,13 +13,17 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto ping_interval = 20s;
-constexpr auto patience = 15s;  ///< for one write, and for the client to close
-constexpr std::uint16_t try_again_later = 1013;
+constexpr int most_unanswered = 2;  ///< pings
+constexpr auto patience = 15s;      ///< for one write, and for the client to close
+constexpr std::uint16_t normal_end = 1000, try_again_later = 1013;
 
 }  // namespace
 
 EventStream::EventStream(asio::ip::tcp::socket socket)
-    : socket_(std::move(socket)), wake_(socket_.get_executor()), silence_(socket_.get_executor()) {}
+    : socket_(std::move(socket)),
+      wake_(socket_.get_executor()),
+      silence_(socket_.get_executor()),
+      next_ping_(std::chrono::steady_clock::now() + ping_interval) {}
 
 asio::awaitable<void> EventStream::run(std::string first) {
   const auto self = shared_from_this();
@@ -54,17 +58,22 @@ void EventStream::abort() {
   silence_.cancel();
 }
 
-/// Sends waiting texts, and a ping after a while of silence.
+/// Sends waiting texts, and pings between them.
 asio::awaitable<void> EventStream::write() {
   const auto self = shared_from_this();
   asio::error_code error;
   while (open_ && !error) {
+    if (!closing_ && std::chrono::steady_clock::now() >= next_ping_) {
+      if (unanswered_ == most_unanswered) break;
+      ++unanswered_;
+      next_ping_ += ping_interval;
+      put(encode({Frame::Kind::ping, {}}));
+    }
     if (waiting_.empty()) {
       if (closing_) break;
-      wake_.expires_after(ping_interval);
+      wake_.expires_at(next_ping_);
       asio::error_code cut;
       co_await wake_.async_wait(asio::redirect_error(asio::use_awaitable, cut));
-      if (!cut && open_ && waiting_.empty()) put(encode({Frame::Kind::ping, {}}));
       continue;
     }
     const std::string bytes = std::move(waiting_.front());
@@ -77,7 +86,8 @@ asio::awaitable<void> EventStream::write() {
                                asio::redirect_error(asio::use_awaitable, error));
     silence_.cancel();
   }
-  if (error || !open_) co_return abort();
+  if (error || !open_ || client_closes_ || !closing_) co_return abort();
+  written_ = true;
   // The client gets the same time to close.
   silence_.expires_after(patience);
   silence_.async_wait([self](const asio::error_code& cut) {
@@ -93,28 +103,31 @@ asio::awaitable<void> EventStream::read(std::string first) {
   bool talking = true;
   while (talking && !error) {
     try {
-      while (const auto frame = frames.next()) take(*frame);
+      while (const auto frame = client_closes_ ? std::nullopt : frames.next()) take(*frame);
     } catch (const WebSocketError& broken) {
       close(broken.code());
       talking = false;
     }
+    if (client_closes_) break;
     if (!talking || !open_) break;
     const std::size_t size = co_await socket_.async_read_some(
         asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
     frames.add({bytes.data(), size});
   }
   // Waiting texts are still sent; the writer has a deadline.
-  while (!talking && open_ && !error) {
+  while ((!talking || client_closes_) && !(client_closes_ && written_) && open_ && !error) {
     co_await socket_.async_read_some(asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, error));
   }
   silence_.cancel();
 }
 
 void EventStream::take(const Frame& frame) {
+  unanswered_ = 0;
   if (frame.kind == Frame::Kind::ping && waiting_.size() < most_waiting && !closing_)
     put(encode({Frame::Kind::pong, frame.payload}));
   if (frame.kind == Frame::Kind::close) {
-    close(1000);
+    client_closes_ = true;
+    close(close_code(frame).value_or(normal_end));
   }
 }
 

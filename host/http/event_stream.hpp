@@ -1,5 +1,6 @@
-// One client's WebSocket: texts go out in order. A client that does not keep up is disconnected, so that it
-// costs neither memory nor time. Everything belongs to the loop's thread.
+// One client's WebSocket: texts go out in order. A client that does not keep up, or that has not been heard
+// after two pings, is disconnected, so that it costs neither memory nor time. Everything belongs to the
+// loop's thread.
 #pragma once
 
 #include <asio/awaitable.hpp>
@@ -36,9 +37,13 @@ class EventStream : public std::enable_shared_from_this<EventStream> {
 
   asio::ip::tcp::socket socket_;
   asio::steady_timer wake_, silence_;
+  std::chrono::steady_clock::time_point next_ping_;
+  int unanswered_ = 0;  ///< pings since the client was last heard
   std::deque<std::string> waiting_;
   bool open_ = true;
   bool closing_ = false;
+  bool written_ = false;        ///< everything, the close frame included
+  bool client_closes_ = false;  ///< it has sent its close frame
 };
 
 }  // namespace unicursal::host

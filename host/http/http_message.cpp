@@ -88,9 +88,12 @@ void read_header(std::string_view line, RequestHead& head) {
   head.headers.emplace_back(core::lower(name), value);
 }
 
-/// Headers that decide where a request ends or who sent it must not occur twice.
+/// Headers that decide where a request ends, who sent it, or what follows must not occur twice, although RFC
+/// 9110 (5.3) allows it for lists: two readers could understand them differently.
 void check_single(const RequestHead& head) {
-  for (const char* name : {"host", "content-length", "authorization", "origin", "content-type"}) {
+  for (const char* name : {"host", "content-length", "transfer-encoding", "connection", "authorization",
+                           "origin", "content-type", "expect", "upgrade", "sec-fetch-site",
+                           "sec-websocket-key", "sec-websocket-version", "sec-websocket-protocol"}) {
     const auto same = [name](const auto& header) { return header.first == name; };
     if (std::count_if(head.headers.begin(), head.headers.end(), same) > 1)
       throw HttpError(400, fmt::format("the header {} is there twice", name));
@@ -112,19 +115,24 @@ std::optional<std::string> RequestHead::header(std::string_view name) const {
   std::optional<std::string> found;
   for (const auto& [known, value] : headers) {
     if (known != name) continue;
-    if (found) return std::nullopt;
+    if (found) throw HttpError(400, fmt::format("the header {} is there twice", name));
     found = value;
   }
   return found;
 }
 
+std::vector<std::string> RequestHead::list(std::string_view name) const {
+  const std::string all = header(name).value_or("");
+  std::vector<std::string> words;
+  std::string_view rest = all;
+  while (!rest.empty()) words.emplace_back(trimmed(take(rest, ",")));
+  return words;
+}
+
 bool RequestHead::lists(std::string_view name, std::string_view word) const {
-  const std::string list = core::lower(header(name).value_or(""));
-  std::string_view rest = list;
-  while (!rest.empty()) {
-    if (trimmed(take(rest, ",")) == word) return true;
-  }
-  return false;
+  const std::vector<std::string> words = list(name);
+  return std::any_of(words.begin(), words.end(),
+                     [word](const std::string& one) { return core::lower(one) == word; });
 }
 
 RequestHead parse_request(std::string_view text) {
@@ -146,7 +154,15 @@ Response error_response(int status, const std::string& sentence) {
   return response;
 }
 
-std::string to_text(const Response& response, bool keep_alive) {
+Response error_response(const HttpError& error) {
+  Response response = error_response(error.status(), error.what());
+  if (error.status() == 401) response.headers.emplace_back("WWW-Authenticate", "Bearer");
+  if (error.status() == 405) response.headers.emplace_back("Allow", error.allow());
+  if (error.status() == 426) response.headers.emplace_back("Upgrade", "websocket");
+  return response;
+}
+
+std::string to_text(const Response& response, bool keep_alive, bool with_body) {
   std::string text = fmt::format("HTTP/1.1 {} {}\r\n", response.status, status_words(response.status));
   if (response.status >= 200 && response.status != 204) {
     text += fmt::format("Content-Type: {}\r\nContent-Length: {}\r\n", response.type, response.body.size());
@@ -155,7 +171,7 @@ std::string to_text(const Response& response, bool keep_alive) {
     text += keep_alive ? "Connection: keep-alive\r\n" : "Connection: close\r\n";
   }
   for (const auto& [name, value] : response.headers) text += fmt::format("{}: {}\r\n", name, value);
-  return text + "\r\n" + response.body;
+  return text + "\r\n" + (with_body ? response.body : "");
 }
 
 const char* status_words(int status) {

@@ -24,14 +24,18 @@ inline constexpr std::size_t longest_head = 16 * 1024;
 inline constexpr std::size_t longest_target = 2048;  ///< bytes; more is refused with 414
 inline constexpr std::size_t most_headers = 64;
 
-/// A refused request: the status to answer with, and a sentence.
+/// A refused request: the status to answer with, and a sentence. `allow`: for 405, the methods of the
+/// address.
 class HttpError : public std::runtime_error {
  public:
-  HttpError(int status, const std::string& sentence) : std::runtime_error(sentence), status_(status) {}
+  HttpError(int status, const std::string& sentence, std::string allow = {})
+      : std::runtime_error(sentence), status_(status), allow_(std::move(allow)) {}
   int status() const { return status_; }
+  const std::string& allow() const { return allow_; }
 
  private:
   int status_;
+  std::string allow_;
 };
 
 struct RequestHead {
@@ -42,8 +46,10 @@ struct RequestHead {
   std::uint64_t content_length = 0;                          ///< bytes
   bool keep_alive = true;
 
-  /// `name` in lower case; absent if there is none, or several.
+  /// `name` in lower case; absent if there is none. Throws HttpError 400 if there are several.
   std::optional<std::string> header(std::string_view name) const;
+  /// The words of a list such as "unicursal.v1, token.TOKEN"; empty if there is no such header.
+  std::vector<std::string> list(std::string_view name) const;
   /// Whether a list such as "keep-alive, Upgrade" contains this word, which is in lower case.
   bool lists(std::string_view name, std::string_view word) const;
 };
@@ -64,9 +70,11 @@ RequestHead parse_request(std::string_view head);
 
 /// {"version": 1, "error": "…"}
 Response error_response(int status, const std::string& sentence);
+/// The same with the headers that RFC 9110 asks for beside 401, 405 and 426.
+Response error_response(const HttpError& error);
 
-/// As bytes on the wire.
-std::string to_text(const Response& response, bool keep_alive);
+/// As bytes on the wire. `with_body`: false for the answer to HEAD, which has the headers alone.
+std::string to_text(const Response& response, bool keep_alive, bool with_body = true);
 
 const char* status_words(int status);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
@@ -20,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 using asio::ip::tcp;
 
-constexpr std::size_t most_connections = 64;
+constexpr std::size_t most_unproven = 64, most_requests = 64, most_streams = 64;
 constexpr auto head_patience =
     10s;  ///< from the first byte of a request, or the last answer, to its blank line
 constexpr auto body_patience = 10s;                 ///< and beyond that, at least:
@@ -40,6 +41,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   Connection(tcp::socket socket, HttpServer& server)
       : socket_(std::move(socket)), deadline_(socket_.get_executor()), server_(server), all_(server.shared_) {
     all_->connections.insert(this);
+    await_proof();
   }
   ~Connection() { all_->connections.erase(this); }
   Connection(const Connection&) = delete;
@@ -47,12 +49,18 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
 
   asio::awaitable<void> run();
   void close() {
+    place_ = Place::none;
     asio::error_code ignored;
     socket_.close(ignored);
     if (events_) events_->close(1001);
   }
 
  private:
+  enum class Place { unproven, request, stream, none };
+
+  std::size_t count(Place place) const;
+  void await_proof();
+  void enter(Place place, std::size_t most);
   asio::awaitable<bool> serve_one();
   asio::awaitable<std::optional<RequestHead>> read_head();
   asio::awaitable<void> read_body(Request& request);
@@ -68,8 +76,11 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   HttpServer& server_;
   const std::shared_ptr<Shared> all_;
   std::shared_ptr<EventStream> events_;
+  Place place_ = Place::none;
+  std::uint64_t arrival_ = 0;  ///< order of those without proof
   std::string buffer_;
   bool expired_ = false;
+  bool head_only_ = false;  ///< the present request is HEAD
 };
 
 /// While one exists, no other client may send a large body: together they would fill the memory.
@@ -92,6 +103,29 @@ class HttpServer::LargeBody {
  private:
   std::shared_ptr<Shared> all_;
 };
+
+std::size_t HttpServer::Connection::count(Place place) const {
+  return static_cast<std::size_t>(
+      std::count_if(all_->connections.begin(), all_->connections.end(),
+                    [place](const Connection* one) { return one->place_ == place; }));
+}
+
+/// Takes a place of the unproven; the one that has waited longest gives way.
+void HttpServer::Connection::await_proof() {
+  place_ = Place::unproven;
+  arrival_ = ++all_->arrivals;
+  if (count(Place::unproven) <= most_unproven) return;
+  Connection* oldest = this;
+  for (Connection* one : all_->connections) {
+    if (one->place_ == Place::unproven && one->arrival_ < oldest->arrival_) oldest = one;
+  }
+  oldest->close();
+}
+
+void HttpServer::Connection::enter(Place place, std::size_t most) {
+  if (count(place) >= most) throw HttpError(503, "too many connections; try again later");
+  place_ = place;
+}
 
 void HttpServer::Connection::expire_after(asio::steady_timer::duration patience) {
   expired_ = false;
@@ -160,7 +194,7 @@ asio::awaitable<void> HttpServer::Connection::write(std::string bytes) {
 /// Answers, and reads on for a moment: closing at once would reset the connection before the client sees the
 /// answer.
 asio::awaitable<void> HttpServer::Connection::refuse(Response response) {
-  co_await write(to_text(response, false));
+  co_await write(to_text(response, false, !head_only_));
   asio::error_code error;
   socket_.shutdown(tcp::socket::shutdown_send, error);
   std::array<char, 16 * 1024> bytes;
@@ -177,7 +211,7 @@ asio::awaitable<Response> HttpServer::Connection::answered(Request request) {
   try {
     co_return co_await server_.handler_.answer(std::move(request));
   } catch (const HttpError& refused) {
-    failed = error_response(refused.status(), refused.what());
+    failed = error_response(refused);
   } catch (const std::exception& error) {
     failed = error_response(500, error.what());
   }
@@ -186,9 +220,10 @@ asio::awaitable<Response> HttpServer::Connection::answered(Request request) {
 
 asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head) {
   const auto key = head.header("sec-websocket-key");
-  if (!key || !is_websocket_key(*key) || !head.lists("connection", "upgrade") ||
+  if (head.method != "GET" || !key || !is_websocket_key(*key) || !head.lists("connection", "upgrade") ||
       !head.lists("upgrade", "websocket") || head.header("sec-websocket-version") != "13")
     throw HttpError(426, "events come by WebSocket, version 13");
+  enter(Place::stream, most_streams);
   Response response;
   response.status = 101;
   response.headers = {
@@ -205,11 +240,13 @@ asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head) {
 asio::awaitable<bool> HttpServer::Connection::serve_one() {
   std::optional<RequestHead> head = co_await read_head();
   if (!head) co_return false;
+  head_only_ = head->method == "HEAD";
   const std::uint64_t most = server_.handler_.admit(*head);
   if (server_.handler_.wants_events(*head)) {
     co_await stream_events(std::move(*head));
     co_return false;
   }
+  enter(Place::request, server_.handler_.is_urgent(*head) ? SIZE_MAX : most_requests);
   if (head->content_length > most)
     throw HttpError(413, fmt::format("the body is too large; here it has {} bytes at most", most));
   Request request;
@@ -221,7 +258,8 @@ asio::awaitable<bool> HttpServer::Connection::serve_one() {
   deadline_.cancel();
   const bool keep = request.keep_alive;
   const Response response = co_await answered(std::move(request));
-  co_await write(to_text(response, keep));
+  co_await write(to_text(response, keep, !head_only_));
+  if (keep) await_proof();
   co_return keep;
 }
 
@@ -229,17 +267,15 @@ asio::awaitable<void> HttpServer::Connection::run() {
   const auto self = shared_from_this();
   std::optional<Response> refusal;
   try {
-    if (all_->connections.size() > most_connections)
-      throw HttpError(503, "too many connections; try again later");
     bool more = true;
     while (more) more = co_await serve_one();
   } catch (const HttpError& refused) {
-    refusal = error_response(refused.status(), refused.what());
-    if (refused.status() == 401) refusal->headers.emplace_back("WWW-Authenticate", "Bearer");
+    refusal = error_response(refused);
   } catch (const std::exception&) {
     // The client is gone.
   }
   try {
+    if (refusal && place_ != Place::unproven && place_ != Place::none) await_proof();
     if (refusal) co_await refuse(std::move(*refusal));
   } catch (const std::exception&) {
   }

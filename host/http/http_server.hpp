@@ -2,6 +2,10 @@
 // are carried out on the session's thread, without strands or locks. Requests are small and few; the handler
 // has to do slow work elsewhere.
 //
+// Connections have places of three kinds, so that none can take those of another: connections that have shown
+// no right yet (also those that wait for a further request), of which the oldest gives way to a new one;
+// requests that have been admitted; and event streams. An urgent request always has a place.
+//
 // Everything is limited: connections, bytes of the head, bytes of the body (checked before it is read; one
 // large body at a time), and the time for each. A client that exceeds a limit gets a 4xx and is disconnected.
 #pragma once
@@ -27,6 +31,8 @@ class HttpHandler {
   virtual asio::awaitable<Response> answer(Request request) = 0;
   /// Whether an admitted request asks for the stream of events.
   virtual bool wants_events(const RequestHead& head) const = 0;
+  /// Whether an admitted request is carried out although all places of requests are taken.
+  virtual bool is_urgent(const RequestHead& head) const = 0;
   virtual void join(std::shared_ptr<EventStream> client) = 0;
 };
 
@@ -41,6 +47,9 @@ class HttpServer {
   /// Accepts no more clients and closes all connections.
   void stop();
 
+  /// Whether every client has been let go after stop().
+  bool deserted() const { return shared_->connections.empty(); }
+
  private:
   class Connection;
   class LargeBody;
@@ -51,6 +60,7 @@ class HttpServer {
   HttpHandler& handler_;
   struct Shared {
     std::set<Connection*> connections;
+    std::uint64_t arrivals = 0;
     bool large_body = false;  ///< one is being received
   };
   /// Shared with the connections, which may outlive this object until the loop is gone.

@@ -5,11 +5,13 @@
 #include <bit>
 #include <vector>
 
+#include "core/text/utf8.hpp"
+
 namespace unicursal::host {
 namespace {
 
 constexpr const char* handshake_suffix = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";  // RFC 6455, 1.3
-constexpr std::uint16_t protocol_error = 1002, too_big = 1009;
+constexpr std::uint16_t protocol_error = 1002, bad_text = 1007, too_big = 1009;
 
 using Digest = std::array<std::uint32_t, 5>;
 
@@ -100,6 +102,36 @@ std::string close_frame(std::uint16_t code) {
   return encode({Frame::Kind::close, {static_cast<char>(code >> 8), static_cast<char>(code & 0xff)}});
 }
 
+std::optional<std::uint16_t> close_code(const Frame& frame) {
+  const std::string& payload = frame.payload;
+  if (payload.empty()) return std::nullopt;
+  if (payload.size() == 1) throw WebSocketError(protocol_error, "half a close code");
+  const auto code = static_cast<std::uint16_t>(static_cast<unsigned char>(payload[0]) << 8 |
+                                               static_cast<unsigned char>(payload[1]));
+  // 1004 to 1006 and 1015 are never sent; what is not assigned below 3000 must not be used.
+  const bool defined = code >= 1000 && code <= 1014 && !(code >= 1004 && code <= 1006);
+  if (!defined && !(code >= 3000 && code < 5000)) throw WebSocketError(protocol_error, "a wrong close code");
+  if (!core::is_utf8(std::string_view(payload).substr(2)))
+    throw WebSocketError(bad_text, "a reason that is not UTF-8");
+  return code;
+}
+
+/// Holds the pieces of messages against RFC 6455 (5.4, 8.1); control frames may come between them.
+void FrameReader::follow_message(const Frame& frame, bool whole) {
+  if (frame.kind == Frame::Kind::close) close_code(frame);
+  if (static_cast<int>(frame.kind) >= 8) return;
+  const bool continues = frame.kind == Frame::Kind::continuation;
+  if (continues != in_message_) throw WebSocketError(protocol_error, "a piece of another message");
+  if (!continues) is_text_ = frame.kind == Frame::Kind::text;
+  if (message_.size() + frame.payload.size() > longest_payload)
+    throw WebSocketError(too_big, "a message that is too long");
+  message_ += frame.payload;
+  in_message_ = !whole;
+  if (!whole) return;
+  if (is_text_ && !core::is_utf8(message_)) throw WebSocketError(bad_text, "a text that is not UTF-8");
+  message_.clear();
+}
+
 std::optional<Frame> FrameReader::next() {
   if (buffer_.size() < 2) return std::nullopt;
   const auto byte = [this](std::size_t at) { return static_cast<unsigned char>(buffer_[at]); };
@@ -122,6 +154,7 @@ std::optional<Frame> FrameReader::next() {
   for (std::size_t i = 0; i < size; ++i)
     frame.payload[i] = static_cast<char>(frame.payload[i] ^ buffer_[head + i % 4]);
   buffer_.erase(0, head + 4 + size);
+  follow_message(frame, whole);
   return frame;
 }
 

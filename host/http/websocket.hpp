@@ -26,6 +26,10 @@ struct Frame {
 std::string encode(const Frame& frame);
 std::string close_frame(std::uint16_t code);
 
+/// The code of a close frame; absent if it has none. Throws WebSocketError for a code or a reason that RFC
+/// 6455 (7.4) does not allow.
+std::optional<std::uint16_t> close_code(const Frame& frame);
+
 /// The client has broken the protocol; holds the code to close with.
 class WebSocketError : public std::runtime_error {
  public:
@@ -38,14 +42,19 @@ class WebSocketError : public std::runtime_error {
 
 class FrameReader {
  public:
-  static constexpr std::size_t longest_payload = 1024;  ///< bytes; no client needs more
+  static constexpr std::size_t longest_payload = 1024;  ///< bytes of a message; no client needs more
 
   void add(std::string_view bytes) { buffer_ += bytes; }
-  /// The next whole frame. Throws WebSocketError.
+  /// The next whole frame; messages in pieces and texts are checked on the way. Throws WebSocketError.
   std::optional<Frame> next();
 
  private:
+  void follow_message(const Frame& frame, bool whole);
+
   std::string buffer_;
+  bool in_message_ = false;  ///< its last piece has not come
+  bool is_text_ = false;
+  std::string message_;
 };
 
 }  // namespace unicursal::host

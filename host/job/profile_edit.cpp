@@ -1,7 +1,6 @@
 #include "host/job/profile_edit.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <fstream>
@@ -11,21 +10,13 @@
 #include "core/error.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/job/job.hpp"
+#include "host/job/parse_toml.hpp"
 
 namespace unicursal::host {
 namespace {
 
 constexpr const char* section = "transition";
 constexpr const char* keys[] = {"dead_volume", "mixing_volume"};
-
-toml::table parse(const std::string& text, const std::filesystem::path& file) {
-  try {
-    return toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw JobError(file.string(), fmt::format("line {}", error.source().begin.line),
-                   "is not valid TOML: " + std::string(error.description()), "mend that line");
-  }
-}
 
 std::string read(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -109,7 +100,7 @@ void add_to_section(std::string& text, const toml::table& root, const std::strin
 
 void set(std::string& text, const char* key, const char* sister, const std::string& value,
          const std::filesystem::path& file) {
-  const toml::table root = parse(text, file);
+  const toml::table root = parse_toml(text, file);
   if (const toml::node* node = find(root, key)) {
     replace_value(text, node->source(), value);
   } else if (find(root, sister) != nullptr) {
@@ -135,7 +126,7 @@ bool holds(const toml::table& root, const char* key, const std::string& value) {
 bool differs_only_there(const std::string& before, const std::string& after, const std::string& dead,
                         const std::string& mixing, const std::filesystem::path& file) {
   try {
-    toml::table old_table = parse(before, file), new_table = parse(after, file);
+    toml::table old_table = parse_toml(before, file), new_table = parse_toml(after, file);
     if (!holds(new_table, keys[0], dead) || !holds(new_table, keys[1], mixing)) return false;
     erase_keys(old_table);
     erase_keys(new_table);
@@ -150,7 +141,7 @@ bool differs_only_there(const std::string& before, const std::string& after, con
 std::string with_transition(const std::string& text, double dead_volume, double mixing_volume,
                             const std::filesystem::path& file) {
   const std::string dead = fmt::format("{:.2f}", dead_volume), mixing = fmt::format("{:.2f}", mixing_volume);
-  parse(text, file);
+  parse_toml(text, file);
   std::string changed = text;
   set(changed, keys[0], keys[1], dead, file);
   set(changed, keys[1], keys[0], mixing, file);

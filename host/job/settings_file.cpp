@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "host/job/job_error.hpp"
 #include "host/job/nearest.hpp"
+#include "host/job/parse_toml.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -34,15 +35,6 @@ std::string read_text(const std::filesystem::path& file) {
   text << stream.rdbuf();
   if (!stream) throw core::FileError(file.string(), "", "cannot be read", "check its permissions");
   return text.str();
-}
-
-toml::table parse(const std::filesystem::path& file) {
-  try {
-    return toml::parse(read_text(file), file.string());
-  } catch (const toml::parse_error& error) {
-    throw JobError(file.string(), fmt::format("line {}", error.source().begin.line),
-                   "is not valid TOML: " + std::string(error.description()), "mend that line");
-  }
 }
 
 const char* kind_of(const toml::node& node) {
@@ -192,7 +184,8 @@ std::string Section::choice(std::string_view key, const toml::node& node,
   return *value;
 }
 
-SettingsFile::SettingsFile(std::filesystem::path file) : file_(std::move(file)), table_(parse(file_)) {}
+SettingsFile::SettingsFile(std::filesystem::path file)
+    : file_(std::move(file)), table_(parse_toml(read_text(file_), file_)) {}
 
 Section SettingsFile::root(std::vector<std::string> known) const {
   return {file_, table_, "", std::move(known)};

@@ -257,4 +257,19 @@ TEST_CASE("A part too thin for a bead is refused before anything is heated") {
   CHECK_FALSE(std::filesystem::exists(folder / "out.gcode"));
 }
 
+TEST_CASE("Names and texts of files reach the terminal without control characters") {
+  const TempFolder folder;
+  folder.write("bench.toml", sample_profile);
+  folder.write("plate.svg", sample_drawing);
+  const auto job = folder.write(
+      "job.toml", replaced(sample_job, "plate.svg", "d\\u00FCnn\\u001b]0;title\\u0007\\u0000\\u009b31m.svg"));
+  const Outcome outcome = run({"plan", job.string(), "-o", (folder / "out.gcode").string()});
+  INFO(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find_first_of(std::string("\x1b\x07\0", 3)) == std::string::npos);
+  CHECK(outcome.err.find("d\u00FCnn\\x1b]0;title\\x07") != std::string::npos);
+  CHECK(outcome.err.find("\xc2\x9b") == std::string::npos);
+  CHECK(outcome.err.find("; ") != std::string::npos);  // the sentence is not cut
+}
+
 }  // namespace unicursal

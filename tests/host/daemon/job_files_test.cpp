@@ -2,6 +2,7 @@
 #include "host/daemon/job_files.hpp"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -59,7 +60,7 @@ TEST_CASE("jobs in the folders are found by their names, and other files are not
   CHECK(refusal(files, "up/secret.toml") == Why::not_found);
   CHECK(refusal(files, std::string("leaf.toml\0.toml", 15)) == Why::bad_name);
   CHECK(refusal(files, "") == Why::bad_name);
-  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml", "link.toml"});
+  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml"});
 }
 
 TEST_CASE("an upload is one folder of files, and its job can name no others") {
@@ -77,6 +78,7 @@ TEST_CASE("an upload is one folder of files, and its job can name no others") {
     CHECK_THROWS_AS(files.keep("leaf", name, ""), Refused);
     CHECK_THROWS_AS(files.remove(name), Refused);
   }
+  CHECK_THROWS_AS(files.keep("leaf", "job.toml.part", ""), Refused);
   files.keep("bad", "a.toml", test::replaced(test::sample_job, "plate.svg", "../../secret.toml"));
   files.keep("bad", "b.toml", test::replaced(test::sample_job, "\"bench.toml\"", "\"/etc/hostname\""));
   files.keep("bad", "c.toml", "this is no TOML");
@@ -115,6 +117,22 @@ TEST_CASE("the last jobs that have ended are kept") {
   CHECK(queue.find(waiting));
   CHECK_FALSE(queue.find(waiting + 1));
   CHECK(queue.jobs().back().id == waiting + Queue::most_kept + 5);
+}
+
+TEST_CASE("a state folder that others can write to is refused") {
+  const test::TempFolder folder;
+  const std::string path = folder / "state";
+  REQUIRE(mkdir(path.c_str(), 0700) == 0);
+  for (const mode_t mode : {0777, 0770, 01777, 0702}) {
+    REQUIRE(chmod(path.c_str(), mode) == 0);
+    CHECK_THROWS_WITH(StateFolder(path), Catch::Contains("only this user"));
+  }
+  REQUIRE(chmod(path.c_str(), 0755) == 0);
+  CHECK_NOTHROW(StateFolder(path));
+  if (geteuid() == 0) {
+    REQUIRE(chown(path.c_str(), 1000, 1000) == 0);
+    CHECK_THROWS_WITH(StateFolder(path), Catch::Contains("only this user"));
+  }
 }
 
 TEST_CASE("a state folder belongs to one daemon, and its secrets to their owner") {

@@ -79,6 +79,8 @@ TEST_CASE("a print is paused and steered by the daemon's commands") {
   bench.await_print("paused");
   CHECK(bench.command({"pause"}).code != 0);
   CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 5}")) == 409);
+  for (const char* wrong : {"{\"nozzle_c\": 206, \"bed_c\": 999}", "{\"nozzle_c\": 999, \"bed_c\": 56}"})
+    CHECK(bench.status(bench.request("POST", "/api/temperature", wrong)) == 409);
   CHECK(bench.status(bench.request("POST", "/api/speed", "{\"percent\": 150}")) == 202);
   CHECK(bench.status(bench.request("POST", "/api/temperature", "{\"nozzle_c\": 205, \"bed_c\": 55}")) == 202);
   const Outcome changed = bench.command({"set", "--flow", "95", "--nozzle", "207", "--bed", "57"});
@@ -90,9 +92,16 @@ TEST_CASE("a print is paused and steered by the daemon's commands") {
   bench.await_print("printing");
   REQUIRE(bench.command({"cancel"}).code == 0);
   bench.await_job(id, "stopped");
+  const std::string log = bench.daemon().err();
+  for (const char* line : {"POST /api/jobs: done\n", "job 1 plate.toml: printing\n", "print: heating",
+                           "POST /api/print/pause: done\n", "job 1 plate.toml: stopped: "})
+    CHECK(count(log, line) >= 1);
+  CHECK(log.find("GET ") == std::string::npos);
   const std::string lines = bench.transcript();
   for (const char* line : {"M220 S150", "M104 S205", "M140 S55", "M221 S95", "M104 S207", "M140 S57"})
     CHECK(lines.find(line) != std::string::npos);
+  CHECK(lines.find("M104 S206") == std::string::npos);  // both or neither
+  CHECK(lines.find("M140 S56") == std::string::npos);
   CHECK(last(lines, "M104 S0") > last(lines, "M104 S207"));  // cold in the end
   CHECK(last(lines, "M140 S0") > last(lines, "M140 S57"));
 }
@@ -165,7 +174,7 @@ TEST_CASE("two daemons, and a print beside them, do not share a port") {
   REQUIRE(bench.command({"start"}).code == 0);
   bench.await_print("printing");
   CHECK(other.command({"start"}).code == 1);
-  CHECK(job(other, late)["state"] == "failed");
+  CHECK(job(other, late)["state"] == "queued");
   CHECK(job(other, late)["reason"].get<std::string>().find("another program is using it") !=
         std::string::npos);
   const Outcome print = test::run({"print", bench.path("jobs/plate.toml"), "--port", bench.path("port"),
@@ -188,6 +197,10 @@ TEST_CASE("a job that does not fit on the disk is refused, and nothing else is l
   CHECK(bench.status(bench.request("PUT", "/api/files/a/b.svg", std::string(5000, ' '))) == 507);
   CHECK(bench.ask("GET", "/api/jobs")["jobs"].size() == 1);
   CHECK(test::read_text(bench.path("state/queue.json")) == kept);
+  const rlimit fuller{10, RLIM_INFINITY};
+  REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &fuller, nullptr) == 0);
+  CHECK(bench.status(bench.request("DELETE", "/api/jobs/" + std::to_string(first))) == 507);
+  CHECK(bench.ask("GET", "/api/jobs")["jobs"].size() == 1);
   CHECK_FALSE(std::filesystem::exists(bench.path("state/queue.json.part")));
   CHECK_FALSE(std::filesystem::exists(bench.path("state/files/a/b.svg.part")));
   REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &room, nullptr) == 0);
@@ -208,14 +221,19 @@ TEST_CASE("an upload does not change under a print") {
   CHECK(bench.status(bench.request("PUT", "/api/files/ow/own.toml", test::sample_job)) == 201);
 }
 
-TEST_CASE("SIGTERM parks and cools the print before the daemon ends") {
+TEST_CASE("SIGTERM, SIGHUP and SIGQUIT park and cool the print before the daemon ends") {
+  const int signal = GENERATE(SIGTERM, SIGHUP, SIGQUIT);
+  CAPTURE(signal);
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
   const int id = add(bench, "0:99");
   REQUIRE(bench.command({"start"}).code == 0);
   bench.await_laying();
-  kill(bench.daemon().id(), SIGTERM);
+  for (const int idle : {SIGUSR1, SIGUSR2, SIGTSTP, SIGALRM}) kill(bench.daemon().id(), idle);
+  CHECK(bench.print_state() == "printing");
+  kill(bench.daemon().id(), signal);
+  if (signal == SIGHUP) kill(bench.daemon().id(), signal);  // as a closed terminal does
   CHECK(bench.daemon().wait().code == 0);
   const std::string lines = bench.transcript();
   CHECK(last(lines, "M104 S0") > last(lines, "G1 "));
@@ -236,6 +254,24 @@ TEST_CASE("stop is M112, and the job has failed") {
   bench.await_job(id, "failed");
   CHECK(job(bench, id)["reason"].get<std::string>().find("stopped at once") == 0);
   CHECK(bench.status(bench.request("GET", "/api/status")) == 200);
+}
+
+TEST_CASE("a job whose printer is off stays in the queue") {
+  DaemonBench bench;
+  bench.serve();
+  const int id = add(bench);
+  const std::string answer = bench.send(bench.request("POST", "/api/print/start"));
+  CHECK(test::status_of(answer) == 409);
+  CHECK(answer.find("switch it on") != std::string::npos);
+  CHECK(job(bench, id)["state"] == "queued");
+  bench.folder().write("port", "no printer");  // opens, and is not a serial port
+  CHECK(bench.command({"start"}).code == 1);
+  CHECK(job(bench, id)["state"] == "queued");
+  CHECK_FALSE(job(bench, id)["reason"].get<std::string>().empty());
+  std::filesystem::remove(bench.path("port"));
+  bench.start_printer("0");
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_job(id, "done");
 }
 
 TEST_CASE("a job that cannot be printed has a reason, and the next one is printed") {

@@ -57,6 +57,14 @@ TEST_CASE("ambiguous requests are refused") {
   CHECK(refused("GET / HTTP/1.1\r\nContent-Length: 3\r\nContent-Length: 4") == 400);
   CHECK(refused("GET / HTTP/1.1\r\nHost: a\r\nHost: b") == 400);
   CHECK(refused("POST / HTTP/1.1\r\nTransfer-Encoding: chunked") == 411);
+  for (const char* name :
+       {"Transfer-Encoding", "Content-Length", "Connection", "Sec-Fetch-Site", "Sec-WebSocket-Protocol",
+        "sec-websocket-key", "Sec-WebSocket-Version", "Upgrade", "Expect", "Content-Type", "Authorization"}) {
+    CAPTURE(name);
+    const std::string line = "\r\n" + std::string(name) + ": 1";
+    CHECK(refused("GET / HTTP/1.1" + line + "\r\nX: y" + line) == 400);
+  }
+  CHECK_THROWS_AS(parse_request("GET / HTTP/1.1\r\nX: a\r\nX: b").header("x"), HttpError);
   CHECK(refused("GET / HTTP/1.1\r\nContent-Length: +3") == 400);
   CHECK(refused("GET / HTTP/1.1\r\nContent-Length: 99999999999999999999999") == 413);
   CHECK(refused("GET / HTTP/1.1\r\nHost : a") == 400);
@@ -89,6 +97,10 @@ TEST_CASE("only clients with the token and a name of this computer are let in") 
   CHECK(let_in("Host: evil.example:8377" + bearer + token, rules) == 421);
   CHECK(let_in("Host: 127.0.0.1:80" + bearer + token, rules) == 421);
   CHECK(let_in(host_line, rules) == 401);
+  CHECK(let_in(host_line + "\r\nAuthorization: bearer  " + token, rules) == 200);
+  CHECK(let_in(host_line + "\r\nAuthorization: Basic " + token, rules) == 401);
+  CHECK(let_in(host_line + "\r\nAuthorization: Bearer", rules) == 401);
+  CHECK(let_in(host_line + "\r\nSec-WebSocket-Protocol: xxtoken." + token, rules) == 401);
   CHECK(let_in(host_line + bearer + token.substr(1), rules) == 401);
   CHECK(let_in(host_line + bearer + metrics, rules) == 401);
   CHECK(let_in(host_line + bearer + metrics, rules, "/metrics") == 200);
@@ -158,6 +170,38 @@ TEST_CASE("a client's frames that break the protocol are refused") {
   CHECK(code(masked(0x09, "")) == 1002);                  // a control frame in pieces
   CHECK(code(masked(0x83, "")) == 1002);                  // an unknown kind
   CHECK(code(masked(0xc1, "")) == 1002);                  // an extension that was not negotiated
+  CHECK(code(masked(0x80, "a")) == 1002);                 // a continuation of nothing
+  CHECK(code(masked(0x81, "\xff")) == 1007);              // a text that is not UTF-8
+  CHECK(code(masked(0x81, "\xed\xa0\x80")) == 1007);      // a surrogate
+  CHECK(code(masked(0x88, "\x03")) == 1002);              // half a close code
+  for (const int wrong : {0, 999, 1004, 1005, 1006, 1015, 1016, 2999, 5000, 65535}) {
+    CAPTURE(wrong);
+    CHECK(code(masked(0x88, {static_cast<char>(wrong >> 8), static_cast<char>(wrong & 0xff)})) == 1002);
+  }
+  CHECK(code(masked(0x88, "\x03\xe8\xc3")) == 1007);  // a reason that is not UTF-8
+  CHECK(code(masked(0x88, "\x03\xe8\xc3\xa4")) == 0);
+  CHECK(code(masked(0x88, "\x0f\xa0")) == 0);
   CHECK(code(std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10)) == 1009);  // the greatest length
   CHECK(code(std::string("\x82\xfe\xff\xff", 4)) == 1009);
+}
+
+TEST_CASE("a client's message may come in pieces, with control frames between them") {
+  const auto last_code = [](const std::string& bytes) {
+    FrameReader reader;
+    reader.add(bytes);
+    try {
+      while (reader.next()) {
+      }
+    } catch (const WebSocketError& error) {
+      return static_cast<int>(error.code());
+    }
+    return 0;
+  };
+  CHECK(last_code(masked(0x01, "\xc3") + masked(0x89, "") + masked(0x80, "\xa4") + masked(0x81, "b")) == 0);
+  CHECK(last_code(masked(0x01, "\xc3") + masked(0x80, "a")) == 1007);
+  CHECK(last_code(masked(0x01, "a") + masked(0x81, "b")) == 1002);  // the first was not ended
+  CHECK(last_code(masked(0x02, "\xff") + masked(0x80, "\xff")) == 0);
+  std::string many = masked(0x01, "");
+  for (int i = 0; i < 20; ++i) many += masked(0x00, std::string(100, 'a'));
+  CHECK(last_code(many) == 1009);
 }

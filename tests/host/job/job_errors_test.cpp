@@ -41,6 +41,12 @@ void check(const std::string& sentence, const Case& spoilt) {
   CHECK(sentence.find("; ") != std::string::npos);  // a remedy follows
 }
 
+std::string repeated(const std::string& piece, std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += piece;
+  return text;
+}
+
 const std::vector<Case> spoilt_jobs = {
     {"printer = \"bench.toml\"", "", {"job.toml", "line 1", "printer", "missing", "--profile"}},
     {"bench.toml",
@@ -204,7 +210,41 @@ TEST_CASE("Bytes of any kind in a job are an error and nothing worse") {
   std::string bytes = "x = \"";
   for (int c = 0; c < 256; ++c) bytes += static_cast<char>(c);
   CHECK(complaint(bytes, sample_profile).find("not valid TOML") != std::string::npos);
-  CHECK(complaint(std::string(100000, '['), sample_profile).find("not valid TOML") != std::string::npos);
+  CHECK(complaint(std::string(60, '['), sample_profile).find("not valid TOML") != std::string::npos);
+}
+
+TEST_CASE("Text that is nested too deep is refused before the parser runs out of stack") {
+  const std::string dots = repeated(".a", 40000), many = repeated(".a", 500000);
+  const std::string deep[] = {
+      "a" + dots + " = 1",
+      "a" + many + " = 1",
+      "[a" + dots + "]",
+      "[[ a" + dots + " ]]",
+      "x = {a" + dots + " = 1}",
+      "x = [{b = 1, a" + dots + " = 1}]",
+      "x = " + repeated("[", 40000),
+      "x = " + repeated("{a=", 40000),
+      "x = " + repeated("{a.b.c=[", 40000),
+      "\"a\"" + repeated(". \"a\"", 40000) + " = 1",
+      "x = {t = \"\"\"end\"\"\"\", a" + dots + " = 1}",  // the text is: end"
+      "x = {t = '''end''''', a" + dots + " = 1}",        // the text is: end''
+      "t = \"a\\\"#\"\na" + dots + " = 1",
+  };
+  for (const std::string& line : deep) {
+    INFO(line.substr(0, 60));
+    const std::string sentence = complaint(sample_job + ("\n# a comment\n" + line + "\n"), sample_profile);
+    CHECK(sentence.find("job.toml") != std::string::npos);
+    CHECK(sentence.find("64 levels") != std::string::npos);
+    const std::string other = complaint(sample_job, sample_profile + ("\n" + line + "\n"));
+    CHECK(other.find("bench.toml") != std::string::npos);
+    CHECK(other.find("64 levels") != std::string::npos);
+  }
+  const std::string late = complaint("a = \"\"\"\n\n\"\"\"\na" + dots + " = 1\n", sample_profile);
+  CHECK(late.find("line 4") != std::string::npos);
+  // Dots of texts, comments and numbers are not levels.
+  const std::string harmless =
+      "# " + dots + "\nx = [" + repeated("1.5, ", 1000) + "'" + dots + "', \"" + dots + "\"]\n";
+  CHECK(complaint(harmless + sample_job, sample_profile).find("x is not a known key") != std::string::npos);
 }
 
 }  // namespace unicursal::host

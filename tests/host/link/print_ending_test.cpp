@@ -73,6 +73,8 @@ TEST_CASE("a print that never began is not kept, and the user is not asked to re
 }
 
 TEST_CASE("a stop while heating ends the heating, and does not claim to have parked") {
+  const int signal = GENERATE(SIGINT, SIGQUIT, SIGHUP);
+  CAPTURE(signal);
   const Job job;
   std::atomic<bool> heating = false;
   bool waits = false;
@@ -99,7 +101,8 @@ TEST_CASE("a stop while heating ends the heating, and does not claim to have par
     REQUIRE(host.running());
     poll(nullptr, 0, 20);
   }
-  kill(host.id(), SIGINT);
+  for (const int idle : {SIGUSR1, SIGUSR2, SIGTSTP}) kill(host.id(), idle);
+  kill(host.id(), signal);
   const Outcome outcome = host.wait();
   printer.stop();
   INFO(outcome.err << outcome.out);
