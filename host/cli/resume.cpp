@@ -80,6 +80,13 @@ void show_restart(const Restart& restart, const Lost& lost, const Spool& spool) 
          "are printed again.\n",
          restart.repeated);
   }
+  if (restart.perhaps > restart.repeated) {
+    show(stdout,
+         "The record of the print has no end. If this computer lost its power, too, up to {} lines may have "
+         "been "
+         "printed\nand are printed again: check that the nozzle stands where the print continues.\n",
+         restart.perhaps);
+  }
   show(stdout,
        "The nozzle heats where it stands, rises, homes x and y (not z, because of the part), purges plastic "
        "beside the\npart, and continues. Its height is taken to be {:.2f} mm: do not continue if the z axis "
@@ -95,15 +102,19 @@ void show_restart(const Restart& restart, const Lost& lost, const Spool& spool) 
   for (const std::string& warning : restart.warnings) show(stdout, "note: {}\n", warning);
 }
 
-bool agreed(const ResumeOptions& options, const Restart& restart) {
-  const bool sure = restart.highest <= restart.lowest;
+/// A later print that may have been on another printer is no reason to refuse, but only a person knows.
+bool agreed(const ResumeOptions& options, const Restart& restart, const std::string& later) {
+  const bool sure = restart.highest <= restart.lowest && later.empty();
   if (options.yes && sure) return true;
+  if (!later.empty()) {
+    show(stdout, "A later print, {}, has begun on another port. Continue only if that was another printer.\n",
+         later);
+  }
   if (isatty(STDIN_FILENO) == 0) {
-    throw SpoolError(
-        "", "",
-        sure ? "this must be confirmed, but standard input is not a terminal"
-             : "a person must check the height of the nozzle, but standard input is not a terminal",
-        sure ? "give --yes to confirm it" : "resume at a terminal");
+    throw SpoolError("", "",
+                     sure ? "this must be confirmed, but standard input is not a terminal"
+                          : "a person must check the printer, but standard input is not a terminal",
+                     sure ? "give --yes to confirm it" : "resume at a terminal");
   }
   show(stdout, "Continue? [y/N] ");
   std::fflush(stdout);
@@ -126,7 +137,8 @@ Exit end(Print& print, const StreamResult& result, const ResumeOptions& options)
 Exit restart(Print& print, const Lost& lost, const ResumeOptions& options) {
   const Restart restart = restart_after(print.prepared(), print.spool(), lost);
   show_restart(restart, lost, print.spool());
-  if (!agreed(options, restart)) {
+  const LaterPrints later = later_prints(print.spool(), options.on.port);
+  if (!agreed(options, restart, later.other)) {
     show(stdout, "The print was not resumed. If the printer's heaters are on, they stay on: check them.\n");
     return Exit::failed;
   }
@@ -139,9 +151,8 @@ Exit resume_print(Print& print, const ResumeOptions& options) {
     const char* const why = before.aside ? "its nozzle was moved aside" : "it was parked and cooled";
     return restart(print, {why, std::nullopt}, options);
   }
-  const bool nothing_sent = before.anchors.empty();
-  const StreamResult result =
-      stream_from(print, nothing_sent ? std::optional(before.leg) : std::nullopt, options);
+  if (before.anchors.empty()) return restart(print, {"nothing had been sent to it", std::nullopt}, options);
+  const StreamResult result = stream_from(print, std::nullopt, options);
   return result.lost ? restart(print, *result.lost, options) : end(print, result, options);
 }
 
@@ -153,10 +164,13 @@ Exit resume_kept(const ResumeOptions& options) {
     show(stdout, "{}: this print was completed\n", folder.filename().string());
     return Exit::success;
   }
-  if (before.superseded) {
+  const std::string later = later_prints(spool, options.on.port).same;
+  if (before.superseded || !later.empty()) {
+    const std::string& by = later.empty() ? before.superseded_by : later;
     throw SpoolError(folder.string(), "",
-                     "this print cannot be resumed, because another print has begun on its printer since",
-                     "print the job again from the beginning");
+                     "this print cannot be resumed, because another print has begun on its printer since" +
+                         (by.empty() ? by : ": " + by),
+                     "resume that one, or print the job again from the beginning");
   }
   Print print(std::move(spool), options.on);
   return resume_print(print, options);

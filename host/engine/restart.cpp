@@ -1,5 +1,7 @@
 #include "host/engine/restart.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "firmware_gcode/interruption/lead_in.hpp"
@@ -55,10 +57,21 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   Restart restart;
   const std::uint64_t line = journal.leg.line(certain);
   const gcode::ModalState state = state_at(spool.chunks(), Leg{}, line);
-  if (!placed_somewhere(state)) return restart;
+  if (!placed_somewhere(state)) {
+    if (spool.extent().layers > 0) {
+      throw SpoolError(
+          spool.folder().string(), "",
+          fmt::format("has no certain place to continue from: the printer had taken {} lines, and the "
+                      "part had been begun; the start lines would home z onto it",
+                      journal.leg.line(journal.acknowledged)),
+          "clear the bed, and print the job again from the beginning");
+    }
+    return restart;
+  }
   restart.leg.begins_at = line;
   restart.layer = layer_of(spool.chunks(), line);
   restart.repeated = std::max(sent, certain) - certain;
+  if (!journal.ended && spool.extent().lines > line) restart.perhaps = spool.extent().lines - line;
   note_heights(restart, spool.chunks(), journal, certain, std::max(sent, certain));
   if (settled) restart.lowest = restart.highest;
   gcode::Chunk chunk =

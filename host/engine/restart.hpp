@@ -18,8 +18,10 @@ struct Restart {
   Leg leg;                          ///< to begin; at the print's start if nothing had been laid yet
   std::optional<LayerPlace> layer;  ///< where it continues
   std::uint64_t repeated = 0;       ///< at most so many lines are executed a second time
-  double lowest = 0, highest = 0;   ///< mm, bounds of the nozzle's height; the lower one is assumed
-  double drawn = 0;                 ///< mm of filament that is retracted
+  /// If the journal has lost its end, at most so many; 0 if it has not.
+  std::uint64_t perhaps = 0;
+  double lowest = 0, highest = 0;  ///< mm, bounds of the nozzle's height; the lower one is assumed
+  double drawn = 0;                ///< mm of filament that is retracted
   std::vector<std::string> warnings;
 
   bool from_start() const { return leg.begins_at == 0; }
@@ -28,7 +30,8 @@ struct Restart {
 /// Everything before the returned place has certainly been executed. A firmware acknowledges a move when it
 /// is planned, so the last acknowledged moves may be missing, unless the printer reported its place
 /// (`lost.place`), or the print had been ended or paused in order. Precondition: `prepared` is the spool's
-/// job.
+/// job. Throws SpoolError if a layer is spooled but no place is certain: the start lines, which home z, never
+/// run on a part.
 Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost);
 
 /// Brings a fresh chunk maker to where the spool's last chunk has left the encoder. Throws SpoolError if it

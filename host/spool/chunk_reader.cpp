@@ -16,11 +16,18 @@ std::optional<SpooledChunk> ChunkReader::next() {
     first_line_ = std::exchange(next_line_, next_line_ + chunk.lines.size());
     return chunk;
   } catch (const DamagedBytes&) {
-    return std::nullopt;  // whole, but not understood: as good as torn
+    return std::nullopt;  // whole, but not understood: damaged_within() compares what is sound
   }
 }
 
+bool ChunkReader::damaged_within() {
+  return records_.sound() != sound_ ||
+         records_.damaged_within(static_cast<unsigned char>(SpooledChunk::Kind::finish));
+}
+
 void SpoolExtent::add(const SpooledChunk& chunk) {
+  ++chunks;
+  last_begins = lines;
   lines += chunk.lines.size();
   if (chunk.kind == SpooledChunk::Kind::start) start_lines = lines;
   if (chunk.kind == SpooledChunk::Kind::layer) ++layers;

@@ -24,6 +24,8 @@ class ChunkReader {
   std::optional<SpooledChunk> next();
   /// The print's line that the chunk given last begins with.
   std::uint64_t first_line() const { return first_line_; }
+  /// Whether there is more behind the last sound one than a torn end. Precondition: next() has returned none.
+  bool damaged_within();
   /// Bytes of sound chunks so far.
   std::uint64_t sound() const { return sound_; }
 
@@ -37,8 +39,10 @@ struct SpoolExtent {
   std::uint64_t lines = 0;
   std::uint64_t start_lines = 0;  ///< lines before the first layer
   std::size_t layers = 0;
-  bool rest = false;      ///< the lines that the encoder had withheld are there
-  bool finished = false;  ///< the lines that end the print are there, too
+  bool rest = false;              ///< the lines that the encoder had withheld are there
+  bool finished = false;          ///< the lines that end the print are there, too
+  std::uint64_t last_begins = 0;  ///< the first line of the last chunk
+  std::size_t chunks = 0;
 
   void add(const SpooledChunk& chunk);
 };

@@ -1,5 +1,7 @@
 #include "host/spool/journal.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -55,10 +57,12 @@ Leg leg_in(ByteReader& bytes) {
 }
 
 void begin(JournalState& state, Leg leg) {
-  const std::uint64_t legs = state.legs + 1;
-  state = JournalState();
-  state.legs = legs;
-  state.leg = std::move(leg);
+  JournalState next;
+  next.legs = state.legs + 1;
+  next.leg = std::move(leg);
+  next.connected = state.connected;
+  next.furthest = state.furthest;
+  state = std::move(next);
 }
 
 Ended ended_in(ByteReader& bytes) {
@@ -79,11 +83,13 @@ void apply(JournalState& state, ByteReader bytes) {
       if (bytes.take<std::uint8_t>() != 0) state.anchors.clear();
       const auto number = bytes.take<std::uint32_t>();
       state.anchors.push_back({number, place_in(bytes)});
+      state.connected = true;
       break;
     }
     case Event::progress:
       state.handed = place_in(bytes);
       state.acknowledged = place_in(bytes);
+      state.furthest = std::max(state.furthest, state.leg.line(state.handed));
       break;
     case Event::park:
       state.parking = lines_in(bytes);
@@ -97,6 +103,7 @@ void apply(JournalState& state, ByteReader bytes) {
       break;
     case Event::superseded:
       state.superseded = true;
+      state.superseded_by = bytes.text();
       break;
     default:
       throw DamagedBytes("holds an event that this version does not know");
@@ -139,6 +146,14 @@ JournalState read_journal(const std::filesystem::path& file, std::uint64_t* soun
     throw SpoolError(file.string(), "byte " + std::to_string(reader.sound()), error.what(),
                      "resume with the version of this program that the print was begun with");
   }
+  if (reader.damaged_within(static_cast<unsigned char>(Event::aside))) {
+    throw SpoolError(
+        file.string(), "byte " + std::to_string(reader.sound()),
+        fmt::format("is damaged, and more was written behind the damage; up to there the printer had "
+                    "taken {} lines, but it has gone on since",
+                    state.leg.line(state.acknowledged)),
+        "clear the bed, and print the job again from the beginning");
+  }
   if (sound) *sound = reader.sound();
   return state;
 }
@@ -148,18 +163,26 @@ Journal::Journal(const std::filesystem::path& file, std::uint64_t sound)
 
 Journal::~Journal() = default;
 
-void Journal::append(const std::string& content) {
+/// Returns false if there was no room.
+bool Journal::append(const std::string& content) {
   try {
     writer_.append(content);
     unsynced_ = true;
+    return true;
   } catch (const SpoolFull& error) {
     problem_ = error.what();
+    return false;
   }
 }
 
+/// Progress for which there was no room is kept for sync(), which reports that.
 void Journal::write_latest() {
   if (const auto last = std::exchange(latest_, std::nullopt)) {
-    append(event(Event::progress).put(last->handed).put(last->acknowledged).bytes());
+    const bool written = append(event(Event::progress).put(last->handed).put(last->acknowledged).bytes());
+    if (!written)
+      unwritten_ = last;
+    else
+      unwritten_.reset();
   }
 }
 
@@ -208,8 +231,18 @@ void Journal::end(const Ended& ended) {
                 .bytes());
 }
 
-void Journal::supersede() {
-  write_now(event(Event::superseded).bytes());
+void Journal::supersede(const std::string& by) {
+  write_now(event(Event::superseded).put(std::string_view(by)).bytes());
+}
+
+void Journal::sync() {
+  const std::lock_guard lock(mutex_);
+  if (const auto last = latest_ ? latest_ : unwritten_) {
+    writer_.append(event(Event::progress).put(last->handed).put(last->acknowledged).bytes());
+    latest_.reset();
+    unwritten_.reset();
+  }
+  writer_.sync();
 }
 
 void Journal::progress(std::uint64_t handed, std::uint64_t acknowledged) {

@@ -55,8 +55,11 @@ struct JournalState {
   std::uint64_t acknowledged = 0;  ///< Places before this one were acknowledged.
   /// Lines sent after `handed` that parked the nozzle, and perhaps returned.
   std::vector<std::string> parking;
-  bool aside = false;       ///< Whether those lines, and everything before them, were executed.
-  bool superseded = false;  ///< Whether another print has begun, so that the printer has moved.
+  bool aside = false;          ///< Whether those lines, and everything before them, were executed.
+  bool superseded = false;     ///< Whether another print has begun, so that the printer has moved.
+  std::string superseded_by;   ///< That print; may be empty.
+  bool connected = false;      ///< Whether any leg had an anchor, so that something may have been sent.
+  std::uint64_t furthest = 0;  ///< The print's lines before this one were passed to the link in some leg.
   std::optional<Ended> ended;
 
   /// The place of the line that a firmware asks for by `number`, perhaps modulo 65536; nullopt if it cannot
@@ -64,8 +67,8 @@ struct JournalState {
   std::optional<std::uint64_t> place_of(std::uint32_t number) const;
 };
 
-/// Reads a journal up to the first damaged record. Throws SpoolError if it cannot be read at all or is of
-/// another version. If `sound` is given, it receives the number of bytes that a writer may keep.
+/// Reads a journal up to its torn end. Throws SpoolError if it cannot be read at all, is of another version,
+/// or is damaged before its end. If `sound` is given, it receives the number of bytes that a writer may keep.
 JournalState read_journal(const std::filesystem::path& file, std::uint64_t* sound = nullptr);
 
 class Journal {
@@ -85,10 +88,13 @@ class Journal {
   void park(const std::vector<std::string>& lines);  ///< Lines that are sent instead of the rest, or first.
   void aside();                                      ///< The lines of park() were executed.
   void end(const Ended& ended);
-  void supersede();
+  void supersede(const std::string& by);
 
   /// Written by a thread of its own; only the latest progress counts.
   void progress(std::uint64_t handed, std::uint64_t acknowledged);
+
+  /// Brings everything to the disk, the latest progress included. Throws SpoolFull.
+  void sync();
 
   /// Why something could not be written; nullopt if everything was.
   std::optional<std::string> problem() const;
@@ -100,7 +106,7 @@ class Journal {
 
   void write_now(const std::string& content);
   // To be called with the mutex locked:
-  void append(const std::string& content);
+  bool append(const std::string& content);
   void write_latest();
   void work(std::stop_token stop);
 
@@ -108,6 +114,7 @@ class Journal {
   std::condition_variable_any wake_;
   RecordWriter writer_;
   std::optional<Progress> latest_;
+  std::optional<Progress> unwritten_;  ///< there was no room for it
   bool unsynced_ = false;
   std::optional<std::string> problem_;
   std::jthread thread_;  ///< The last member, so that it ends before the members that it uses.

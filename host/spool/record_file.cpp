@@ -67,6 +67,28 @@ std::optional<std::string> RecordReader::next() {
   return content;
 }
 
+bool RecordReader::damaged_within(unsigned char first) {
+  stream_.clear();
+  stream_.seekg(static_cast<std::streamoff>(sound_));
+  std::string rest(size_ - sound_, '\0');
+  if (!stream_.read(rest.data(), static_cast<std::streamsize>(rest.size()))) return false;
+  const std::size_t last = rest.find_last_not_of('\0');
+  if (last == std::string::npos) return false;
+  const std::string_view all = rest;
+  const auto length_at = [&](std::size_t at) -> std::size_t {
+    return ByteReader(all.substr(at, 4)).take<std::uint32_t>();
+  };
+  for (std::size_t at = 0; at + header < all.size(); ++at) {
+    const std::size_t length = length_at(at);
+    if (length == 0 || length > all.size() - at - header) continue;
+    if (at == 0 && header + length <= last) return true;  // something stands behind the damaged record
+    if (static_cast<unsigned char>(all[at + header]) > first) continue;
+    const auto expected = ByteReader(all.substr(at + 4, 4)).take<std::uint32_t>();
+    if (checksum(all.substr(at + header, length)) == expected) return true;
+  }
+  return false;
+}
+
 void RecordReader::seek(std::uint64_t sound) {
   stream_.clear();
   stream_.seekg(static_cast<std::streamoff>(sound));
@@ -77,7 +99,7 @@ void RecordReader::seek(std::uint64_t sound) {
 
 RecordWriter::RecordWriter(std::filesystem::path file, std::uint64_t sound, std::uint64_t reserve)
     : file_(std::move(file)),
-      descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)),
+      descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600)),
       length_(sound) {
   const auto end = static_cast<off_t>(sound);
   if (descriptor_ < 0 || ::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) {

@@ -1,6 +1,6 @@
 // An append-only file of records, each with its length and a checksum (CRC-32 of length and content). A
-// record that a killed program or a power cut left incomplete is detected and cut off. Everything behind a
-// damaged record counts as lost, since it depends on that record.
+// record that a killed program or a power cut left incomplete at the end is detected and cut off. That is not
+// the same as damage further in, behind which more was written: damaged_within() finds that.
 //
 //   length (4 bytes) · checksum (4 bytes) · content (length bytes, at least one)
 #pragma once
@@ -27,6 +27,10 @@ class RecordReader {
 
   /// Returns the content of the next record; nullopt at the end and at the first damaged record.
   std::optional<std::string> next();
+  /// Whether the file goes on behind the record at which next() has stopped, so that it is damaged and not
+  /// only torn. A row of zeros does not count. The first byte of every record is taken to be at most `first`.
+  /// Precondition: next() has returned nullopt.
+  bool damaged_within(unsigned char first);
   /// Number of bytes of sound records read so far.
   std::uint64_t sound() const { return sound_; }
   /// Lets next() continue at a position. Precondition: sound() has returned this value before.

@@ -3,11 +3,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/files/descriptor.hpp"
@@ -24,7 +27,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kept = 5;  ///< Number of prints kept; one with many layers takes some tens of MB.
-constexpr int format = 2;        ///< Version of print.json and of the two record files.
+constexpr int format = 3;        ///< Version of print.json and of the two record files.
 
 fs::path order_file(const fs::path& folder) {
   return folder / "print.json";
@@ -68,35 +71,95 @@ fs::path make_folder(const fs::path& root, const std::string& name) {
   fs::create_directories(root, error);
   for (int more = 0; more < 1000 && !error; ++more) {
     const fs::path folder = root / (more == 0 ? name : fmt::format("{}-{}", name, more + 1));
-    if (fs::create_directory(folder, error)) return folder;
+    if (::mkdir(folder.c_str(), 0700) == 0) return folder;
+    if (errno != EEXIST) error.assign(errno, std::generic_category());
   }
   throw SpoolError(root.string(), "",
                    "cannot hold a new print" + (error ? " (" + error.message() + ")" : std::string()),
                    "check its permissions and that the disk is not full, or name another with --spool");
 }
 
-/// Copies the files of a job, each into a folder of its own, since their names may be equal.
+/// Removes the folder of a print that could not be made.
+class Unfinished {
+ public:
+  explicit Unfinished(fs::path folder) : folder_(std::move(folder)) {}
+  ~Unfinished() {
+    std::error_code ignored;
+    if (!folder_.empty()) fs::remove_all(folder_, ignored);
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  void keep() { folder_.clear(); }
+
+ private:
+  fs::path folder_;
+};
+
+/// The content of a file goes to the disk; best effort.
+void sync_file(const fs::path& file) {
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (descriptor) ::fsync(descriptor.get());
+}
+
+std::uint32_t checksum_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw SpoolError(file.string(), "", "cannot be read", "check that it is there and its permissions");
+  }
+  std::uint32_t sum = 0;
+  std::string part(1 << 16, '\0');
+  while (stream.read(part.data(), static_cast<std::streamsize>(part.size())), stream.gcount() > 0) {
+    sum = crc32(std::string_view(part).substr(0, static_cast<std::size_t>(stream.gcount())), sum);
+  }
+  return sum;
+}
+
+/// Refuses a text that JSON cannot hold.
+void check_text(const std::string& what, const std::string& text) {
+  try {
+    static_cast<void>(json(text).dump());
+  } catch (const json::exception&) {
+    throw SpoolError("", "",
+                     what + " has a name that is not UTF-8, so it cannot be written to the print's record",
+                     "give it a name in UTF-8, or in plain ASCII");
+  }
+}
+
+/// Copies the files of a job, each into a folder of its own, since their names may be equal. The copies are
+/// on the disk, and readable by their owner only.
 class Copies {
  public:
   explicit Copies(fs::path folder) : folder_(std::move(folder)) {}
 
   /// Returns the copy's name below the folder.
   std::string add(const fs::path& file) {
+    check_text("a file of the job", file.filename().string());
     const fs::path name = fs::path(std::to_string(count_++)) / file.filename();
+    const fs::path copy = folder_ / name;
     std::error_code error;
-    fs::create_directories((folder_ / name).parent_path(), error);
-    if (!error) fs::copy_file(file, folder_ / name, error);
+    for (const fs::path& folder : {folder_, copy.parent_path()}) {
+      if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) error.assign(errno, std::generic_category());
+    }
+    if (!error) fs::copy_file(file, copy, error);
+    if (!error) fs::permissions(copy, fs::perms::owner_read | fs::perms::owner_write, error);
     if (error) {
       throw SpoolError(file.string(), "",
                        "cannot be copied to " + folder_.string() + " (" + error.message() + ")",
                        "check its permissions and that the disk is not full");
     }
+    sync_file(copy);
+    sync_folder(copy.parent_path());
+    sync_folder(folder_);
+    sums_[name.string()] = checksum_of(copy);
     return name.string();
   }
+  /// The checksum of every copy, by its name.
+  const json& sums() const { return sums_; }
 
  private:
   fs::path folder_;
   int count_ = 0;
+  json sums_ = json::object();
 };
 
 json copies_of(const Job& job, const fs::path& folder) {
@@ -107,14 +170,24 @@ json copies_of(const Job& job, const fs::path& folder) {
   for (const fs::path& file : inputs.fields) {
     files["fields"].push_back(file.empty() ? "" : copies.add(file));
   }
+  files["checksums"] = copies.sums();
   return files;
+}
+
+/// The checksum of the rest of a record.
+std::uint32_t checksum_in(json record) {
+  record.erase("checksum");
+  return crc32(record.dump());
 }
 
 json read_order(const fs::path& folder) {
   std::ifstream stream(order_file(folder));
   json order = json::parse(stream, nullptr, false);
-  if (order.is_object() && order.value("format", json()) == format) return order;
-  const bool other = order.is_object() && order.contains("format");
+  const bool other = order.is_object() && order.contains("format") && order["format"] != format;
+  if (order.is_object() && order.contains("format") && !other) {
+    if (order.value("checksum", json()) == checksum_in(order)) return order;
+    throw SpoolError(order_file(folder).string(), "", "is damaged", "clear the bed, and print the job again");
+  }
   throw SpoolError(order_file(folder).string(), "",
                    other ? "was written by another version of this program" : "is not the record of a print",
                    other ? "resume with that version" : "see `unicursal resume --list`");
@@ -130,6 +203,30 @@ PrintOrder order_in(const json& record) {
     order.layers = std::pair(layers.at(0).get<std::size_t>(), layers.at(1).get<std::size_t>());
   }
   return order;
+}
+
+constexpr std::uint64_t unreadable = std::numeric_limits<std::uint64_t>::max();
+
+/// The number of a print among those that were begun; 0 for prints of older versions, which had none.
+std::uint64_t number_of(const fs::path& folder) {
+  try {
+    return read_order(folder).at("number").get<std::uint64_t>();
+  } catch (const json::exception&) {
+    return unreadable;
+  } catch (const SpoolError&) {
+    std::ifstream stream(order_file(folder));
+    const json order = json::parse(stream, nullptr, false);
+    return order.is_object() && order.value("format", json()) == format - 1 ? 0 : unreadable;
+  }
+}
+
+/// The number of the next print.
+std::uint64_t next_number(const fs::path& root) {
+  std::uint64_t last = 0;
+  for (const fs::path& folder : kept_prints(root)) {
+    if (const std::uint64_t number = number_of(folder); number != unreadable) last = std::max(last, number);
+  }
+  return last + 1;
 }
 
 /// Runs `work`, and turns an exception of the JSON library into a SpoolError.
@@ -155,7 +252,8 @@ fs::path copy_in(const fs::path& folder, const std::string& name) {
 
 /// Removes old prints, except those in use.
 void remove_old(const fs::path& root) {
-  const std::vector<fs::path> prints = kept_prints(root);
+  std::vector<fs::path> prints = kept_prints(root);
+  std::erase_if(prints, [](const fs::path& folder) { return number_of(folder) == unreadable; });
   for (std::size_t i = kept; i < prints.size(); ++i) {
     try {
       const Lock lock(prints[i]);
@@ -168,7 +266,41 @@ void remove_old(const fs::path& root) {
   }
 }
 
-void supersede(const fs::path& folder, const PrintOrder& by) {
+/// What was sent was kept before, and what was kept before the last chunk was sent: anything else is damage,
+/// with which nobody can say where the printer stands.
+void check_chunks(const fs::path& folder, ChunkReader& reader, const SpoolExtent& extent,
+                  const JournalState& journal) {
+  const auto refuse = [&](const fs::path& file, const std::string& problem) {
+    throw SpoolError(
+        file.string(), "",
+        fmt::format("{}; it is known that {} lines and {} layers had been prepared, and that at least "
+                    "{} lines had been sent; nothing was sent to the printer now",
+                    problem, extent.lines, extent.layers, std::max(journal.furthest, extent.last_begins)),
+        "clear the bed, and print the job again from the beginning");
+  };
+  if (reader.damaged_within())
+    refuse(chunk_file(folder), "is damaged, and more was written behind the damage");
+  if (journal.legs == 0) refuse(journal_file(folder), "does not hold the beginning of the print");
+  if (journal.furthest > extent.lines) {
+    refuse(chunk_file(folder), "ends before the last line that was sent");
+  }
+  if (journal.furthest < extent.last_begins || (extent.chunks > 0 && !journal.connected)) {
+    refuse(journal_file(folder), "ends before the last lines that were sent");
+  }
+}
+
+void check_copies(const fs::path& folder, const json& record) {
+  of_record(folder, [&] {
+    for (const auto& [name, sum] : record.at("files").at("checksums").items()) {
+      const fs::path copy = copy_in(folder, name);
+      if (checksum_of(copy) == sum.get<std::uint32_t>()) continue;
+      throw SpoolError(copy.string(), "", "is damaged, so the rest of the part would differ",
+                       "clear the bed, and print the job again from the beginning");
+    }
+  });
+}
+
+void supersede(const fs::path& folder, const PrintOrder& by, const std::string& name) {
   const Lock lock(folder);
   const json record = read_order(folder);
   const PrintOrder order = of_record(folder, [&] { return order_in(record); });
@@ -176,7 +308,7 @@ void supersede(const fs::path& folder, const PrintOrder& by) {
   std::uint64_t sound = 0;
   const JournalState state = read_journal(journal_file(folder), &sound);
   const bool over = state.ended && state.ended->outcome == Outcome::completed;
-  if (!over && !state.superseded) Journal(journal_file(folder), sound).supersede();
+  if (!over && !state.superseded) Journal(journal_file(folder), sound).supersede(name);
 }
 
 }  // namespace
@@ -204,10 +336,14 @@ Spool::~Spool() = default;
 Spool::Spool(Spool&&) noexcept = default;
 
 Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& order) {
+  check_text("the job", order.job_name);
+  check_text("the port", order.port);
   const fs::path folder = make_folder(root, folder_name(job.file));
+  Unfinished unfinished(folder);
   auto lock = std::make_unique<Lock>(folder);
   json record = {{"format", format},
                  {"program", UNICURSAL_VERSION},
+                 {"number", next_number(root)},
                  {"name", order.job_name},
                  {"port", order.port},
                  {"device", order.device},
@@ -216,12 +352,15 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
                  {"look_ahead", job.print.look_ahead},
                  {"full_quality", job.full_quality},
                  {"files", copies_of(job, folder)}};
+  record["checksum"] = checksum_in(record);
   auto state = std::make_unique<State>(folder, record, 0, 0);
   state->lock = std::move(lock);
   state->journal.begin_leg({});
+  state->journal.sync();
   // Last: only now it counts as a print.
-  write_whole_file(order_file(folder), record.dump(1) + "\n");
+  write_whole_file(order_file(folder), record.dump(1) + "\n", WholeFile::Access::owner_only);
   sync_folder(root);
+  unfinished.keep();
   remove_old(root);
   return Spool(std::move(state));
 }
@@ -234,6 +373,8 @@ Spool Spool::open(const fs::path& folder) {
   SpoolExtent extent;
   ChunkReader chunks(chunk_file(folder));
   while (const auto chunk = chunks.next()) extent.add(*chunk);
+  check_chunks(folder, chunks, extent, before);
+  check_copies(folder, record);
   auto state = std::make_unique<State>(folder, std::move(record), chunks.sound(), sound_journal);
   state->extent = extent;
   state->lock = std::move(lock);
@@ -287,7 +428,7 @@ void Spool::supersede_others() noexcept {
     for (const fs::path& folder : kept_prints(state_->folder.parent_path())) {
       if (folder == state_->folder) continue;
       try {
-        supersede(folder, state_->order);
+        supersede(folder, state_->order, state_->folder.filename().string());
       } catch (const SpoolError&) {
         // In use on another printer, or damaged.
       }
@@ -303,6 +444,7 @@ void Spool::discard() noexcept {
 }
 
 void Spool::append(const SpooledChunk& chunk) {
+  state_->journal.sync();
   state_->chunks.append(to_bytes(chunk));
   try {
     state_->chunks.sync();
@@ -324,8 +466,35 @@ std::vector<fs::path> kept_prints(const fs::path& root) {
   for (const auto& entry : fs::directory_iterator(root, error)) {
     if (fs::exists(order_file(entry.path()), error)) prints.push_back(entry.path());
   }
-  std::sort(prints.rbegin(), prints.rend());
+  std::vector<std::pair<std::uint64_t, fs::path>> numbered;
+  for (const fs::path& folder : prints) numbered.emplace_back(number_of(folder), folder);
+  std::sort(numbered.rbegin(), numbered.rend());
+  std::transform(numbered.begin(), numbered.end(), prints.begin(),
+                 [](const auto& one) { return one.second; });
   return prints;
+}
+
+LaterPrints later_prints(const Spool& spool, const std::optional<std::string>& port) {
+  LaterPrints later;
+  const std::uint64_t number = number_of(spool.folder());
+  std::error_code unknown;
+  const fs::path device = port ? fs::canonical(*port, unknown) : fs::path();
+  for (const fs::path& folder : kept_prints(spool.folder().parent_path())) {
+    if (number_of(folder) <= number || folder == spool.folder()) continue;
+    const std::string name = folder.filename().string();
+    try {
+      const json record = read_order(folder);
+      const PrintOrder order = of_record(folder, [&] { return order_in(record); });
+      if (!read_journal(journal_file(folder)).connected) continue;
+      const bool same = order.port == spool.order().port || order.device == spool.order().device ||
+                        order.port == port || (!device.empty() && order.device == device);
+      std::string& kind = same ? later.same : later.other;
+      if (kind.empty()) kind = name;
+    } catch (const SpoolError&) {
+      if (later.other.empty()) later.other = name;
+    }
+  }
+  return later;
 }
 
 std::string describe(const fs::path& folder) {

@@ -9,7 +9,8 @@
 //
 // A chunk is on the disk (fdatasync) when append() returns, so a power cut of the computer loses no chunk
 // that was sent. The journal is written at once, which survives the end of this program, and synced once a
-// second.
+// second and before each chunk. So a sound journal always reaches the last chunk, and a sound file of chunks
+// everything that the journal says was sent; open() refuses a spool of which this is not true.
 #pragma once
 
 #include <cstdint>
@@ -39,10 +40,10 @@ struct PrintOrder {
 class Spool {
  public:
   /// Makes a folder below `root` for a new print. The newest few prints are kept, older ones are removed.
-  /// Throws SpoolError.
+  /// Throws SpoolError; nothing is left behind then.
   static Spool create(const std::filesystem::path& root, const Job& job, const PrintOrder& order);
-  /// Opens an existing folder to resume its print; damaged ends of its files are cut off. Throws SpoolError,
-  /// for instance if another program uses it.
+  /// Opens an existing folder to resume its print; torn ends of its files are cut off. Throws SpoolError if
+  /// anything in it is damaged, or if another program uses it.
   static Spool open(const std::filesystem::path& folder);
   ~Spool();
   Spool(Spool&&) noexcept;
@@ -76,8 +77,19 @@ class Spool {
 /// home folder.
 std::filesystem::path default_spool_root();
 
-/// The folders of the kept prints below `root`, the newest first.
+/// The folders of the kept prints below `root`, the newest first. They are counted when they begin, since
+/// clocks go back. A print whose number cannot be read counts as the newest, so that no older one is taken
+/// for it.
 std::vector<std::filesystem::path> kept_prints(const std::filesystem::path& root);
+
+/// The later prints below the same root that have moved a printer.
+struct LaterPrints {
+  std::string same;   ///< the name of the newest one on the same printer; empty: there is none
+  std::string other;  ///< of the newest one that may have been on another printer; empty: there is none
+};
+
+/// `port`: the port on which the print shall continue, if it is not the one on which it began.
+LaterPrints later_prints(const Spool& spool, const std::optional<std::string>& port);
 
 /// One line about a kept print: its job, its progress, and how it ended.
 std::string describe(const std::filesystem::path& folder);
