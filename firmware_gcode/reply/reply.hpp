@@ -1,6 +1,7 @@
 // The vocabulary of replies: what a firmware says, line by line, as typed values.
-// Forms of Marlin 2.1 and Repetier 1.0.4 as observed (sim/README.md, "Marlin 2.1" and "Repetier"). Text from a
-// printer is hostile input: every byte sequence parses to something, nothing is trusted, numbers are bounded.
+// Forms of Marlin 2.1 and Repetier 1.0.4 as observed (sim/README.md, "Marlin 2.1" and "Repetier"). Text from
+// a printer is hostile input: every byte sequence parses to something, nothing is trusted, numbers are
+// bounded.
 #pragma once
 
 #include <array>
