@@ -115,6 +115,8 @@ void Printer::strike(const Fault& fault) {
       return say(fault.text);
     case FaultKind::fatal:
       return firmware_->die(fault.text);
+    case FaultKind::stopped:
+      return firmware_->stop_moving();
     default:
       return;  // the other kinds affect bytes and lines
   }

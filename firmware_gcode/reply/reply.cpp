@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/text/printable.hpp"
+#include "firmware_gcode/reply/phrases.hpp"
 
 namespace unicursal::gcode {
 namespace {
@@ -135,7 +136,10 @@ Reply parse_reply(std::string_view line) {
     if (const auto number = take_count(rest); number && ends_word(rest)) return reply::Resend{*number};
     return reply::Unknown{std::string(whole)};
   }
-  if (take(rest, "Error:")) return error_with(rest);
+  const bool error = take(rest, "Error:");
+  if (meaning_of(whole) == Meaning::stopped)
+    return reply::Error{std::string(trimmed(rest)), std::nullopt, true};
+  if (error) return error_with(rest);
   if (take(rest, "fatal:")) return reply::Error{std::string(trimmed(rest)), std::nullopt, true};
   if (whole == "start") return reply::Start{};
   if (whole == "wait") return reply::Wait{};
@@ -149,7 +153,11 @@ Reply parse_reply(std::string_view line) {
   }
   if (take(rest, "Cap:")) return capability_with(rest, whole);
   if (rest.starts_with("Unknown command")) return reply::Echo{std::string(rest), true};
-  if (take(rest, "//action:")) return reply::Action{std::string(trimmed(rest))};
+  if (take(rest, "//action:") || take(rest, "// action:")) return reply::Action{std::string(trimmed(rest))};
+  // Repetier's words for the same: its display, a jam, a homing that has failed.
+  if (take(rest, "RequestPause:")) return reply::Action{"pause " + std::string(trimmed(rest))};
+  if (take(rest, "RequestContinue:")) return reply::Action{"resume"};
+  if (take(rest, "RequestStop:")) return reply::Action{"cancel"};
   if (rest.starts_with("FIRMWARE_NAME:")) return reply::Firmware{std::string(rest)};
   if (rest.starts_with("X:") && !after_label(rest, "Y:").empty()) return position_with(rest);
   if (rest.starts_with("T:") || rest.starts_with("B:")) {

@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "firmware_gcode/reply/phrases.hpp"
 #include "host/engine/printer_check.hpp"
 
 namespace unicursal::host {
@@ -22,7 +23,6 @@ void update(gcode::Temperatures& known, const gcode::Temperatures& reported) {
 Remark::Kind kind_of(const reply::Echo& echo, const std::string& line) {
   if (echo.unknown_command && denies_mixing(line)) return Remark::Kind::no_mixing;
   if (echo.unknown_command && echo.text.find("M85") != std::string::npos) return Remark::Kind::unknown_m85;
-  if (echo.text.find("cold extrusion") != std::string::npos) return Remark::Kind::too_cold;
   return Remark::Kind::other;
 }
 
@@ -42,6 +42,7 @@ Remark PrinterView::hear(const std::string& line) {
     halted = true;
     return {Remark::Kind::halted, error->text};
   }
+  if (gcode::meaning_of(line) == gcode::Meaning::too_cold) return {Remark::Kind::too_cold, line};
   if (const auto* action = std::get_if<reply::Action>(&reply)) return {Remark::Kind::action, action->text};
   if (const auto* echo = std::get_if<reply::Echo>(&reply)) {
     const Remark::Kind kind = kind_of(*echo, line);

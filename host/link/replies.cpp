@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "core/text/printable.hpp"
+#include "firmware_gcode/reply/phrases.hpp"
 #include "host/link/state.hpp"
 
 namespace unicursal::host {
@@ -33,6 +34,16 @@ bool ends_in_ok(const Reply& reply, std::string_view line) {
          line.find("ok") != std::string_view::npos;
 }
 
+/// Why a print cannot go on after such a line, a clause; empty if it can.
+std::string_view consequence(std::string_view line) {
+  const auto meaning = meaning_of(line);
+  if (meaning == Meaning::refuses_to_move)
+    return "the printer refuses to move, since it has lost its position; look at the part, then begin again";
+  if (meaning == Meaning::no_such_tool)
+    return "the printer has fewer tools than its profile says; correct the profile or the firmware";
+  return {};
+}
+
 bool is_plain_ok(const Reply& reply) {
   const auto* ok = std::get_if<reply::Ok>(&reply);
   return ok != nullptr && ok->temperatures.empty();
@@ -48,6 +59,10 @@ void LinkState::hear(std::string_view line) {
   std::visit([this](const auto& what) { take(what); }, reply);
   if (ends_in_ok(reply, line)) about_heat = false, take(reply::Ok{});
   if (probing && std::holds_alternative<reply::Error>(reply)) return;  // the expected answer to a probe
+  if (const auto why = consequence(line); !why.empty() && phase == Phase::streaming) {
+    cool_down();
+    fail(std::string(why) + " (" + core::printable(line) + ")");
+  }
   if (listener && !is_plain_ok(reply) && !std::holds_alternative<reply::Blank>(reply)) {
     listener(core::printable(line));
   }
@@ -108,7 +123,12 @@ void LinkState::take(const reply::Error& error) {
     ++refusals;
     return;
   }
-  fail("the printer has stopped itself (" + (last_error.empty() ? core::printable(error.text) : last_error) +
+  // The words of kill() hide the reason, which came before. A printer that only refuses to move still
+  // listens.
+  const bool bare = error.text.find("kill()") != std::string::npos && !last_error.empty();
+  const std::string why = bare ? last_error : core::printable(error.text);
+  cool_down();
+  fail("the printer has stopped itself (" + why +
        "); remove the cause, then switch the printer off and on again");
 }
 

@@ -65,6 +65,8 @@ constexpr std::array kinds{
               "a feeder runs out of filament, and the printer announces it"},
     KindFacts{K::say, "say", Value::text, "the printer says TEXT"},
     KindFacts{K::fatal, "fatal", Value::text, "the firmware stops itself with the error TEXT"},
+    KindFacts{K::stopped, "stopped", Value::none,
+              "the firmware acknowledges moves and does none of them until M999"},
 };
 
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {

@@ -57,6 +57,7 @@ enum class FaultKind {
   runout,
   say,
   fatal,
+  stopped,
 };
 
 struct Fault {

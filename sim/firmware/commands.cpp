@@ -21,6 +21,10 @@ constexpr double longest_dwell = 4294967.295;  // s: the firmware's clock counts
 constexpr double least_steps_per_mm = 0.1, most_steps_per_mm = 1e5;
 constexpr double least_speed = 0.05, least_acceleration = 1, least_jerk = 0.01;  // mm/s, mm/s², mm/s
 
+constexpr auto stopped_sentence =
+    "Printer stopped due to errors. Fix the error and use M999 to restart. (Temperature is reset. Set it "
+    "after restarting)";
+
 constexpr std::array<char, axes> axis_letters{'X', 'Y', 'Z', 'E'};
 
 /// Takes the number of a word, if it has one, but at least `least`.
@@ -83,7 +87,7 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'M', 221}, &F::flow_percent},
       {{'M', 400}, &F::finish_moves},
       {{'M', 410}, &F::stop_moves},
-      {{'M', 999}, &F::nothing},
+      {{'M', 999}, &F::go_on},
   };
   return table;
 }
@@ -110,6 +114,10 @@ bool Firmware::knows(const Command& command) const {
 // ---- moves
 
 void Firmware::move(const Command& command) {
+  if (stopped_) {
+    warn("a move was refused, since the firmware had stopped itself");
+    return say_still_stopped();
+  }
   const MoveTarget target = coordinates_.target(command);
   if (target.held_at_edge) warn("a move beyond the bed was held at its edge");
   const double before = coordinates_.e();
@@ -147,6 +155,14 @@ double Firmware::filament_to_feed(double e) {
 
 void Firmware::say_refused(const char* what) {
   say(fmt::format("echo: {}", what));
+}
+
+void Firmware::say_stopped() {
+  say(fmt::format("Error:{}", stopped_sentence));
+}
+
+void Firmware::say_still_stopped() {
+  say(stopped_sentence);
 }
 
 void Firmware::dwell(const Command& command) {

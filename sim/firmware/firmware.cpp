@@ -65,7 +65,7 @@ void Firmware::reset() {
   assembler_.reset();
   queue_.clear();
   waits_.clear();
-  running_ = killed_ = false;
+  running_ = killed_ = stopped_ = false;
   stalled_until_ = report_interval_ = inactivity_ = 0;
   nozzle_.reset(now_);
   bed_.reset(now_);
@@ -75,6 +75,13 @@ void Firmware::reset() {
 void Firmware::die(const std::string& reason) {
   say("Error:" + reason);
   kill();
+}
+
+void Firmware::stop_moving() {
+  say_stopped();
+  nozzle_.reset(now_);
+  bed_.reset(now_);
+  stopped_ = true;
 }
 
 void Firmware::kill() {

@@ -101,6 +101,8 @@ class Firmware {
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
   /// Stops for good, with `reason` as an error message.
   virtual void die(const std::string& reason);
+  /// Switches its heaters off; from now on it acknowledges moves and does none, until M999 or a reset.
+  void stop_moving();
 
   bool killed() const { return killed_; }
   bool hung() const { return planner_.stuck(); }
@@ -151,6 +153,9 @@ class Firmware {
   virtual void say_heating(const HeatWait& wait);
   virtual void say_unknown(const std::string& body);
   virtual void say_refused(const char* what);
+  /// What it says when it has stopped moving, and at a move after that; the latter may be empty.
+  virtual void say_stopped();
+  virtual void say_still_stopped();
   virtual bool knows(const Command& command) const;
   virtual Mix current_mix() const { return mixer_.current(); }
   /// The time at which the family next does something by itself; nullopt if it will not.
@@ -194,6 +199,7 @@ class Firmware {
   bool extruder_exists(const Command& command);
   virtual std::string temperatures() const;
   void nothing(const Command&) {}
+  void go_on(const Command&) { stopped_ = false; }
   void move(const Command& command);
   void dwell(const Command& command);
   void inches(const Command& command);
@@ -253,7 +259,8 @@ class Firmware {
   double filament_ = 0;             ///< Filament that the feeders were asked for since power-up, mm.
   PerAxis<std::int64_t> origin_{};  ///< Position of the machine when the firmware last booted, steps.
   bool booting_ = false, running_ = false, answers_ok_ = true, killed_ = false;
-  double boot_at_ = 0;  ///< End of the boot.
+  bool stopped_ = false;  ///< Whether it does not move until M999.
+  double boot_at_ = 0;    ///< End of the boot.
   double stalled_until_ = 0;
   std::int64_t last_executed_ = 0;  ///< Number of the last executed line.
   double busy_at_ = 0;              ///< Time of the next busy message.

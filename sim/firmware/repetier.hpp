@@ -28,6 +28,8 @@ class Repetier final : public Firmware {
   void say_heating(const HeatWait&) override { say(temperatures()); }
   void say_unknown(const std::string& body) override;
   void say_refused(const char*) override {}
+  void say_stopped() override { say("Error:Printer set into dry run mode until restart!"); }
+  void say_still_stopped() override {}
   bool knows(const Command& command) const override;
   Mix current_mix() const override { return {selected_, live_}; }
   std::optional<double> next_habit() const override;

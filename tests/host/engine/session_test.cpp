@@ -177,7 +177,8 @@ TEST_CASE("A pause asked for while the nozzle stands aside lasts until the user 
 }
 
 TEST_CASE("A nozzle that is too cold to lay anything holds the print") {
-  SessionBench bench({"--fault", "say:echo: cold extrusion prevented@line=200"});
+  const std::string words = GENERATE("echo: cold extrusion prevented", "Error: cold extrusion prevented");
+  SessionBench bench({"--fault", "say:" + words + "@line=200"});
   const Lines plain = undisturbed();
   std::string why;
   const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
@@ -188,6 +189,41 @@ TEST_CASE("A nozzle that is too cold to lay anything holds the print") {
   CHECK(result.ending == Ending::completed);
   CHECK(why.find("too cold") != std::string::npos);
   CHECK(holds(inserted(plain, bench.executed()), "M109 S210"));
+}
+
+TEST_CASE("A printer that has stopped itself fails the print at once, with its words") {
+  const auto [fault, words] = GENERATE(table<std::string, std::string>({
+      {"stopped@line=200", "use M999 to restart"},
+      {"say:Error:Printer set into dry run mode until restart!@line=200", "dry run mode"},
+      {"say:Printer stopped due to errors. Use M999@line=200", "stopped due to errors"},
+      {"say:!! STOP called because of BLTouch error@line=200", "STOP called"},
+      {"say:Error:0: Extruder switched off. MINTEMP triggered !@line=200", "MINTEMP"},
+  }));
+  CAPTURE(fault);
+  SessionBench bench({"--fault", fault});
+  const StreamResult result = bench.print();
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.begun);
+  CHECK_FALSE(result.parked);
+  CHECK(result.reason.find(words) != std::string::npos);
+  CHECK(bench.cold());
+  CHECK(bench.executed().size() < 300);
+}
+
+TEST_CASE("A printer that refuses moves, or has too few tools, fails the print at once and is cold") {
+  const std::string words = GENERATE("Home XYZ First", "Home Z First", "T2 Invalid extruder");
+  CAPTURE(words);
+  SessionBench bench({"--fault", "say:echo:" + words + "@line=200"});
+  const StreamResult result = bench.print();
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.reason.find(words) != std::string::npos);
+  CHECK(bench.cold());
+  CHECK(bench.executed().size() < 300);
+}
+
+TEST_CASE("A probing that has failed and is repeated does not end the print") {
+  SessionBench bench({"--fault", "say:Error:Probing Failed@line=200"});
+  CHECK(bench.print().ending == Ending::completed);
 }
 
 TEST_CASE("A pause may be asked for at any time before the end, while heating as well") {
@@ -213,6 +249,24 @@ TEST_CASE("The session obeys the firmware as it obeys the user") {
         {"--fault", "say://action:pause@line=200", "--fault", "say://action:resume@command=M85"});
     CHECK(bench.print().pauses == 1);
     CHECK(holds(inserted(plain, bench.executed()), "M400"));
+  }
+  SECTION("pause and resume in Repetier's words") {
+    SessionBench bench(
+        {"--fault", "say:RequestPause:Extruder jam@line=200", "--fault", "say:RequestContinue:@command=M85"});
+    std::string why;
+    const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
+      if (event.kind == Kind::state && session.status().state == SessionState::paused)
+        why = session.status().reason;
+    });
+    CHECK(result.pauses == 1);
+    CHECK(result.ending == Ending::completed);
+    CHECK(why.find("Extruder jam") != std::string::npos);
+  }
+  SECTION("the end in Repetier's words, and with a space") {
+    const std::string words = GENERATE("RequestStop:", "// action:cancel");
+    SessionBench bench({"--fault", "say:" + words + "@line=200"});
+    CHECK(bench.print().ending == Ending::stopped);
+    CHECK(bench.cold());
   }
   SECTION("filament runs out: the firmware parks by itself, and gets nothing meanwhile") {
     SessionBench bench({"--fault", "runout@line=200"});

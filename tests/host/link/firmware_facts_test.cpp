@@ -10,7 +10,7 @@
 //   repeated line numbers               "a printer that asks for lines that it has"
 //   M110 acts twice                     "numbering restarts"
 //   no ok at all                        "a command without an ok"
-//   unknown commands, T16               "unknown commands"
+//   unknown commands                    "unknown commands"
 //   line length                         link_test: "lines that would break the numbering"
 //   capacity                            "damage of every kind" (lost_bytes), simulator_test
 //   overrun                             "a window that is too large"
@@ -239,7 +239,7 @@ TEST_CASE("facts: a command without an ok does not block the link for ever") {
 TEST_CASE("facts: unknown commands do not stop a print") {
   for (const std::string& who : personalities) {
     std::vector<std::string> lines = moves(50);
-    lines.insert(lines.begin() + 20, {"M9999", "T16", "g28", "FOO"});
+    lines.insert(lines.begin() + 20, {"M9999", "g28", "FOO"});
     VirtualPrinter printer({"--personality", who});
     const Talk talk = printer.print(lines);
     INFO(who);
