@@ -130,7 +130,7 @@ TEST_CASE("A nozzle that waits for planning does not stay on the part, and the f
   const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
     if (event.kind != Kind::state || session.status().state != SessionState::paused) return;
     whys.push_back(session.status().reason);
-    CHECK(session.resume().value().find("waits") != std::string::npos);
+    CHECK(session.resume().value().find("waiting") != std::string::npos);
   });
   REQUIRE(result.ending == Ending::completed);
   CHECK(result.waited > 60);
