@@ -5,7 +5,7 @@
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/preparation.hpp"
-#include "host/cli/progress.hpp"
+#include "host/cli/progress_line.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/report/print_report.hpp"
@@ -46,7 +46,7 @@ Exit Plan::run() {
   write(file, maker.start());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   {
-    Progress progress("planning", prepared.count);
+    ProgressLine progress("planning", prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {
       write(file, maker.layer(std::move(*layer)).chunk);
       progress.update(done, 1);

@@ -1,4 +1,4 @@
-#include "host/cli/progress.hpp"
+#include "host/cli/progress_line.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -16,20 +16,20 @@ constexpr auto redraw_interval = std::chrono::milliseconds(100);
 
 }  // namespace
 
-Progress::Progress(std::string what, std::size_t layers)
+ProgressLine::ProgressLine(std::string what, std::size_t layers)
     : what_(std::move(what)), layers_(layers), terminal_(isatty(STDERR_FILENO) == 1) {}
 
-Progress::~Progress() {
+ProgressLine::~ProgressLine() {
   clear();
 }
 
-std::string Progress::line(std::size_t begun, double share) const {
+std::string ProgressLine::line(std::size_t begun, double share) const {
   const double passed = std::chrono::duration<double>(Clock::now() - started_).count();
   return fmt::format("{} layer {} of {}, {:.0f} %, {}", what_, std::min(begun + 1, layers_), layers_,
                      100 * share, duration_words(passed));
 }
 
-void Progress::update(std::size_t begun, double fraction) {
+void ProgressLine::update(std::size_t begun, double fraction) {
   if (layers_ == 0) return;
   const double share = std::min(1.0, (static_cast<double>(begun) + fraction) / static_cast<double>(layers_));
   const int tenth = static_cast<int>(10 * share);
@@ -46,7 +46,7 @@ void Progress::update(std::size_t begun, double fraction) {
   std::fflush(stderr);
 }
 
-void Progress::clear() {
+void ProgressLine::clear() {
   if (shown_) show(stderr, "\r\x1b[K");
   shown_ = false;
   std::fflush(stderr);

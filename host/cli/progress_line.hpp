@@ -8,14 +8,14 @@
 
 namespace unicursal::host {
 
-class Progress {
+class ProgressLine {
  public:
   /// `what` names the activity, for example "planning". `layers` is the number of layers.
-  Progress(std::string what, std::size_t layers);
+  ProgressLine(std::string what, std::size_t layers);
   /// Erases the progress line.
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// `begun`: number of layers before the current one. `fraction`: the finished part of the current layer, 0
   /// to 1.
