@@ -102,7 +102,7 @@ void show_restart(const Restart& restart, const Lost& lost, const Spool& spool) 
   for (const std::string& warning : restart.warnings) show(stdout, "note: {}\n", warning);
 }
 
-/// A later print that may have been on another printer is no reason to refuse, but only a person knows.
+/// A later print that may have been on another printer is not a reason to refuse, but only a person knows.
 bool agreed(const ResumeOptions& options, const Restart& restart, const std::string& later) {
   const bool sure = restart.highest <= restart.lowest && later.empty();
   if (options.yes && sure) return true;

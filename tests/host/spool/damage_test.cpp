@@ -147,7 +147,7 @@ void damage_at_random(std::size_t times, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a damaged print is refused before anything moves, and never begins anew") {
+TEST_CASE("a damaged print is refused before anything moves, and never begins from its start") {
   Interrupted print;
   const Kept kept(print.bench.print_folder());
   const std::string journal = kept.files().at("journal"), chunks = kept.files().at("chunks");
