@@ -1,8 +1,17 @@
 // Makes a mesh that bounds a solid from loose triangles.
 //
-// Repaired: vertices that nearly coincide are welded, facets that collapse are dropped, walls between two
-// solids that share them are removed, facets that face the wrong way are turned. Refused: edges with one
-// facet (holes) or an odd number of facets, and surfaces with only one side.
+// What counts is that along every edge as many facets run one way as the other: then each horizontal section
+// consists of closed contours, and the non-zero rule unites whatever overlaps, touches or repeats. A surface
+// that is not closed in this sense is mended, and a note says what was done, where, and how much:
+//
+// 1. vertices that nearly coincide are welded, and copies of facets are dropped;
+// 2. facets are split at vertices of others that lie on their sides (T-junctions);
+// 3. facets are turned so that neighbours agree;
+// 4. holes are closed, and surfaces without thickness are left out.
+//
+// In the end, shells that are inside out are turned. A surface is refused if it has only one side, if it
+// encloses nothing, or if closing a hole is a guess: if the hole's border is so far from flat that the volume
+// could differ by more than one per cent.
 #pragma once
 
 #include <string>
@@ -13,11 +22,8 @@
 
 namespace unicursal::core {
 
-/// mm: if the mesh is not closed otherwise, vertices this near to each other become one. About ten steps of a
-/// float at 100 mm.
-inline constexpr double vertex_weld = 1e-4;
-
-/// Throws ModelError naming an edge that cannot be closed, and how many such edges there are.
-ClosedMesh closed_mesh(const std::vector<Triangle>& triangles, const std::string& file, Warnings& warnings);
+/// `name`: the file, or the body in it, for notes and errors. Throws ModelError naming a place that cannot be
+/// mended.
+ClosedMesh closed_mesh(const std::vector<Triangle>& triangles, const std::string& name, Warnings& warnings);
 
 }  // namespace unicursal::core

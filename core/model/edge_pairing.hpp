@@ -1,22 +1,23 @@
-// Finds the two facets that meet at each edge. Where solids touch along an edge, four or more facets meet
-// there; two facets that bound the same wedge of material belong together.
+// Finds for each half-edge one that runs the other way. Where more than two facets meet at an edge, those
+// that bound the same wedge of material belong together if possible; any other choice bounds the same volume.
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <utility>
+#include <vector>
 
 #include "core/model/half_edge_mesh.hpp"
 
 namespace unicursal::core {
 
-struct EdgePairing {
-  std::size_t open = 0;                          ///< edges with one facet
-  std::size_t tangled = 0;                       ///< edges whose facets cannot be paired
-  std::optional<std::pair<Vec3, Vec3>> example;  ///< the ends of one such edge, of an open one if possible
+/// The half-edges of the mesh, sorted so that those of one edge are neighbours.
+struct EdgeUse {
+  std::uint32_t low, high;  ///< the edge's vertices
+  HalfEdge half_edge;
 };
+std::vector<EdgeUse> uses_by_edge(const ClosedMesh& mesh);
 
-/// Sets `mesh.twins` from `mesh.vertices` and `mesh.facets`. The twins are complete if both counts are zero.
-EdgePairing pair_edges(ClosedMesh& mesh);
+/// Sets `mesh.twins` and returns the half-edges that have none, in order. The surface is closed if there are
+/// none.
+std::vector<HalfEdge> pair_edges(ClosedMesh& mesh);
 
 }  // namespace unicursal::core

@@ -7,6 +7,16 @@
 
 namespace unicursal::core {
 
+std::vector<HeightSpan> height_spans(const ClosedMesh& mesh) {
+  std::vector<HeightSpan> result;
+  result.reserve(mesh.facets.size());
+  for (const auto& [a, b, c] : mesh.facets) {
+    const auto [low, high] = std::minmax({mesh.vertices[a].z(), mesh.vertices[b].z(), mesh.vertices[c].z()});
+    result.push_back({low, high});
+  }
+  return result;
+}
+
 HeightIndex::HeightIndex(const std::vector<HeightSpan>& spans) : order_(spans.size()) {
   std::iota(order_.begin(), order_.end(), std::uint32_t{0});
   std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return spans[a].low < spans[b].low; });

@@ -5,12 +5,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/model/half_edge_mesh.hpp"
+
 namespace unicursal::core {
 
 /// From `low` (included) to `high` (excluded), mm.
 struct HeightSpan {
   double low = 0, high = 0;
 };
+
+/// The heights that each facet passes through.
+std::vector<HeightSpan> height_spans(const ClosedMesh& mesh);
 
 /// Keeps the intervals in order of their low ends, with a tree that holds the greatest high end below each
 /// node.

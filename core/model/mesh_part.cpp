@@ -12,6 +12,7 @@
 #include "core/model/closed_mesh.hpp"
 #include "core/model/layer_stack.hpp"
 #include "core/model/slicer.hpp"
+#include "core/model/stl_reader.hpp"
 #include "core/model/zoning.hpp"
 
 namespace unicursal::core {
@@ -117,7 +118,7 @@ std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
   Eigen::AlignedBox3d box;
   for (const std::filesystem::path& file : source.files) {
     const std::size_t zone = zone_of(file, source.zones);
-    ClosedMesh mesh = closed_mesh(read_stl(file), file.string(), warnings);
+    ClosedMesh mesh = closed_mesh(read_stl(file, warnings), file.string(), warnings);
     box.extend(box_of(mesh));
     bodies.push_back({Slicer(std::move(mesh)), zone});
   }

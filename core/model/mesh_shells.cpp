@@ -4,75 +4,75 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/model/edge_pairing.hpp"
+#include "core/model/height_index.hpp"
+
 namespace unicursal::core {
 namespace {
 
-struct Shell {
-  std::vector<std::uint32_t> facets;
-  Eigen::AlignedBox3d box;
-  double volume = 0;  ///< mm³, negative if the facets face inwards
-};
-
-/// Reverses the facet's orientation; half-edges 0 and 2 change places.
-void turn(ClosedMesh& mesh, const std::vector<bool>& turned) {
-  const auto renamed = [&](HalfEdge h) { return turned[h / 3] ? 3 * (h / 3) + (2 - h % 3) : h; };
-  std::vector<HalfEdge> twins(mesh.twins.size());
-  for (HalfEdge h = 0; h < twins.size(); ++h) twins[renamed(h)] = renamed(mesh.twins[h]);
-  mesh.twins = std::move(twins);
-  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-    if (turned[f]) std::swap(mesh.facets[f][1], mesh.facets[f][2]);
+/// The other facet of each edge that joins just two.
+std::vector<HalfEdge> neighbours(const ClosedMesh& mesh) {
+  std::vector<HalfEdge> other(3 * mesh.facets.size(), no_half_edge);
+  const std::vector<EdgeUse> uses = uses_by_edge(mesh);
+  for (std::size_t i = 0; i < uses.size();) {
+    std::size_t end = i + 1;
+    while (end < uses.size() && uses[end].low == uses[i].low && uses[end].high == uses[i].high) ++end;
+    if (end - i == 2) {
+      other[uses[i].half_edge] = uses[i + 1].half_edge;
+      other[uses[i + 1].half_edge] = uses[i].half_edge;
+    }
+    i = end;
   }
+  return other;
 }
 
-/// Floods over the edges. `turned`: whether a facet must be turned to agree with the first one of its shell.
+/// Floods over the edges. `turned`: whether a facet must be turned to agree with the rest of its piece.
 class Flood {
  public:
   explicit Flood(const ClosedMesh& mesh)
-      : turned(mesh.facets.size(), false), mesh_(mesh), reached_(mesh.facets.size(), false) {}
-
-  void run() {
+      : turned(mesh.facets.size(), false),
+        mesh_(mesh),
+        other_(neighbours(mesh)),
+        reached_(mesh.facets.size(), false) {
     for (std::uint32_t f = 0; f < mesh_.facets.size(); ++f) {
-      if (!reached_[f]) shells.push_back(shell_from(f));
+      if (!reached_[f]) flood_from(f);
     }
   }
 
   std::vector<bool> turned;
-  std::vector<Shell> shells;
   bool two_sided = true;
 
  private:
-  Shell shell_from(std::uint32_t first) {
-    Shell shell;
-    shell.facets.push_back(first);
+  void flood_from(std::uint32_t first) {
+    std::vector<std::uint32_t> piece{first};
     reached_[first] = true;
-    for (std::size_t i = 0; i < shell.facets.size(); ++i) {
-      for (HalfEdge h = 3 * shell.facets[i], end = h + 3; h < end; ++h) visit(h, shell);
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      for (HalfEdge h = 3 * piece[i], end = h + 3; h < end; ++h) visit(h, piece);
     }
-    prefer_majority(shell);
-    return shell;
+    prefer_majority(piece);
   }
 
-  void visit(HalfEdge h, Shell& shell) {
-    const HalfEdge twin = mesh_.twins[h];
-    const bool same_sense = mesh_.from(h) == mesh_.from(twin);
-    const bool should_turn = turned[h / 3] != same_sense;
+  void visit(HalfEdge h, std::vector<std::uint32_t>& piece) {
+    const HalfEdge twin = other_[h];
+    if (twin == no_half_edge) return;
+    const bool should_turn = turned[h / 3] != (mesh_.from(h) == mesh_.from(twin));
     if (!reached_[twin / 3]) {
       reached_[twin / 3] = true;
       turned[twin / 3] = should_turn;
-      shell.facets.push_back(twin / 3);
+      piece.push_back(twin / 3);
     } else if (turned[twin / 3] != should_turn) {
       two_sided = false;
     }
   }
 
-  void prefer_majority(const Shell& shell) {
-    const auto count =
-        std::count_if(shell.facets.begin(), shell.facets.end(), [&](auto f) { return turned[f]; });
-    if (2 * std::size_t(count) <= shell.facets.size()) return;
-    for (const auto f : shell.facets) turned[f] = !turned[f];
+  void prefer_majority(const std::vector<std::uint32_t>& piece) {
+    const auto count = std::count_if(piece.begin(), piece.end(), [&](auto f) { return turned[f]; });
+    if (2 * std::size_t(count) <= piece.size()) return;
+    for (const auto f : piece) turned[f] = !turned[f];
   }
 
   const ClosedMesh& mesh_;
+  std::vector<HalfEdge> other_;
   std::vector<bool> reached_;
 };
 
@@ -80,9 +80,9 @@ void measure(const ClosedMesh& mesh, Shell& shell) {
   const Vec3 origin = mesh.vertices[mesh.facets[shell.facets.front()][0]];
   for (const auto f : shell.facets) {
     const auto& [a, b, c] = mesh.facets[f];
-    for (const auto v : {a, b, c}) shell.box.extend(mesh.vertices[v]);
-    shell.volume +=
-        (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin)) / 6;
+    const Vec3 normal = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    shell.area += normal.norm() / 2;
+    shell.volume += (mesh.vertices[a] - origin).dot(normal) / 6;
   }
 }
 
@@ -106,49 +106,122 @@ bool ray_passes(const ClosedMesh& mesh, std::uint32_t f, const Vec3& p) {
   return crossing[0].x() + t * (crossing[1].x() - crossing[0].x()) > p.x();
 }
 
-bool inside(const ClosedMesh& mesh, const Shell& shell, const Vec3& p) {
-  const auto count =
-      std::count_if(shell.facets.begin(), shell.facets.end(), [&](auto f) { return ray_passes(mesh, f, p); });
-  return count % 2 == 1;
-}
-
-/// Checks a few vertices all over the inner shell, since solids that merely overlap are not nested.
-bool nested(const ClosedMesh& mesh, const Shell& inner, const Shell& outer) {
-  if (!outer.box.contains(inner.box)) return false;
-  constexpr std::size_t probes = 16;
-  const std::size_t step = std::max<std::size_t>(1, inner.facets.size() / probes);
-  for (std::size_t i = 0; i < inner.facets.size(); i += step) {
-    if (!inside(mesh, outer, mesh.vertices[mesh.facets[inner.facets[i]][0]])) return false;
+/// Answers which shells contain which.
+class Nesting {
+ public:
+  Nesting(const ClosedMesh& mesh, const std::vector<Shell>& shells)
+      : mesh_(mesh), shells_(shells), owner_(mesh.facets.size()), index_(height_spans(mesh)) {
+    for (std::uint32_t s = 0; s < shells.size(); ++s) {
+      for (const auto f : shells[s].facets) owner_[f] = s;
+    }
   }
-  return true;
-}
 
-std::size_t depth(const ClosedMesh& mesh, const Shell& shell, const std::vector<Shell>& shells) {
-  return std::size_t(std::count_if(shells.begin(), shells.end(), [&](const Shell& other) {
-    return &other != &shell && nested(mesh, shell, other);
-  }));
-}
+  /// The shells around this one, ascending. Checks a few vertices all over it, since solids that merely
+  /// overlap are not nested.
+  std::vector<std::uint32_t> around(std::uint32_t shell) const {
+    constexpr std::size_t probes = 8;
+    const auto& facets = shells_[shell].facets;
+    const std::size_t step = std::max<std::size_t>(1, facets.size() / probes);
+    std::vector<std::uint32_t> result;
+    for (std::size_t i = 0; i < facets.size(); i += step) {
+      const auto found = containing(mesh_.vertices[mesh_.facets[facets[i]][0]], shell);
+      if (i == 0) {
+        result = found;
+      } else {
+        std::erase_if(result, [&](auto s) { return !std::binary_search(found.begin(), found.end(), s); });
+      }
+      if (result.empty()) break;
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::uint32_t> containing(const Vec3& p, std::uint32_t but) const {
+    std::vector<std::uint32_t> crossed;
+    for (const auto f : index_.at(p.z())) {
+      if (owner_[f] != but && ray_passes(mesh_, f, p)) crossed.push_back(owner_[f]);
+    }
+    std::sort(crossed.begin(), crossed.end());
+    std::vector<std::uint32_t> result;
+    for (auto s = crossed.begin(); s != crossed.end();) {
+      const auto end = std::upper_bound(s, crossed.end(), *s);
+      if ((end - s) % 2 == 1) result.push_back(*s);
+      s = end;
+    }
+    return result;
+  }
+
+  const ClosedMesh& mesh_;
+  const std::vector<Shell>& shells_;
+  std::vector<std::uint32_t> owner_;
+  HeightIndex index_;
+};
 
 }  // namespace
 
-Turned orient(ClosedMesh& mesh) {
-  Turned result;
-  Flood flood(mesh);
-  flood.run();
-  result.two_sided = flood.two_sided;
-  if (!result.two_sided) return result;
-  result.facets = std::size_t(std::count(flood.turned.begin(), flood.turned.end(), true));
-  turn(mesh, flood.turned);
-  for (Shell& shell : flood.shells) measure(mesh, shell);
-  std::vector<bool> turned(mesh.facets.size(), false);
-  for (const Shell& shell : flood.shells) {
-    const bool cavity = depth(mesh, shell, flood.shells) % 2 == 1;
-    if ((shell.volume < 0) == cavity) continue;
-    ++result.shells;
-    for (const auto f : shell.facets) turned[f] = true;
+Agreement agree(ClosedMesh& mesh) {
+  const Flood flood(mesh);
+  Agreement result{0, flood.two_sided};
+  mesh.twins.clear();
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (!flood.turned[f]) continue;
+    std::swap(mesh.facets[f][1], mesh.facets[f][2]);
+    ++result.turned;
   }
-  turn(mesh, turned);
   return result;
+}
+
+std::vector<Shell> shells_of(const ClosedMesh& mesh) {
+  std::vector<Shell> shells;
+  std::vector<bool> reached(mesh.facets.size(), false);
+  for (std::uint32_t first = 0; first < mesh.facets.size(); ++first) {
+    if (reached[first]) continue;
+    Shell shell;
+    shell.facets.push_back(first);
+    reached[first] = true;
+    for (std::size_t i = 0; i < shell.facets.size(); ++i) {
+      for (HalfEdge h = 3 * shell.facets[i], end = h + 3; h < end; ++h) {
+        const std::uint32_t next = mesh.twins[h] / 3;
+        if (reached[next]) continue;
+        reached[next] = true;
+        shell.facets.push_back(next);
+      }
+    }
+    measure(mesh, shell);
+    shells.push_back(std::move(shell));
+  }
+  return shells;
+}
+
+std::size_t turn_shells(ClosedMesh& mesh, std::vector<Shell>& shells) {
+  const auto inward = [&](std::uint32_t s) { return shells[s].volume < 0 && !shells[s].thin(); };
+  std::vector<std::uint32_t> suspects;
+  for (std::uint32_t s = 0; s < shells.size(); ++s) {
+    if (inward(s)) suspects.push_back(s);
+  }
+  if (suspects.empty()) return 0;
+  const Nesting nesting(mesh, shells);
+  std::vector<bool> inside_out(shells.size(), false);
+  bool any = false;
+  for (const auto s : suspects) {
+    if (shells.size() == 1 || nesting.around(s).empty()) any = inside_out[s] = true;
+  }
+  if (!any) return 0;
+  std::vector<bool> turned = inside_out;
+  for (std::uint32_t s = 0; s < shells.size(); ++s) {
+    if (inside_out[s]) continue;
+    const auto outer = nesting.around(s);
+    turned[s] = std::any_of(outer.begin(), outer.end(), [&](auto o) { return inside_out[o]; });
+  }
+  std::size_t count = 0;
+  for (std::uint32_t s = 0; s < shells.size(); ++s) {
+    if (!turned[s]) continue;
+    ++count;
+    shells[s].volume = -shells[s].volume;
+    for (const auto f : shells[s].facets) std::swap(mesh.facets[f][1], mesh.facets[f][2]);
+  }
+  pair_edges(mesh);
+  return count;
 }
 
 }  // namespace unicursal::core

@@ -6,16 +6,6 @@
 namespace unicursal::core {
 namespace {
 
-std::vector<HeightSpan> spans(const ClosedMesh& mesh) {
-  std::vector<HeightSpan> result;
-  result.reserve(mesh.facets.size());
-  for (const auto& [a, b, c] : mesh.facets) {
-    const auto [low, high] = std::minmax({mesh.vertices[a].z(), mesh.vertices[b].z(), mesh.vertices[c].z()});
-    result.push_back({low, high});
-  }
-  return result;
-}
-
 /// The half-edge through which the contour leaves the facet: it rises through the plane.
 /// Precondition: the facet crosses the plane.
 HalfEdge rising(const ClosedMesh& mesh, std::uint32_t facet, double z) {
@@ -31,7 +21,7 @@ Vec2 crossing(const ClosedMesh& mesh, HalfEdge h, double z) {
 
 }  // namespace
 
-Slicer::Slicer(ClosedMesh mesh) : mesh_(std::move(mesh)), index_(spans(mesh_)) {}
+Slicer::Slicer(ClosedMesh mesh) : mesh_(std::move(mesh)), index_(height_spans(mesh_)) {}
 
 std::vector<Ring> Slicer::contours(double z) const {
   const std::vector<std::uint32_t> passed = index_.at(z);

@@ -32,12 +32,13 @@ std::size_t announced_size(std::string_view bytes) {
   return header_size + record_size * std::size_t{little_endian(bytes, header_size - 4)};
 }
 
-bool is_binary(std::string_view bytes) {
-  return bytes.size() >= header_size && bytes.size() == announced_size(bytes);
+/// The bytes of the text without a byte order mark.
+std::string_view without_mark(std::string_view bytes) {
+  return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
 }
 
-std::vector<Triangle> binary_triangles(std::string_view bytes) {
-  std::vector<Triangle> triangles((bytes.size() - header_size) / record_size);
+std::vector<Triangle> binary_triangles(std::string_view bytes, std::size_t count) {
+  std::vector<Triangle> triangles(count);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::size_t corners = header_size + i * record_size + 12;  // after the normal
     for (std::size_t k = 0; k < 9; ++k) {
@@ -50,27 +51,32 @@ std::vector<Triangle> binary_triangles(std::string_view bytes) {
 
 class AsciiReader {
  public:
-  AsciiReader(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  AsciiReader(std::string_view text, const std::string& file, Warnings& warnings)
+      : text_(text), file_(file), warnings_(warnings) {}
 
   std::vector<Triangle> read() {
-    std::vector<Triangle> triangles;
     expect("solid");
-    skip_line();
+    skip_name();
     for (std::string word = next(); !word.empty(); word = next()) {
       if (word == "facet") {
-        triangles.push_back(facet());
+        facet();
       } else if (word == "endsolid") {
-        skip_line();
+        skip_name();
         inside_ = false;
-      } else if (word == "solid" && !inside_) {
-        skip_line();
+      } else if (word == "solid") {
+        skip_name();
         inside_ = true;
+      } else if (word == "color") {
+        skip_name();
       } else {
         refuse("a facet or endsolid should stand here, not " + in_quotes(word));
       }
     }
-    if (inside_) refuse("the file ends before endsolid");
-    return triangles;
+    if (inside_ && !triangles_.empty()) {
+      warnings_.add(fmt::format("{}: the file ends without endsolid; all of its {} facets were read", file_,
+                                triangles_.size()));
+    }
+    return std::move(triangles_);
   }
 
  private:
@@ -78,18 +84,34 @@ class AsciiReader {
     throw ModelError(file_, fmt::format("line {}", line_), problem, "export the mesh again as binary STL");
   }
 
-  static bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+  /// Old editors end a text with the byte 26.
+  static bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0 || c == '\x1a'; }
+
+  bool at_line_end() const { return text_[at_] == '\n' || text_[at_] == '\r'; }
+
+  void skip_spaces() {
+    for (; at_ < text_.size() && is_space(text_[at_]); ++at_) {
+      const bool first_of_two = text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n';
+      if (at_line_end() && !first_of_two) ++line_;
+    }
+  }
 
   /// The next word in lower case; empty at the end.
   std::string next() {
-    while (at_ < text_.size() && is_space(text_[at_])) line_ += text_[at_++] == '\n';
+    skip_spaces();
     const std::size_t begin = at_;
     while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
     return lower(text_.substr(begin, at_ - begin));
   }
 
-  void skip_line() {
-    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  /// Skips the rest of the line, or of a name if facets follow on the same line.
+  void skip_name() {
+    while (at_ < text_.size()) {
+      while (at_ < text_.size() && is_space(text_[at_]) && !at_line_end()) ++at_;
+      if (at_ >= text_.size() || at_line_end()) return;
+      if (lower(text_.substr(at_, 13)) == "facet normal ") return;
+      while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+    }
   }
 
   void expect(std::string_view word) {
@@ -100,7 +122,11 @@ class AsciiReader {
   }
 
   double number() {
-    const std::string word = next();
+    std::string word = next();
+    // Some programs write the comma of their language.
+    if (word.find('.') == std::string::npos) {
+      if (const auto comma = word.find(','); comma != std::string::npos) word[comma] = '.';
+    }
     const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
     double value = 0;
     const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
@@ -115,23 +141,35 @@ class AsciiReader {
     return value;
   }
 
-  Triangle facet() {
-    expect("normal");
-    for (int i = 0; i < 3; ++i) number();
-    expect("outer");
-    expect("loop");
-    Triangle triangle;
-    for (Vec3& corner : triangle) {
-      expect("vertex");
-      for (Eigen::Index k = 0; k < 3; ++k) corner[k] = number();
+  /// A facet of three corners, or of more, which is taken apart.
+  void facet() {
+    constexpr int longest_normal = 8;  // words; nobody needs the normal, so it may be anything
+    std::string word = next();
+    for (int i = 0; i < longest_normal && word != "outer" && word != "vertex" && !word.empty(); ++i)
+      word = next();
+    if (word == "outer") {
+      expect("loop");
+      word = next();
     }
-    expect("endloop");
+    std::vector<Vec3> corners;
+    for (; word == "vertex"; word = next()) {
+      corners.emplace_back();
+      for (Eigen::Index k = 0; k < 3; ++k) corners.back()[k] = number();
+    }
+    const char* const due = corners.size() < 3 ? "vertex" : "endloop";
+    if (word != due || corners.size() < 3) {
+      refuse(word.empty() ? fmt::format("the file ends where {} should stand", due)
+                          : fmt::format("{} should stand here, not {}", due, in_quotes(word)));
+    }
     expect("endfacet");
-    return triangle;
+    for (std::size_t i = 2; i < corners.size(); ++i)
+      triangles_.push_back({corners[0], corners[i - 1], corners[i]});
   }
 
   std::string_view text_;
   const std::string& file_;
+  Warnings& warnings_;
+  std::vector<Triangle> triangles_;
   std::size_t at_ = 0;
   std::size_t line_ = 1;
   bool inside_ = true;  ///< between solid and endsolid
@@ -143,22 +181,39 @@ bool begins_with_solid(std::string_view bytes) {
   return lower(bytes.substr(first, 5)) == "solid";
 }
 
-/// Neither the size nor the text is right: reports what the file seems to be.
-[[noreturn]] void refuse_size(std::string_view bytes, const std::string& file) {
+/// How many triangles a binary file holds. If its size is wrong, either whole triangles follow the header,
+/// whatever their announced number, or all announced triangles are there and something follows them.
+std::size_t binary_count(std::string_view bytes, const std::string& file, Warnings& warnings) {
   const std::string remedy = "export or copy the mesh again";
   if (bytes.size() < header_size) throw ModelError(file, "", "this is too short for an STL file", remedy);
+  const std::size_t announced = little_endian(bytes, header_size - 4);
+  const std::size_t held = (bytes.size() - header_size) / record_size,
+                    rest = (bytes.size() - header_size) % record_size;
+  if (held == announced && rest == 0) return held;
+  if (held > 0 && (rest == 0 || announced == 0)) {
+    warnings.add(fmt::format("{}: its header announces {} triangles; the {} that the file holds were read",
+                             file, announced, held));
+    return held;
+  }
+  if (announced > 0 && announced <= held) {
+    warnings.add(fmt::format("{}: {} bytes behind its last triangle were not read", file,
+                             bytes.size() - announced_size(bytes)));
+    return announced;
+  }
   throw ModelError(file, "",
                    fmt::format("its header announces {} triangles, {} bytes, but the file has {} bytes",
-                               little_endian(bytes, header_size - 4), announced_size(bytes), bytes.size()),
+                               announced, announced_size(bytes), bytes.size()),
                    remedy);
 }
 
-std::vector<Triangle> triangles_of(std::string_view bytes, const std::string& file) {
-  if (is_binary(bytes)) return binary_triangles(bytes);
-  // A binary file that begins with "solid" but was cut short is recognised by its zero bytes.
-  const bool text = begins_with_solid(bytes) && bytes.find('\0') == std::string_view::npos;
-  if (!text) refuse_size(bytes, file);
-  return AsciiReader(bytes, file).read();
+std::vector<Triangle> triangles_of(std::string_view bytes, const std::string& file, Warnings& warnings) {
+  const bool right_size = bytes.size() >= header_size && bytes.size() == announced_size(bytes);
+  // A binary file whose header begins with "solid" is recognised by its zero bytes.
+  const std::string_view text = without_mark(bytes);
+  if (!right_size && begins_with_solid(text) && text.find('\0') == std::string_view::npos) {
+    return AsciiReader(text, file, warnings).read();
+  }
+  return binary_triangles(bytes, binary_count(bytes, file, warnings));
 }
 
 void require_finite(const std::vector<Triangle>& triangles, const std::string& file) {
@@ -176,9 +231,9 @@ void require_finite(const std::vector<Triangle>& triangles, const std::string& f
 
 }  // namespace
 
-std::vector<Triangle> read_stl(const std::filesystem::path& file) {
+std::vector<Triangle> read_stl(const std::filesystem::path& file, Warnings& warnings) {
   const std::string bytes = file_bytes(file);
-  std::vector<Triangle> triangles = triangles_of(bytes, file.string());
+  std::vector<Triangle> triangles = triangles_of(bytes, file.string(), warnings);
   if (triangles.empty())
     throw ModelError(file.string(), "", "the mesh has no triangles", "export the model again");
   require_finite(triangles, file.string());

@@ -47,6 +47,22 @@ Region welded(const Region& region) {
   return gaps.empty() ? region : unite(region, offset(gaps, overlap, rounding));
 }
 
+/// Whether two polygons are so close that a weld may join them.
+bool nearly_touching(const Region& region) {
+  std::vector<Box> boxes;
+  for (const Polygon& polygon : region) {
+    boxes.push_back(bounds(polygon));
+    boxes.back().max += Vec2::Constant(weld_width);
+  }
+  std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.min.x() < b.min.x(); });
+  for (auto a = boxes.begin(); a != boxes.end(); ++a) {
+    for (auto b = a + 1; b != boxes.end() && b->min.x() <= a->max.x(); ++b) {
+      if (overlapping(*a, *b)) return true;
+    }
+  }
+  return false;
+}
+
 /// Starts at an extreme vertex, because simplification always keeps the first one.
 Ring smoothed(Ring ring) {
   const auto extreme = std::min_element(ring.begin(), ring.end(), [](const Vec2& a, const Vec2& b) {
@@ -187,7 +203,7 @@ Zoning zoned(const std::vector<Painted>& shapes) {
       report_unclaimed(visible, first->label, result.unclaimed);
     }
   }
-  if (shapes.size() > 1) whole = welded(whole);
+  if (shapes.size() > 1 || nearly_touching(whole)) whole = welded(whole);
   whole = smoothed(whole);
   remove_specks(whole);
   for (Polygon& outline : whole) {

@@ -139,6 +139,35 @@ TEST_CASE("layers are the same from several threads") {
   for (std::size_t i = 0; i < p->layer_count(); ++i) CHECK(areas[i].get() == outline_area(p->layer(i)));
 }
 
+TEST_CASE("a mesh that lacks its lid is printed, with a note") {
+  const auto p = part({test_data("open.stl")}, {"open"}, 1.0);
+  for (const std::size_t i : {0u, 10u, 19u}) CHECK(outline_area(p->layer(i)) == Approx(400));
+  CHECK_THAT(p->warnings().at(0), Contains("closed, the largest of"));
+}
+
+TEST_CASE("a solid inside a solid of the same file does not hollow it") {
+  const TempFolder folder;
+  const Mesh both = joined(box_mesh({0, 0, 0}, {20, 20, 3}), box_mesh({5, 5, 0}, {15, 15, 3}));
+  const auto p = part({folder.write("both.stl", binary_stl(both))}, {"both"}, 0.3);
+  for (const std::size_t i : {0u, 5u, 9u}) CHECK(outline_area(p->layer(i)) == Approx(400));
+}
+
+TEST_CASE("bodies of one file may touch or overlap") {
+  const TempFolder folder;
+  const double low = GENERATE(10.0, 10.00001, 5.0);
+  CAPTURE(low);
+  // The second body's facets use the other diagonals.
+  Mesh mirrored = box_mesh({low, -10, 0}, {20, 0, 3});
+  for (Triangle& triangle : mirrored) {
+    for (Vec3& corner : triangle) corner.y() = -corner.y();
+    turn_over(triangle);
+  }
+  const auto file = folder.write("two.stl", binary_stl(joined(box_mesh({0, 0, 0}, {10, 10, 3}), mirrored)));
+  const Layer layer = part({file}, {"two"}, 0.3)->layer(4);
+  REQUIRE(layer.islands.size() == 1);
+  CHECK(outline_area(layer) == Approx(200).epsilon(1e-4));
+}
+
 TEST_CASE("zones and files must match one to one") {
   const auto cube = test_data("cube20.stl");
   CHECK_THAT(refusal({cube}, {"cube.stl"}), Contains("cube.stl") && Contains("cube20.stl"));
@@ -150,7 +179,11 @@ TEST_CASE("zones and files must match one to one") {
 }
 
 TEST_CASE("unprintable meshes are refused with a sentence") {
-  CHECK_THAT(refusal({test_data("open.stl")}, {"open"}), Contains("open.stl") && Contains("close its holes"));
+  Mesh sheet;
+  add_quad(sheet, {0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0});
+  const TempFolder folder;
+  CHECK_THAT(refusal({folder.write("sheet.stl", binary_stl(sheet))}, {"sheet"}),
+             Contains("sheet.stl") && Contains("encloses no volume"));
   CHECK_THAT(refusal({test_data("nan.stl")}, {"nan"}), Contains("triangle 3, vertex 1"));
   CHECK_THAT(refusal({test_data("cube20.stl")}, {"cube20"}, 0), Contains("layer_height"));
   CHECK_THROWS_AS(part({"none.stl"}, {"none"}), FileError);

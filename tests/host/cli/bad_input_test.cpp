@@ -86,7 +86,7 @@ std::vector<Bad> bad_jobs() {
        sample_job,
        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"/>",
        {"plate.svg"}},
-      {"open mesh", mesh_job("open.stl"), sample_drawing, {"open.stl"}},
+      {"mesh without thickness", mesh_job("sheet.stl"), sample_drawing, {"sheet.stl", "no volume"}},
       {"NaN in a mesh", mesh_job("nan.stl"), sample_drawing, {"nan.stl"}},
       {"zero height",
        replaced(sample_job, "height = 0.4", "height = 0"),
@@ -133,7 +133,7 @@ void check_refused(const Outcome& outcome, const Bad& bad) {
 TEST_CASE("Bad jobs are refused with a sentence, and the printer hears nothing") {
   const TempFolder folder;
   folder.write("bench.toml", sample_profile);
-  folder.write("open.stl", stl(3));
+  folder.write("sheet.stl", stl(1));
   folder.write("nan.stl", replaced(stl(4), "10.000000", "nan"));
   const QuietPrinter printer;
   for (const Bad& bad : bad_jobs()) {

@@ -1,0 +1,149 @@
+#include "core/model/weld.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+namespace unicursal::core {
+namespace {
+
+using Index = std::uint32_t;
+using Facet = std::array<Index, 3>;
+
+bool lexicographic(const Vec3& a, const Vec3& b) {
+  return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
+}
+
+/// Finds an earlier vertex through a grid of cells as large as the distance.
+class WeldGrid {
+ public:
+  WeldGrid(const std::vector<Vec3>& vertices, double distance) : vertices_(vertices), distance_(distance) {}
+
+  /// Returns `v` itself if no earlier vertex is near; later calls can then find `v`.
+  Index find_or_add(Index v) {
+    const auto [x, y, z] = cell(vertices_[v]);
+    for (int i = 0; i < 27; ++i) {
+      const auto found = cells_.find(key(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1));
+      if (found == cells_.end()) continue;
+      for (const Index other : found->second) {
+        if ((vertices_[other] - vertices_[v]).norm() <= distance_) return other;
+      }
+    }
+    cells_[key(x, y, z)].push_back(v);
+    return v;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  Cell cell(const Vec3& p) const {
+    return {std::llround(p.x() / distance_), std::llround(p.y() / distance_),
+            std::llround(p.z() / distance_)};
+  }
+  /// Different cells may share a key; the distance decides.
+  static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
+    return std::uint64_t(x) * 0x9e3779b97f4a7c15u ^ std::uint64_t(y) * 0xc2b2ae3d27d4eb4fu ^
+           std::uint64_t(z) * 0x165667b19e3779f9u;
+  }
+
+  const std::vector<Vec3>& vertices_;
+  double distance_;
+  std::unordered_map<std::uint64_t, std::vector<Index>> cells_;
+};
+
+template <class Predicate>
+std::size_t drop(ClosedMesh& mesh, Predicate unwanted) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (unwanted(f)) continue;
+    mesh.facets[kept] = mesh.facets[f];
+    mesh.sources[kept++] = mesh.sources[f];
+  }
+  const std::size_t dropped = mesh.facets.size() - kept;
+  mesh.facets.resize(kept);
+  mesh.sources.resize(kept);
+  return dropped;
+}
+
+/// The three corners rotated so that the smallest comes first, which keeps the orientation.
+Facet rotated(Facet f) {
+  std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+  return f;
+}
+
+}  // namespace
+
+ClosedMesh indexed(const std::vector<Triangle>& triangles) {
+  ClosedMesh mesh;
+  std::vector<Vec3> corners;
+  corners.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+  std::vector<Index> order(corners.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return lexicographic(corners[a], corners[b]); });
+  mesh.facets.resize(triangles.size());
+  for (const Index corner : order) {
+    if (mesh.vertices.empty() || mesh.vertices.back() != corners[corner])
+      mesh.vertices.push_back(corners[corner]);
+    mesh.facets[corner / 3][corner % 3] = Index(mesh.vertices.size() - 1);
+  }
+  mesh.sources.resize(triangles.size());
+  std::iota(mesh.sources.begin(), mesh.sources.end(), Index{0});
+  return mesh;
+}
+
+double weld_distance(const ClosedMesh& mesh) {
+  constexpr double least = 1e-4, steps = 8;  // steps of a float
+  double farthest = 0;
+  for (const Vec3& v : mesh.vertices) farthest = std::max(farthest, v.cwiseAbs().maxCoeff());
+  return std::max(least, steps * farthest * double(std::numeric_limits<float>::epsilon()));
+}
+
+std::size_t weld(ClosedMesh& mesh, double distance) {
+  WeldGrid grid(mesh.vertices, distance);
+  std::vector<Index> target(mesh.vertices.size());
+  std::size_t moved = 0;
+  for (Index v = 0; v < target.size(); ++v) {
+    target[v] = grid.find_or_add(v);
+    if (target[v] != v) ++moved;
+  }
+  for (Facet& facet : mesh.facets) {
+    for (Index& v : facet) v = target[v];
+  }
+  return moved;
+}
+
+std::size_t drop_collapsed(ClosedMesh& mesh) {
+  return drop(mesh, [&](std::size_t i) {
+    const Facet& f = mesh.facets[i];
+    return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+  });
+}
+
+std::size_t drop_copies(ClosedMesh& mesh, const std::vector<HalfEdge>& borders) {
+  std::map<std::pair<Index, Index>, std::size_t> surplus;  // by the half-edge's ends
+  for (const HalfEdge h : borders) ++surplus[{mesh.from(h), mesh.to(h)}];
+  std::map<Facet, std::size_t> seen;
+  std::vector<bool> unwanted(mesh.facets.size(), false);
+  for (std::size_t i = 0; i < mesh.facets.size(); ++i) {
+    const Facet& f = mesh.facets[i];
+    std::array<std::size_t*, 3> sides{};
+    bool all = true;
+    for (std::size_t k = 0; k < 3 && all; ++k) {
+      const auto found = surplus.find({f[k], f[(k + 1) % 3]});
+      all = found != surplus.end() && found->second > 0;
+      if (all) sides[k] = &found->second;
+    }
+    if (!all || seen[rotated(f)]++ == 0) continue;
+    unwanted[i] = true;
+    for (std::size_t* side : sides) --*side;
+  }
+  return drop(mesh, [&](std::size_t i) { return unwanted[i]; });
+}
+
+}  // namespace unicursal::core
