@@ -11,7 +11,6 @@
 
 #include "core/text/printable.hpp"
 #include "firmware_gcode/reply/reply.hpp"
-#include "host/cli/terminal_output.hpp"
 #include "host/engine/session_json.hpp"
 #include "host/report/summary.hpp"
 
@@ -73,7 +72,19 @@ std::string status_line(const SessionStatus& s, std::size_t width) {
   return cut(line, width);
 }
 
-Display::Display(DisplayForm form) : form_(form), terminal_(isatty(STDERR_FILENO) == 1) {}
+Display::Display(DisplayForm form)
+    : form_(form),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      messages_(STDERR_FILENO,
+                [](std::size_t count) {
+                  return fmt::format("({} lines are missing here, since they were not read in time)\n",
+                                     count);
+                }),
+      events_(STDOUT_FILENO, [](std::size_t count) {
+        return nlohmann::json{{"event", "gap"}, {"lost", count}}.dump() + "\n";
+      }) {
+  std::fflush(stdout);  // what was shown before comes first
+}
 
 Display::~Display() {
   clear();
@@ -105,32 +116,33 @@ bool Display::is_due(std::chrono::milliseconds interval) {
 /// Without a terminal, shows a line only when another tenth of the print is done.
 void Display::draw(const SessionStatus& status) {
   if (terminal_) {
-    unicursal::host::show(stderr, "\r\x1b[K{}", status_line(status, terminal_width() - 1));
-    std::fflush(stderr);
+    messages_.refresh("\r\x1b[K" + status_line(status, terminal_width() - 1));
     drawn_ = true;
     return;
   }
   const int tenth = static_cast<int>(status.percent / 10);
   if (status.layer == 0 || tenth <= last_tenth_) return;
   last_tenth_ = tenth;
-  unicursal::host::show(stderr, "{}\n", status_line(status, SIZE_MAX));
+  messages_.write(status_line(status, SIZE_MAX) + "\n");
 }
 
 void Display::say(const std::string& sentence) {
   clear();
-  unicursal::host::show(stderr, "{}\n", sentence);
+  messages_.write(sentence + "\n");
+}
+
+void Display::answer(const std::string& sentence) {
+  say(sentence);
 }
 
 void Display::clear() {
-  if (drawn_) unicursal::host::show(stderr, "\r\x1b[K");
+  if (drawn_) messages_.write("\r\x1b[K");
   drawn_ = false;
-  std::fflush(stderr);
 }
 
 void Display::write(const SessionEvent& event, const SessionStatus& status) {
-  unicursal::host::show(
-      stdout, "{}\n", to_json(event, status).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  std::fflush(stdout);
+  const auto event_json = to_json(event, status);
+  events_.write(event_json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace unicursal::host

@@ -1,11 +1,13 @@
 // The progress of a print. On a terminal it is one line that is rewritten; elsewhere it is a line for each
 // tenth of the print; both go to standard error. Or it is JSON on standard output: one event on each line.
+// Showing never waits (host/loop/outlet.hpp).
 #pragma once
 
 #include <chrono>
 #include <string>
 
 #include "host/engine/session.hpp"
+#include "host/loop/outlet.hpp"
 
 namespace unicursal::host {
 
@@ -20,6 +22,8 @@ class Display {
   Display& operator=(const Display&) = delete;
 
   void show(const Session& session, const SessionEvent& event);
+  /// Shows the answer to words that were typed.
+  void answer(const std::string& sentence);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -32,6 +36,8 @@ class Display {
 
   DisplayForm form_;
   bool terminal_;
+  Outlet messages_;  ///< standard error
+  Outlet events_;    ///< standard output
   bool drawn_ = false;
   int last_tenth_ = -1;
   Clock::time_point last_{};

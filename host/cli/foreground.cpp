@@ -15,8 +15,8 @@ StreamResult stream_with_progress(int port, Source& source, const DisplayOptions
   const auto observer = [&](const Session& session, const SessionEvent& event) {
     display.show(session, event);
   };
-  const auto console = [](Session& session, const std::string& words) {
-    if (const std::string answer = obey(session, words); !answer.empty()) show(stderr, "{}\n", answer);
+  const auto console = [&](Session& session, const std::string& words) {
+    if (const std::string answer = obey(session, words); !answer.empty()) display.answer(answer);
   };
   return stream(port, source, observer, settings, console);
 }

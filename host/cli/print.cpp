@@ -43,8 +43,9 @@ Exit PrintCommand::run() {
   Books books(print.maker(), "print", job_.outputs);
   print.connect();
   const StreamResult result = stream_with_progress(print, display_);
-  show_how_to_resume(print.spool(), result);
+  // The report does not wait for a terminal that is halted.
   conclude(books, result, {{"planning", planning_json(print.lookahead())}});
+  show_how_to_resume(print.spool(), result);
   if (result.ending == Ending::completed)
     show(message_stream(display_), "{}", summary(books.totals(), print.lookahead().effort()));
   return show_ending(result, display_);

@@ -82,6 +82,7 @@ void Print::connect(std::optional<Leg> leg) {
     spool_.emplace(Spool::create(options_.spool ? *options_.spool : default_spool_root(), prepared_.job,
                                  order_of(prepared_, port, device_of(port_))));
   }
+  if (!awake_) awake_.emplace("printing " + prepared_.job.file.stem().string());
   settings_.spool = &*spool_;
   source_.emplace(lookahead_, maker_, spool_->extent().rest);
 }
@@ -97,6 +98,7 @@ Session& Print::begin(asio::any_io_executor executor) {
 
 void Print::end() {
   session_.reset();
+  awake_.reset();
 }
 
 void throw_if_failed(const StreamResult& result) {

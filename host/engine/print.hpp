@@ -20,6 +20,7 @@
 #include "host/engine/session.hpp"
 #include "host/engine/source.hpp"
 #include "host/lookahead/lookahead.hpp"
+#include "host/loop/stay_awake.hpp"
 #include "host/spool/spool.hpp"
 
 namespace unicursal::host {
@@ -41,8 +42,9 @@ class Print {
   Print(const Print&) = delete;
   Print& operator=(const Print&) = delete;
 
-  /// Opens the port, and makes the spool of a new print. `leg`: as in Continuation, for a print that
-  /// continues; call this again after a session that has lost its place. Throws PortError, core::DataError.
+  /// Opens the port, makes the spool of a new print, and keeps this computer awake from now on. `leg`: as in
+  /// Continuation, for a print that continues; call this again after a session that has lost its place.
+  /// Throws PortError, core::DataError.
   void connect(std::optional<Leg> leg = {});
 
   /// What stream() or a Session takes, after connect(); the port's descriptor once.
@@ -73,6 +75,7 @@ class Print {
   ChunkMaker maker_;
   Lookahead lookahead_;
   int port_ = -1;  ///< until a session has taken it over
+  std::optional<StayAwake> awake_;
   std::optional<PlannedSource> source_;
   std::optional<Session> session_;
 };

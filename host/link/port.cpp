@@ -20,6 +20,7 @@
 #include "core/text/printable.hpp"
 #include "host/link/find_port.hpp"
 #include "host/link/line_rate.hpp"
+#include "host/link/port_holder.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -57,14 +58,18 @@ class Descriptor {
     case ENOENT:
     case ENODEV:
     case ENXIO:
-      why = "there is no such port; plug the printer in and see `unicursal ports`";
+      why = brltty_runs()
+                ? "this port does not exist; brltty, the driver of braille displays, takes the USB chips of "
+                  "printers: if you do not use such a display, remove it with `sudo apt remove brltty` and "
+                  "plug the printer in again"
+                : "this port does not exist; plug the printer in and see `unicursal ports`";
       break;
     case EACCES:
     case EPERM:
       why = "you may not open it; add yourself to the group dialout and log in again";
       break;
     case EBUSY:
-      why = "another program is using it; close that program first";
+      why = holder_of(path).value_or("another program") + " is using it; close that program first";
       break;
     case ENOTTY:
     case EISDIR:

@@ -36,6 +36,7 @@
 #include "tests/fuzz/simulator.hpp"
 #include "tests/fuzz/spool.hpp"
 #include "tests/host/support/sample_job.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal {
 namespace {
@@ -47,7 +48,7 @@ constexpr double largest_island = 150;   // mm²; more takes too long to plan by
 constexpr double bead_width = 0.5;       // mm
 
 std::string sound_file(const std::string& name) {
-  return core::file_bytes(fs::path(TEST_DATA) / name);
+  return core::file_bytes(unicursal::test::data_folder() / name);
 }
 
 fs::path write(const fs::path& file, const std::string& bytes) {
@@ -119,7 +120,8 @@ void job(const fs::path& folder, core::Random& random) {
 
 /// Islands of a damaged drawing, with random patterns.
 void plan(const fs::path& folder, core::Random& random) {
-  std::vector<core::Zone> zones = core::test::random_patterns(random, TEST_DATA "/directions.csv");
+  std::vector<core::Zone> zones =
+      core::test::random_patterns(random, unicursal::test::data_folder() / "directions.csv");
   zones.resize(2);
   zones[0].select = "#0000ff";
   zones[1].select = "#ff0000";

@@ -24,6 +24,7 @@
 #include "host/link/line_splitter.hpp"
 #include "host/link/link.hpp"
 #include "tests/fuzz/damage.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal::test {
 namespace {
@@ -34,7 +35,7 @@ using namespace std::chrono_literals;
 constexpr std::array corpus{"marlin", "advanced-ok", "repetier"};
 
 std::string damaged_transcript(const fs::path& folder, core::Random& random) {
-  const fs::path sound = fs::path(TEST_DATA) / "replies" / corpus[random.below(corpus.size())];
+  const fs::path sound = unicursal::test::data_folder() / "replies" / corpus[random.below(corpus.size())];
   std::string bytes = core::file_bytes(sound);
   for (std::size_t n = random.below(8); n > 0; --n) bytes = damaged(bytes, random);
   std::ofstream(folder / "replies", std::ios::binary) << bytes;

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/model/read_part.hpp"
 #include "model_support.hpp"
+#include "tests/paths.hpp"
 
 using namespace unicursal::core;
 using Catch::Matchers::Contains;
@@ -128,7 +129,7 @@ TEST_CASE("layers are counted to the nearest, with a warning when they do not fi
 TEST_CASE("files that are missing, empty or of no known kind") {
   const TempFolder folder;
   CHECK_THROWS_AS(part({"no/such/file.svg"}, {"a"}), FileError);
-  CHECK_THROWS_AS(part({std::filesystem::path(TEST_DATA)}, {"a"}), ModelError);
+  CHECK_THROWS_AS(part({unicursal::test::data_folder()}, {"a"}), ModelError);
   std::filesystem::create_directory(folder.write("x", "").parent_path() / "folder.svg");
   CHECK_THROWS_AS(part({folder.write("y", "").parent_path() / "folder.svg"}, {"a"}), FileError);
   CHECK_THAT(refusal("", {"a"}), Contains("no filled shape"));

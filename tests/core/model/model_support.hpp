@@ -17,6 +17,7 @@
 #include "core/model/part.hpp"
 #include "core/model/read_part.hpp"
 #include "core/model/stl_reader.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal::core {
 
@@ -41,7 +42,7 @@ class TempFolder {
 };
 
 inline std::filesystem::path test_data(const std::string& name) {
-  return std::filesystem::path(TEST_DATA) / name;
+  return unicursal::test::data_folder() / name;
 }
 
 /// A page of 100 mm × 80 mm whose user unit is 1 mm.

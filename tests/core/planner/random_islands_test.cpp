@@ -6,6 +6,7 @@
 
 #include "core/planner/plan_island.hpp"
 #include "tests/core/support/plan_faults.hpp"
+#include "tests/paths.hpp"
 
 using namespace unicursal::core;
 using namespace unicursal::core::test;
@@ -42,7 +43,7 @@ Patterned patterned(std::uint64_t seed, double largest) {
   const int kind = static_cast<int>(seed % island_kinds);
   const Polygon outline = random_island_of_kind(random, kind, random_scale(random, 0.5, largest));
   Island island = random_zones(random, outline);
-  return {std::move(island), random_patterns(random, TEST_DATA "/directions.csv")};
+  return {std::move(island), random_patterns(random, unicursal::test::data_folder() / "directions.csv")};
 }
 
 void check_patterned(std::uint64_t first, std::uint64_t count, double largest) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -165,7 +166,7 @@ inline Island random_zones(Random& random, const Polygon& outline) {
 }
 
 /// Five zones of random patterns and up to three materials; `file` is a file of directions.
-inline std::vector<Zone> random_patterns(Random& random, const std::string& file) {
+inline std::vector<Zone> random_patterns(Random& random, const std::filesystem::path& file) {
   std::vector<Zone> zones(5);
   for (Zone& zone : zones) {
     zone.pattern.kind = static_cast<PatternKind>(random.below(7));

@@ -9,6 +9,7 @@
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal {
 namespace {
@@ -243,7 +244,7 @@ TEST_CASE("A simulator in a process of its own takes a print") {
 
 TEST_CASE("Messages never go into a file or to a printer, even if the standard streams are closed") {
   const Workshop shop;
-  const std::string script = "exec 0<&- 1>&- 2>&-; exec \"" UNICURSAL_PROGRAM "\" dry-run \"" + shop.job +
+  const std::string script = "exec 0<&- 1>&- 2>&-; exec \"" + test::program() + "\" dry-run \"" + shop.job +
                              "\" --report \"" + shop.path("r.json") + "\"";
   const int code = std::system(script.c_str());
   CHECK(WEXITSTATUS(code) == 0);

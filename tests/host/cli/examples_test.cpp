@@ -11,13 +11,14 @@
 #include "host/job/load_job.hpp"
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal {
 namespace {
 
 using nlohmann::json;
 
-const std::filesystem::path examples = std::filesystem::path(TEST_DATA) / "../../host/examples";
+const std::filesystem::path examples = test::source_folder() / "host/examples";
 
 struct Point {
   double x, y;

@@ -6,13 +6,14 @@
 #include <sstream>
 
 #include "tests/host/support/child_process.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal {
 namespace {
 
 using Names = std::set<std::string>;
 
-const char* const man_page = TEST_DATA "/../../host/packaging/unicursal.1";
+const std::filesystem::path man_page = test::source_folder() / "host/packaging/unicursal.1";
 
 /// What the manual says about the options of one command, without their dashes' first one.
 struct Section {

@@ -10,13 +10,14 @@
 
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = TEST_DATA "/../..";
+const fs::path root = test::source_folder();
 constexpr std::size_t most_bytes = 9000;
 constexpr const char* port_in_readme = "/dev/ttyUSB0";
 
@@ -96,7 +97,7 @@ class Desk {
   /// The shell's text for a command of the program, started by `starter`.
   std::string in_folder(const std::string& starter, const std::string& command) const {
     return "cd \"" + folder_.path().string() + "\" && export XDG_STATE_HOME=\"$PWD/state\" && " + starter +
-           " \"" UNICURSAL_PROGRAM "\"" + command.substr(std::string("unicursal").size());
+           " \"" + test::program() + "\"" + command.substr(std::string("unicursal").size());
   }
   template <class Condition>
   static bool wait_for(const Condition& condition) {

@@ -5,6 +5,7 @@
 #include <cerrno>
 
 #include "tests/host/support/daemon_process.hpp"
+#include "tests/paths.hpp"
 
 using namespace unicursal;
 using test::Child;
@@ -15,7 +16,7 @@ namespace {
 class Terminal {
  public:
   explicit Terminal(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), UNICURSAL_PROGRAM);
+    arguments.insert(arguments.begin(), test::program());
     std::vector<char*> pointers;
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
@@ -107,4 +108,25 @@ TEST_CASE("a print is paused, changed, resumed and stopped from its terminal") {
   REQUIRE(at("M221 S95") != std::string::npos);
   CHECK(at("M221 S95") < at("M400"));
   CHECK(lines.rfind("M104 S0") > lines.rfind("G1 X"));
+}
+
+TEST_CASE("a print goes on to its end while its terminal is halted with Ctrl-S") {
+  const test::TempFolder folder;
+  folder.write("bench.toml", test::sample_profile);
+  folder.write("plate.svg", test::sample_drawing);
+  folder.write("job.toml", test::replaced(test::sample_job, "height = 0.4", "height = 2.0"));
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  Child printer({"simulate", "--profile", path("bench.toml"), "--link", path("port"), "--speed", "100",
+                 "--transcript", path("lines")});
+  test::await([&] { return std::filesystem::exists(folder / "port"); }, printer);
+
+  Terminal terminal({"print", path("job.toml"), "--port", path("port"), "--spool", path("spool"), "--report",
+                     path("report.json")});
+  terminal.await("printing layer 1 of 10");
+  terminal.type("\x13");
+  // The report is written when the printer is parked and cooling, although nobody sees the screen.
+  test::await([&] { return std::filesystem::exists(folder / "report.json"); }, printer);
+  CHECK(test::read_text(folder / "lines").find("M104 S0") != std::string::npos);
+  terminal.type("\x11");
+  CHECK(terminal.wait() == 0);
 }

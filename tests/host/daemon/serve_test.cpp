@@ -175,12 +175,12 @@ TEST_CASE("two daemons, and a print beside them, do not share a port") {
   bench.await_print("printing");
   CHECK(other.command({"start"}).code == 1);
   CHECK(job(other, late)["state"] == "queued");
-  CHECK(job(other, late)["reason"].get<std::string>().find("another program is using it") !=
+  CHECK(job(other, late)["reason"].get<std::string>().find("is using it; close that program first") !=
         std::string::npos);
   const Outcome print = test::run({"print", bench.path("jobs/plate.toml"), "--port", bench.path("port"),
                                    "--spool", bench.path("spool2")});
   CHECK(print.code != 0);
-  CHECK(print.err.find("another program is using it") != std::string::npos);
+  CHECK(print.err.find("is using it; close that program first") != std::string::npos);
   CHECK(bench.command({"serve", "--listen", "127.0.0.1:0"}).err.find("another daemon") != std::string::npos);
   CHECK(bench.print_state() == "printing");
 }

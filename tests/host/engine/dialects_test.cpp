@@ -7,6 +7,7 @@
 #include "tests/host/support/json_events.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal {
 namespace {
@@ -92,7 +93,7 @@ TEST_CASE("Events name the job's mixtures, in every dialect and with feeders tha
 
 TEST_CASE("The example with feeders that slip names its mixtures") {
   const std::string firmware = GENERATE("marlin", "repetier");
-  const std::filesystem::path examples = std::filesystem::path(TEST_DATA) / "../../host/examples";
+  const std::filesystem::path examples = test::source_folder() / "host/examples";
   const test::TempFolder folder;
   folder.write("leaf.svg", test::read_text(examples / "leaf.svg"));
   folder.write("diamond.toml",

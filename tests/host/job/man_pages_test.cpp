@@ -10,11 +10,12 @@
 #include "host/job/keys.hpp"
 #include "host/job/load_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal::host {
 namespace {
 
-const std::filesystem::path root = std::filesystem::path(TEST_DATA) / "../..";
+const std::filesystem::path root = test::source_folder();
 
 std::string page(const std::string& name) {
   std::ifstream stream(root / "host/packaging" / name);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/host/support/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace unicursal::test {
 
@@ -25,7 +26,7 @@ class Child {
   explicit Child(const std::vector<std::string>& arguments, const std::string& error_file = {},
                  const std::string& input_file = "/dev/null") {
     std::vector<char*> pointers;
-    std::vector<std::string> all = {UNICURSAL_PROGRAM};
+    std::vector<std::string> all = {program()};
     all.insert(all.end(), arguments.begin(), arguments.end());
     for (std::string& argument : all) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
