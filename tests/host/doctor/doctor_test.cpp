@@ -122,5 +122,5 @@ TEST_CASE("doctor: without a printer it says so in a sentence") {
   FakePrinter silent({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
   const test::Outcome outcome = test::run({"doctor", "--port", "/dev/no-such-port"});
   CHECK(outcome.code == 2);
-  CHECK(outcome.err.find("no such port") != std::string::npos);
+  CHECK(outcome.err.find("this port does not exist") != std::string::npos);
 }

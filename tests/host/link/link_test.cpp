@@ -397,7 +397,8 @@ TEST_CASE("a carriage return at the end of a line is not shown") {
 TEST_CASE("the message about a port that cannot be opened names the remedy") {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("unicursal-no-port-{}", ::getpid());
   std::ofstream(file) << "text";
-  CHECK_THROWS_WITH(open_port("/dev/no-such-port", 250000), Catch::Contains("no such port"));
+  CHECK_THROWS_WITH(open_port("/dev/no-such-port", 250000),
+                    Catch::Contains("this port does not exist; plug the printer in"));
   CHECK_THROWS_WITH(open_port(file.string(), 250000), Catch::Contains("not a serial port"));
   std::filesystem::remove(file);
 }
