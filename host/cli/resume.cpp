@@ -1,7 +1,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
@@ -64,42 +67,16 @@ fs::path chosen_print(const ResumeOptions& options) {
                    "see `unicursal resume --list`");
 }
 
-void show_restart(const Restart& restart, const Lost& lost, const Spool& spool) {
-  show(stdout, "The printer cannot continue with the next line: {}.\n", lost.why);
-  if (restart.from_start()) {
-    show(stdout, "Nothing had been printed yet, so the print starts from the beginning.\n");
-    return;
+/// Asks at the terminal. Throws SpoolError if there is none; `remedy` is what to do then.
+bool confirmed(const char* remedy) {
+  if (isatty(STDIN_FILENO) == 0) {
+    throw SpoolError("", "", "a person must check the printer, but standard input is not a terminal", remedy);
   }
-  if (restart.layer) {
-    show(stdout, "The print continues in layer {} of {}, at z = {:.2f} mm.\n", restart.layer->index + 1,
-         spool.order().layer_count, restart.layer->top);
-  }
-  if (restart.repeated > 0) {
-    show(stdout,
-         "Everything before that place was printed. Of the next {} lines some may have been printed; they "
-         "are printed again.\n",
-         restart.repeated);
-  }
-  if (restart.perhaps > restart.repeated) {
-    show(stdout,
-         "The record of the print has no end. If this computer lost its power, too, up to {} lines may have "
-         "been "
-         "printed\nand are printed again: check that the nozzle stands where the print continues.\n",
-         restart.perhaps);
-  }
-  show(stdout,
-       "The nozzle heats where it stands, rises, homes x and y (not z, because of the part), purges plastic "
-       "beside the\npart, and continues. Its height is taken to be {:.2f} mm: do not continue if the z axis "
-       "was moved or has sunk.\n",
-       restart.lowest);
-  if (restart.highest > restart.lowest) {
-    show(stdout,
-         "The nozzle was rising: it may be as high as {:.2f} mm, and then the rest of the print is that much "
-         "too high.\n",
-         restart.highest);
-  }
-  show(stdout, "Manual changes of speed, flow and temperature are reset to the job's values.\n");
-  for (const std::string& warning : restart.warnings) show(stdout, "note: {}\n", warning);
+  show(stdout, "Continue? [y/N] ");
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == "y" || answer == "Y" || answer == "yes";
 }
 
 /// A later print that may have been on another printer is not a reason to refuse, but only a person knows.
@@ -110,17 +87,7 @@ bool agreed(const ResumeOptions& options, const Restart& restart, const std::str
     show(stdout, "A later print, {}, has begun on another port. Continue only if that was another printer.\n",
          later);
   }
-  if (isatty(STDIN_FILENO) == 0) {
-    throw SpoolError("", "",
-                     sure ? "this must be confirmed, but standard input is not a terminal"
-                          : "a person must check the printer, but standard input is not a terminal",
-                     sure ? "give --yes to confirm it" : "resume at a terminal");
-  }
-  show(stdout, "Continue? [y/N] ");
-  std::fflush(stdout);
-  std::string answer;
-  std::getline(std::cin, answer);
-  return answer == "y" || answer == "Y" || answer == "yes";
+  return confirmed(sure ? "give --yes to confirm it" : "resume at a terminal");
 }
 
 StreamResult stream_from(Print& print, std::optional<Leg> leg, const ResumeOptions& options) {
@@ -136,9 +103,8 @@ Exit end(Print& print, const StreamResult& result, const ResumeOptions& options)
 
 Exit restart(Print& print, const Lost& lost, const ResumeOptions& options) {
   const Restart restart = restart_after(print.prepared(), print.spool(), lost);
-  show_restart(restart, lost, print.spool());
-  const LaterPrints later = later_prints(print.spool(), options.on.port);
-  if (!agreed(options, restart, later.other)) {
+  show(stdout, "{}", restart_in_words(restart, lost, print.spool()));
+  if (!agreed(options, restart, check_not_superseded(print.spool(), options.on.port))) {
     show(stdout, "The print was not resumed. If the printer's heaters are on, they stay on: check them.\n");
     return Exit::failed;
   }
@@ -146,12 +112,7 @@ Exit restart(Print& print, const Lost& lost, const ResumeOptions& options) {
 }
 
 Exit resume_print(Print& print, const ResumeOptions& options) {
-  const JournalState& before = print.spool().before();
-  if (!before.parking.empty()) {
-    const char* const why = before.aside ? "its nozzle was moved aside" : "it was parked and cooled";
-    return restart(print, {why, std::nullopt}, options);
-  }
-  if (before.anchors.empty()) return restart(print, {"nothing had been sent to it", std::nullopt}, options);
+  if (const auto lost = lost_before(print.spool().before())) return restart(print, *lost, options);
   const StreamResult result = stream_from(print, std::nullopt, options);
   return result.lost ? restart(print, *result.lost, options) : end(print, result, options);
 }
@@ -164,14 +125,7 @@ Exit resume_kept(const ResumeOptions& options) {
     show(stdout, "{}: this print was completed\n", folder.filename().string());
     return Exit::success;
   }
-  const std::string later = later_prints(spool, options.on.port).same;
-  if (before.superseded || !later.empty()) {
-    const std::string& by = later.empty() ? before.superseded_by : later;
-    throw SpoolError(folder.string(), "",
-                     "this print cannot be resumed, because another print has begun on its printer since" +
-                         (by.empty() ? by : ": " + by),
-                     "resume that one, or print the job again from the beginning");
-  }
+  check_not_superseded(spool, options.on.port);
   Print print(std::move(spool), options.on);
   return resume_print(print, options);
 }
@@ -185,9 +139,54 @@ class Resume final : public Command {
   /// Naming a kept print, or the folder of the prints, means one of those and not the daemon's.
   bool may_concern_daemon() const { return !options_.print && (!options_.on.spool || daemon_.state); }
 
+  Exit resume_of_daemon() const;
+  Exit show_job(const nlohmann::json& job) const;
+
   ResumeOptions options_;
   DaemonAccess daemon_;
 };
+
+/// Waits until it is known whether the print goes on; returns its job.
+nlohmann::json settled(const Client& client, std::uint64_t id) {
+  for (;;) {
+    nlohmann::json job = begun_job(client, id);
+    const nlohmann::json print =
+        accepted(client.ask("GET", "/api/status")).value("print", nlohmann::json::object());
+    if (job.value("state", "") != "printing" || print.value("state", "connecting") != "connecting")
+      return job;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+/// A paused print goes on at once. An interrupted one is prepared first, and perhaps asks a question.
+Exit Resume::resume_of_daemon() const {
+  const Client client = daemon_.connect();
+  const nlohmann::json status = accepted(client.ask("GET", "/api/status"));
+  if (!status.contains("interrupted")) {
+    steer(daemon_, "resume");
+    return Exit::success;
+  }
+  const auto id = status["interrupted"].at("id").get<std::uint64_t>();
+  accepted(client.ask("POST", "/api/print/resume", nlohmann::json::object()));
+  const nlohmann::json job = settled(client, id);
+  if (job.value("state", "") != "interrupted") return show_job(job);
+  const nlohmann::json asked =
+      accepted(client.ask("GET", "/api/status")).value("interrupted", nlohmann::json());
+  if (!asked.is_object() || !asked.contains("question")) return show_job(job);
+  show(stdout, "{}", asked["question"].get<std::string>());
+  if (!options_.yes && !confirmed("give --yes to confirm it")) return Exit::failed;
+  accepted(client.ask("POST", "/api/print/resume", {{"sure", true}}));
+  return show_job(settled(client, id));
+}
+
+Exit Resume::show_job(const nlohmann::json& job) const {
+  if (daemon_.json)
+    show_json(job);
+  else
+    show(stdout, "job {}\n", job_text(job));
+  const std::string state = job.value("state", "");
+  return state == "printing" || state == "done" ? Exit::success : Exit::failed;
+}
 
 CLI::App& Resume::declare(CLI::App& program) {
   CLI::App& app =
@@ -195,7 +194,8 @@ CLI::App& Resume::declare(CLI::App& program) {
                   "unicursal resume");
   add_note(
       app,
-      "If a daemon (`unicursal serve`) is printing, its print is resumed. Otherwise an interrupted print "
+      "If a daemon (`unicursal serve`) has a paused or an interrupted print, that is resumed. Otherwise an "
+      "interrupted print "
       "is resumed. If the printer is still on and hot, the print continues with the next line: no line "
       "is lost or run twice. If the printer was reset or has cooled, the program reports where the print "
       "stopped and asks. Then the nozzle heats where it stands, rises, homes x and y, purges plastic "
@@ -218,10 +218,7 @@ CLI::App& Resume::declare(CLI::App& program) {
 Exit Resume::run() {
   if (options_.list) return list(root_of(options_));
   daemon_.json = options_.display.json;
-  if (may_concern_daemon() && daemon_.is_printing()) {
-    steer(daemon_, "resume");
-    return Exit::success;
-  }
+  if (may_concern_daemon() && daemon_.has_print()) return resume_of_daemon();
   return resume_kept(options_);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "firmware_gcode/interruption/lead_in.hpp"
 #include "host/spool/spool_error.hpp"
@@ -58,7 +59,7 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   const std::uint64_t line = journal.leg.line(certain);
   const gcode::ModalState state = state_at(spool.chunks(), Leg{}, line);
   if (!placed_somewhere(state)) {
-    if (spool.extent().layers > 0) {
+    if (spool.extent().layers > 0 || !spool.untouched()) {
       throw SpoolError(
           spool.folder().string(), "",
           fmt::format("has no certain place to continue from: the printer had taken {} lines, and the "
@@ -81,6 +82,68 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   restart.leg.lead_in = commands(std::move(chunk.lines));
   restart.warnings = std::move(chunk.warnings);
   return restart;
+}
+
+std::optional<Lost> lost_before(const JournalState& journal) {
+  if (!journal.parking.empty())
+    return Lost{journal.aside ? "its nozzle was moved aside" : "it was parked and cooled", std::nullopt};
+  if (journal.anchors.empty()) return Lost{"nothing had been sent to it", std::nullopt};
+  return std::nullopt;
+}
+
+std::string check_not_superseded(const Spool& spool, const std::optional<std::string>& port) {
+  const LaterPrints later = later_prints(spool, port);
+  if (!spool.before().superseded && later.same.empty()) return later.other;
+  const std::string& by = later.same.empty() ? spool.before().superseded_by : later.same;
+  throw SpoolError(spool.folder().string(), "",
+                   "this print cannot be resumed, because another print has begun on its printer since" +
+                       (by.empty() ? by : ": " + by),
+                   "resume that one, or print the job again from the beginning");
+}
+
+std::string restart_in_words(const Restart& restart, const Lost& lost, const Spool& spool) {
+  std::string words;
+  const auto out = std::back_inserter(words);
+  fmt::format_to(out, "The printer cannot continue with the next line: {}.\n", lost.why);
+  if (restart.from_start()) {
+    fmt::format_to(out, "Nothing had been printed yet, so the print starts from the beginning.\n");
+    return words;
+  }
+  if (restart.layer) {
+    fmt::format_to(out, "The print continues in layer {} of {}, at z = {:.2f} mm.\n",
+                   restart.layer->index + 1, spool.order().layer_count, restart.layer->top);
+  }
+  if (restart.repeated > 0) {
+    fmt::format_to(
+        out,
+        "Everything before that place was printed. Of the next {} lines some may have been printed; they "
+        "are printed again.\n",
+        restart.repeated);
+  }
+  if (restart.perhaps > restart.repeated) {
+    fmt::format_to(
+        out,
+        "The record of the print has no end. If this computer lost its power, too, up to {} lines may have "
+        "been "
+        "printed\nand are printed again: check that the nozzle stands where the print continues.\n",
+        restart.perhaps);
+  }
+  fmt::format_to(
+      out,
+      "The nozzle heats where it stands, rises, homes x and y (not z, because of the part), purges plastic "
+      "beside the\npart, and continues. Its height is taken to be {:.2f} mm: do not continue if the z axis "
+      "was moved or has sunk.\n",
+      restart.lowest);
+  if (restart.highest > restart.lowest) {
+    fmt::format_to(
+        out,
+        "The nozzle was rising: it may be as high as {:.2f} mm, and then the rest of the print is that much "
+        "too high.\n",
+        restart.highest);
+  }
+  fmt::format_to(out, "Manual changes of speed, flow and temperature are reset to the job's values.\n");
+  for (const std::string& warning : restart.warnings) fmt::format_to(out, "note: {}\n", warning);
+  return words;
 }
 
 void catch_up(ChunkMaker& maker, const Spool& spool) {

@@ -38,6 +38,9 @@ fs::path journal_file(const fs::path& folder) {
 fs::path chunk_file(const fs::path& folder) {
   return folder / "chunks";
 }
+fs::path untouched_file(const fs::path& folder) {
+  return folder / "untouched";
+}
 
 /// Lets one program at a time use a folder. The system releases the lock however the program ends.
 class Lock {
@@ -112,6 +115,12 @@ std::uint32_t checksum_of(const fs::path& file) {
     sum = crc32(std::string_view(part).substr(0, static_cast<std::size_t>(stream.gcount())), sum);
   }
   return sum;
+}
+
+/// While this file exists, no line of a layer was sent. It is removed before the first one, which needs no
+/// room on the disk, and it is the only record that cannot be cut back.
+void make_untouched(const fs::path& folder) {
+  write_whole_file(untouched_file(folder), "", WholeFile::Access::owner_only);
 }
 
 /// Refuses a text that JSON cannot hold.
@@ -357,6 +366,7 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
   state->lock = std::move(lock);
   state->journal.begin_leg({});
   state->journal.sync();
+  make_untouched(folder);
   // Last: only now it counts as a print.
   write_whole_file(order_file(folder), record.dump(1) + "\n", WholeFile::Access::owner_only);
   sync_folder(root);
@@ -380,6 +390,17 @@ Spool Spool::open(const fs::path& folder) {
   state->lock = std::move(lock);
   state->before = std::move(before);
   return Spool(std::move(state));
+}
+
+void Spool::look_again() {
+  state_->journal.sync();
+  JournalState before = read_journal(journal_file(state_->folder));
+  SpoolExtent extent;
+  ChunkReader chunks(chunk_file(state_->folder));
+  while (const auto chunk = chunks.next()) extent.add(*chunk);
+  check_chunks(state_->folder, chunks, extent, before);
+  state_->before = std::move(before);
+  state_->extent = extent;
 }
 
 const fs::path& Spool::folder() const {
@@ -443,7 +464,20 @@ void Spool::discard() noexcept {
   fs::remove_all(state_->folder, ignored);
 }
 
+bool Spool::untouched() const {
+  std::error_code unknown;
+  return fs::exists(untouched_file(state_->folder), unknown);
+}
+
 void Spool::append(const SpooledChunk& chunk) {
+  if (chunk.kind != SpooledChunk::Kind::start && untouched()) {
+    std::error_code error;
+    if (!fs::remove(untouched_file(state_->folder), error)) {
+      throw SpoolFull(state_->folder.string(), "", "cannot be written to (" + error.message() + ")",
+                      "check its permissions and the disk");
+    }
+    sync_folder(state_->folder);
+  }
   state_->journal.sync();
   state_->chunks.append(to_bytes(chunk));
   try {

@@ -6,6 +6,7 @@
 //                                job/…        job, profile, models, direction files
 //                                chunks       SpooledChunk records (host/spool/record_file.hpp)
 //                                journal      events (host/spool/journal.hpp)
+//                                untouched    until the first layer is kept; then it is removed
 //
 // A chunk is on the disk (fdatasync) when append() returns, so a power cut of the computer loses no chunk
 // that was sent. The journal is written at once, which survives the end of this program, and synced once a
@@ -63,9 +64,14 @@ class Spool {
   void supersede_others() noexcept;
   /// Removes the folder, if nothing was sent.
   void discard() noexcept;
-  /// The contents of the journal and the extent of the chunks when the spool was opened.
+  /// Reads journal and chunks again, for a print that goes on after its session has ended. Throws SpoolError.
+  void look_again();
+  /// The contents of the journal and the extent of the chunks when the spool was opened or looked at again.
   const JournalState& before() const;
   const SpoolExtent& extent() const;
+  /// Whether no layer was ever kept, so that no line of the part can have been sent. False also if that is
+  /// not known.
+  bool untouched() const;
 
  private:
   struct State;
