@@ -14,6 +14,7 @@
 #include "core/geometry/lattice.hpp"
 #include "core/numeric/parallel.hpp"
 #include "core/numeric/quasi_newton.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -189,6 +190,7 @@ class Fairer {
     Field gradient;
     double value = evaluate(curve, gradient);
     for (int i = 0; i < iterations; ++i) {
+      stop_point();
       if (options_.may_continue && !options_.may_continue()) {
         ended_ = true;
         break;
@@ -232,6 +234,7 @@ Curve smoothed(const Curve& curve, const Polygon& island, double bead_width, Wor
   Leash leash(border, bead_width, workers);
   Curve result = curve;
   for (int pass = 0; pass < 5; ++pass) {
+    stop_point();
     leash.fasten(result);
     Curve next = result;
     for (std::size_t i = 0; i < result.size(); ++i) {

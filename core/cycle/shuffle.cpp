@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "core/cycle/population.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
 
 constexpr std::size_t fewest_stops = 12;  ///< a smaller tour leaves nothing to choose
+constexpr std::size_t looks_at_once = 4096;  ///< without a stop point
 constexpr int quench_sweeps = 4;  ///< sweeps that only accept improvements, after the last temperature
 
 // Algorithm 1.
@@ -81,6 +83,7 @@ class Run {
   bool sweep(Uphill uphill) {
     const std::uint64_t before = report_.accepted;
     for (std::size_t k = 0; k < tour_.tour().stop_count(); ++k) {
+      if (k % looks_at_once == 0) stop_point();
       ++report_.looks;
       const std::optional<LocalChange> change = tour_.look(random_stop(), random_);
       if (!change) continue;

@@ -9,6 +9,7 @@
 #include "core/field/direction_field.hpp"
 #include "core/field/grid_cover.hpp"
 #include "core/numeric/grid_distance.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -169,6 +170,7 @@ class Multigrid {
  private:
   /// A V-cycle from level k down. Overwrites the coarser levels.
   void improve(std::size_t k) {
+    stop_point();
     if (k + 1 == levels_.size()) return levels_[k].relax(coarsest_sweeps);
     levels_[k].relax(sweeps);
     restrict_residual(k);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/field/direction_field.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -144,6 +145,7 @@ std::vector<Vec2> ScatteredDirections::on_grid(const Grid& grid, const std::vect
   }
   std::vector<Vec2> result(grid.size(), Vec2(0, 0));
   for (std::size_t k = 0; k < grid.size(); ++k) {
+    if (k % grid.rows == 0) stop_point();
     if (share[k] > 0) result[k] = bins.mean_around(grid.center(k / grid.rows, k % grid.rows), reach);
   }
   return result;

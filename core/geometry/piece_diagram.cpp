@@ -17,6 +17,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/stopping.hpp"
+
 namespace unicursal::core {
 namespace {
 
@@ -60,6 +62,7 @@ class PieceDiagram {
       : sites_(sites), near_(segments), vertices_(vertices_of(sites, segments)) {}
 
   std::vector<CellBorder> run() {
+    stop_point();
     // CGAL shuffles what it inserts; the order must not depend on earlier work.
     CGAL::get_default_random() = CGAL::Random(0);
     Graph graph;

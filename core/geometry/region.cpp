@@ -5,6 +5,8 @@
 #include <polyclipping/clipper.hpp>
 #include <utility>
 
+#include "core/stopping.hpp"
+
 namespace unicursal::core {
 namespace {
 
@@ -60,6 +62,7 @@ Region to_region(const ClipperLib::PolyTree& tree) {
 }
 
 Region combine(const Region& a, const Region& b, ClipperLib::ClipType type) {
+  stop_point();
   ClipperLib::Clipper clipper;
   clipper.AddPaths(to_paths(a), ClipperLib::ptSubject, true);
   clipper.AddPaths(to_paths(b), ClipperLib::ptClip, true);
@@ -69,6 +72,7 @@ Region combine(const Region& a, const Region& b, ClipperLib::ClipType type) {
 }
 
 Region offset_once(const Region& region, double distance, double tolerance) {
+  stop_point();
   ClipperLib::ClipperOffset shifter(2.0, tolerance * grid);
   shifter.AddPaths(to_paths(region), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
   ClipperLib::PolyTree tree;
@@ -94,6 +98,7 @@ void simplify(Polygon& polygon, double tolerance) {
 }  // namespace
 
 Region enclosed(const std::vector<Ring>& rings, FillRule rule) {
+  stop_point();
   ClipperLib::Clipper clipper;
   for (const Ring& ring : rings) clipper.AddPath(to_path(ring), ClipperLib::ptSubject, true);
   const auto fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;

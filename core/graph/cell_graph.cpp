@@ -9,6 +9,7 @@
 #include "core/geometry/predicates.hpp"
 #include "core/graph/needle_diagram.hpp"
 #include "core/graph/needles.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -289,6 +290,7 @@ std::optional<CellGraph> make_cell_graph(const Polygon& domain, const GraphOptio
     tessellation->relax(seeds, needle_iterations);
   }
   for (int attempt = 0; attempt < tries; ++attempt) {
+    stop_point();
     std::vector<std::size_t> untouched;
     std::vector<Segment> needles;
     std::optional<Voronoi> diagram;

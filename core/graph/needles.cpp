@@ -6,6 +6,7 @@
 
 #include "core/geometry/segment_grid.hpp"
 #include "core/graph/seeds.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -126,6 +127,7 @@ bool NeedleTessellation::step(Descent& state) {
 void NeedleTessellation::relax(std::vector<Vec2>& seeds, int iterations) {
   Descent state;
   for (int i = 0; i < iterations; ++i) {
+    stop_point();
     if (i % renewal == 0) {
       state.needles = needles(seeds);
       state.value = coverage(state.needles, state.gradient);

@@ -7,6 +7,7 @@
 #include "core/geometry/border_index.hpp"
 #include "core/geometry/lattice.hpp"
 #include "core/geometry/lattice_owners.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -114,7 +115,10 @@ std::vector<Vec2> place_seeds(const Polygon& domain, const SeedOptions& options,
   const BorderIndex border(domain, d);
   std::vector<Vec2> seeds = triangular_tiling(domain, options, random);
   fill_gaps(seeds, lattice, owners, border, d);
-  for (int step = 0; step < relaxation_steps; ++step) relax(seeds, lattice, owners, border);
+  for (int step = 0; step < relaxation_steps; ++step) {
+    stop_point();
+    relax(seeds, lattice, owners, border);
+  }
   return seeds;
 }
 

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/stopping.hpp"
+
 namespace unicursal::core {
 
 /// Threads that wait until the round number changes, take pieces until none is left, and report back.
@@ -27,6 +29,7 @@ class Workers::Helpers {
 
   void run(std::size_t count, const std::function<void(std::size_t)>& job) {
     job_ = &job;
+    stop_ = present_stop_token();
     count_ = count;
     next_ = 0;
     busy_ = static_cast<int>(threads_.size());
@@ -50,7 +53,11 @@ class Workers::Helpers {
 
   void take_pieces() {
     try {
-      for (std::size_t piece = next_++; piece < count_; piece = next_++) (*job_)(piece);
+      const StopScope scope(stop_);
+      for (std::size_t piece = next_++; piece < count_; piece = next_++) {
+        stop_point();
+        (*job_)(piece);
+      }
     } catch (...) {
       const std::lock_guard lock(failing_);
       if (!failure_) failure_ = std::current_exception();
@@ -59,6 +66,7 @@ class Workers::Helpers {
   }
 
   const std::function<void(std::size_t)>* job_ = nullptr;
+  std::stop_token stop_;  ///< of the thread that has called run()
   std::size_t count_ = 0;
   std::atomic<std::size_t> next_{0};
   std::atomic<int> busy_{0};
@@ -78,7 +86,10 @@ Workers::~Workers() = default;
 
 void Workers::each(std::size_t count, const std::function<void(std::size_t)>& job) {
   if (helpers_ && count > 1) return helpers_->run(count, job);
-  for (std::size_t piece = 0; piece < count; ++piece) job(piece);
+  for (std::size_t piece = 0; piece < count; ++piece) {
+    stop_point();
+    job(piece);
+  }
 }
 
 void Workers::ranges(std::size_t count, std::size_t size,

@@ -18,7 +18,7 @@ class Workers {
 
   /// Calls job(0) … job(count − 1), each once, in any order and on any thread; returns when all are done.
   /// Must not be called from within a job, nor by two threads at once. If a job throws, no further piece is
-  /// begun, and the exception is rethrown here.
+  /// begun; the exception is rethrown here. The caller's stop token counts in jobs (core/stopping.hpp).
   void each(std::size_t count, const std::function<void(std::size_t)>& job);
 
   /// Like each(), for ranges of `size` numbers: job(first, last), `last` excluded.

@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/stopping.hpp"
+
 namespace unicursal::core {
 
-/// Asked before every step of a stage; false ends the stage. An empty function means always true.
+/// Asked before every step of a stage; false ends the stage, Stopped (core/stopping.hpp) the whole work. An empty function means always true.
 using MayContinue = std::function<bool()>;
 
 class StepBudget {
@@ -33,6 +35,7 @@ class StepBudget {
 
  private:
   bool may_continue(int kept) {
+    stop_point();
     int& taken = steps_.back();
     if (recorded_ != nullptr) {
       const std::size_t stage = steps_.size() - 1;

@@ -18,6 +18,7 @@
 #include "core/planner/measure.hpp"
 #include "core/planner/stopwatch.hpp"
 #include "core/planner/with_perimeters.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -88,6 +89,7 @@ std::optional<RegionCurve> curve_of_cycle(const FillableRegion& part, double d, 
   const DirectionDemand asked{work.demands.mostly_aligned(part.region),
                               work.demands.one_direction(part.region)};
   for (int attempt = 0; attempt < tries; ++attempt) {
+    stop_point();
     std::optional<CellGraph> graph;
     {
       const Stopwatch watch(work.plan.graph);

@@ -34,7 +34,7 @@ struct PreparedJob {
 };
 
 /// `layers`: print these only; absent: all. Throws core::DataError, for example if the part does not fit on
-/// the bed or the range names no layer.
+/// the bed or the range names no layer. A core::StopScope around it is obeyed.
 PreparedJob prepare(Job job, const std::optional<LayerRange>& layers = {});
 
 /// Throws core::DataError if the first layer is nowhere wide enough for a curve: the print would begin in the

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "core/geometry/polygon.hpp"
+#include "core/stopping.hpp"
 #include "host/lookahead/low_priority.hpp"
 
 namespace unicursal::host {
@@ -19,6 +20,7 @@ ForetoldTimes::ForetoldTimes(const core::Part& part, std::size_t first, std::siz
     : behind_(count + 1, 0) {
   thread_ = std::jthread([this, &part, first, flow](const std::stop_token& stop) {
     lower_priority();
+    const core::StopScope scope(stop);
     try {
       for (std::size_t i = behind_.size() - 1; i-- > 0 && !stop.stop_requested();)
         behind_[i] = behind_[i + 1] + foretold_seconds(part.layer(first + i), flow);

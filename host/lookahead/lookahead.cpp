@@ -12,6 +12,7 @@
 #include <numeric>
 #include <thread>
 
+#include "core/stopping.hpp"
 #include "host/lookahead/foretold_times.hpp"
 #include "host/lookahead/low_priority.hpp"
 #include "host/lookahead/pacer.hpp"
@@ -129,6 +130,7 @@ struct Lookahead::State {
   /// Older layers first: islands of open layers are planned before a new layer is sliced.
   void work() {
     lower_priority();
+    const core::StopScope scope(given_up.get_token());
     Timeline time(options.pace);
     std::unique_lock lock(mutex);
     for (;;) {
@@ -169,7 +171,7 @@ struct Lookahead::State {
     plan.budget_spent = [&] { return enough(layer, attempt, time); };
     run(lock, layer, time,
         [&] { layer.result.plans[index] = options.planner->plan(island, layer.result.layer.z, plan); });
-    learn(layer, attempt, layer.result.plans[index].effort, time.now());
+    if (!layer.error) learn(layer, attempt, layer.result.plans[index].effort, time.now());
     ++layer.finished;
   }
 
@@ -259,6 +261,7 @@ struct Lookahead::State {
 
   void stop() {
     cancelled = true;
+    given_up.request_stop();
     work_available.notify_all();
     wake_consumer();
   }
@@ -273,6 +276,7 @@ struct Lookahead::State {
   std::size_t next_layer = 0;
   std::size_t most_open = 0;
   std::atomic<bool> cancelled = false;
+  std::stop_source given_up;  ///< with `cancelled`; ends what is being sliced or planned
   /// Time at which the printer needs the next layer, s; absent until it prints.
   std::optional<double> position;
   double last_report = 0;  ///< time of the last report, s

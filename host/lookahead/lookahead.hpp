@@ -54,7 +54,7 @@ class Lookahead {
  public:
   /// `part` must outlive this object.
   Lookahead(const core::Part& part, const LookaheadOptions& options);
-  /// Stops the planning of all islands at their next step.
+  /// As cancel(), and waits for the threads.
   ~Lookahead();
 
   /// Waits for the next layer. Returns nullopt after the last one and after cancel(). Rethrows an exception
@@ -70,8 +70,8 @@ class Lookahead {
   /// the first report islands have unlimited time. May be called from any thread.
   void printed(double now, double left);
 
-  /// Begins no further island and ends those being planned soon; wakes a caller of wait(). May be called from
-  /// any thread.
+  /// Begins no further island and gives up those being planned, within a second; wakes a caller of wait(). May
+  /// be called from any thread.
   void cancel();
 
   PlanningEffort effort() const;
