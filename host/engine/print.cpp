@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "host/engine/restart.hpp"
+#include "host/link/find_port.hpp"
 #include "host/link/link.hpp"
+#include "host/spool/spool_error.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -37,6 +39,11 @@ PrintOrder order_of(const PreparedJob& prepared, const std::string& port, const 
   order.layer_count = prepared.count;
   if (const auto& layers = prepared.layers) order.layers = std::pair(layers->first, layers->last);
   return order;
+}
+
+SpoolError cannot_go_on(const Spool& spool, const std::string& why) {
+  return {spool.folder().string(), "", "the print cannot go on with its next line: " + why,
+          "see `unicursal resume " + spool.folder().filename().string() + "`"};
 }
 
 StreamSettings settings_for(const PreparedJob& prepared, const PrintOptions& options) {
@@ -76,6 +83,8 @@ void Print::connect(std::optional<Leg> leg) {
   settings_.link = {};  // closes an earlier log
   settings_.link = link_options(profile, options_.log);
   port_ = open_port(port, profile.baud, settings_.link);
+  port_name_ = port;
+  stable_name_ = stable_name_of(device_of(port_));
   if (continues_) {
     settings_.continuation = Continuation{std::move(leg), [this] { catch_up(maker_, *spool_); }};
   } else {
@@ -84,7 +93,24 @@ void Print::connect(std::optional<Leg> leg) {
   }
   if (!awake_) awake_.emplace("printing " + prepared_.job.file.stem().string());
   settings_.spool = &*spool_;
+  chunks_before_ = spool_->extent().chunks;
   source_.emplace(lookahead_, maker_, spool_->extent().rest);
+}
+
+void Print::reconnect() {
+  spool_->look_again();
+  if (const auto lost = lost_before(spool_->before())) throw cannot_go_on(*spool_, lost->why);
+  if (source_->cancelled()) throw cannot_go_on(*spool_, "it was stopped");
+  // A chunk that was made and could not be kept is lost with its session.
+  if (chunks_before_ + source_->made() != spool_->extent().chunks)
+    throw cannot_go_on(*spool_, "its last lines could not be kept");
+  const Profile& profile = prepared_.job.profile;
+  const std::shared_ptr<SerialLog> log = settings_.link.log;
+  settings_.link = link_options(profile, {});
+  settings_.link.log = log;
+  const std::string port = stable_name_.empty() ? port_name_ : stable_name_;
+  port_ = open_port(port, profile.baud, settings_.link);
+  settings_.continuation = Continuation{std::nullopt, [] {}};  // the source is where the spool ends
 }
 
 int Print::take_port() {

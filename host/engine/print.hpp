@@ -47,6 +47,11 @@ class Print {
   /// Throws PortError, core::DataError.
   void connect(std::optional<Leg> leg = {});
 
+  /// After end(), if the session's connection was cut: opens the port again, by whatever name the same
+  /// adapter has now, to go on with the next line. Planning has gone on meanwhile. Throws PortError while the
+  /// port is not there, and SpoolError if the print cannot go on in this process.
+  void reconnect();
+
   /// What stream() or a Session takes, after connect(); the port's descriptor once.
   int take_port();
   Source& source() { return *source_; }
@@ -74,7 +79,10 @@ class Print {
   StreamSettings settings_;
   ChunkMaker maker_;
   Lookahead lookahead_;
-  int port_ = -1;  ///< until a session has taken it over
+  int port_ = -1;                  ///< until a session has taken it over
+  std::string port_name_;          ///< as it was asked for
+  std::string stable_name_;        ///< of the adapter, in /dev/serial/by-id; may be empty
+  std::size_t chunks_before_ = 0;  ///< in the spool when the source was made
   std::optional<StayAwake> awake_;
   std::optional<PlannedSource> source_;
   std::optional<Session> session_;

@@ -26,6 +26,7 @@ std::optional<PrintStep> PlannedSource::next() {
     if (std::exchange(ended_, true)) return std::nullopt;
     step.record.kind = SpooledChunk::Kind::rest;
     step.chunk = maker_.rest();
+    ++made_;
     return step;
   }
   step.record.kind = SpooledChunk::Kind::layer;
@@ -34,6 +35,7 @@ std::optional<PrintStep> PlannedSource::next() {
   ChunkMaker::Made made = maker_.layer(std::move(*layer));
   step.record.layer = std::move(made.layer);
   step.chunk = std::move(made.chunk);
+  ++made_;
   taken_ = step.record.layer.index + 1;
   for (const gcode::LayerShare& share : step.chunk.layers) {
     if (share.last) given_ = share.layer + 1;
@@ -51,7 +53,7 @@ Waiting PlannedSource::waiting() const {
 }
 
 void PlannedSource::cancel() {
-  ended_ = true;
+  ended_ = cancelled_ = true;
   lookahead_.cancel();
 }
 

@@ -79,12 +79,15 @@ class PlannedSource final : public Source {
   std::vector<std::string> warnings() const override { return maker_.warnings(); }
 
   std::size_t layers() const override { return maker_.prepared().count; }
-  gcode::Chunk start() override { return maker_.start(); }
+  gcode::Chunk start() override { return ++made_, maker_.start(); }
   bool ready() const override { return lookahead_.ready(); }
   void on_ready(std::function<void()> listener) override { lookahead_.on_ready(std::move(listener)); }
   std::optional<PrintStep> next() override;
-  gcode::Chunk finish() override { return maker_.finish(); }
+  gcode::Chunk finish() override { return ++made_, maker_.finish(); }
   void cancel() override;
+  bool cancelled() const { return cancelled_; }
+  /// Chunks that it has handed out.
+  std::size_t made() const { return made_; }
   void printed(double now, double left) override { lookahead_.printed(now, left); }
   Waiting waiting() const override;
   std::optional<double> foretold(std::size_t begin, std::size_t end) const override {
@@ -97,6 +100,8 @@ class PlannedSource final : public Source {
   bool ended_;             ///< the encoder withholds nothing more, or the print was cancelled
   std::size_t taken_ = 0;  ///< the encoder was given the layers before this one
   std::size_t given_ = 0;  ///< the encoder has returned all of the layers before this one
+  std::size_t made_ = 0;
+  bool cancelled_ = false;
   ForetoldTimes times_;
 };
 

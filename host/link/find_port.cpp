@@ -124,6 +124,16 @@ std::vector<PortInfo> matching_ports(const std::vector<PortInfo>& ports, std::st
   return matching;
 }
 
+std::string stable_name_of(const std::string& device, const std::filesystem::path& folder) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    std::error_code dangling;
+    if (std::filesystem::canonical(entry.path(), dangling) == device && !dangling)
+      return entry.path().string();
+  }
+  return {};
+}
+
 int open_answering_port(const std::vector<PortInfo>& ports, unsigned baud) {
   std::vector<Asked> asked;
   std::string why;

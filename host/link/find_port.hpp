@@ -1,6 +1,7 @@
 // Finds the serial port of a printer: by name, by USB numbers, or by asking all ports.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,11 @@ namespace unicursal::host {
 /// chip, in hexadecimal as lsusb writes them. "auto" means the ports on USB, with chips and boards of
 /// printers first, or any port if there is none on USB. Anything else is a path, which need not be listed.
 std::vector<PortInfo> matching_ports(const std::vector<PortInfo>& ports, std::string_view wanted);
+
+/// The name of a device that stays the same when its adapter is plugged in again, even if the device's own
+/// name changes; empty if there is none. `folder` holds links to the devices.
+std::string stable_name_of(const std::string& device,
+                           const std::filesystem::path& folder = "/dev/serial/by-id");
 
 /// Opens all ports, asks all of them at once, and returns the descriptor of the first one that answers M115.
 /// Opening a port may reset its board. Throws PortError if none can be opened or none answers.

@@ -62,6 +62,7 @@ struct LinkStatistics {
   std::uint64_t queries = 0;       ///< The link's own numbered lines, without repeats.
   std::uint64_t recounts = 0;      ///< Times that the line numbers were restarted from 1.
   std::uint64_t bytes = 0;         ///< Bytes written.
+  bool cut = false;                ///< The port has gone: the cable was pulled, or the printer has no power.
 };
 
 /// The room in the printer's queues, as ADVANCED_OK reports it. A size is the most that was ever free.

@@ -42,6 +42,7 @@ asio::awaitable<void> LinkState::listen([[maybe_unused]] std::shared_ptr<LinkSta
     const std::size_t count =
         co_await port.async_read_some(asio::buffer(buffer), asio::redirect_error(asio::use_awaitable, ended));
     if (ended) {
+      statistics.cut = true;
       fail(with_heat_warning(lost(ended)));
       co_return;
     }
@@ -73,6 +74,7 @@ void LinkState::pump() {
     if (error == asio::error::would_block || error == asio::error::try_again)
       wait_for_port();
     else if (error)
+      statistics.cut = true;
       fail(with_heat_warning(lost(error)));
   }
 }

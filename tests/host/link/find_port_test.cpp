@@ -7,6 +7,7 @@
 
 #include "fake_printer.hpp"
 #include "host/link/line_rate.hpp"
+#include "tests/host/support/temp_folder.hpp"
 
 using namespace unicursal;
 using namespace unicursal::host;
@@ -28,6 +29,18 @@ std::vector<std::string> paths(const std::vector<PortInfo>& ports) {
 }
 
 }  // namespace
+
+TEST_CASE("a device that is plugged in again is found by the name that stays the same") {
+  const test::TempFolder folder;
+  folder.write("ttyUSB0", "");
+  const std::filesystem::path by_id = folder / "by-id";
+  std::filesystem::create_directory(by_id);
+  std::filesystem::create_symlink("../ttyUSB0", by_id / "usb-1a86_USB_Serial-if00");
+  std::filesystem::create_symlink("../gone", by_id / "usb-other");
+  CHECK(host::stable_name_of((folder / "ttyUSB0").string(), by_id) == (by_id / "usb-1a86_USB_Serial-if00").string());
+  CHECK(host::stable_name_of((folder / "ttyUSB1").string(), by_id).empty());
+  CHECK(host::stable_name_of((folder / "ttyUSB0").string(), folder / "none").empty());
+}
 
 TEST_CASE("a port is chosen by path, by USB numbers, or as a likely port of a printer") {
   using Paths = std::vector<std::string>;

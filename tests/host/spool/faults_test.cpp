@@ -143,13 +143,11 @@ void reset(int times, unsigned seed) {
 }
 
 void unplug(int times, unsigned seed) {
-  // One by one: at a hundredfold speed a printer cools down if nobody resumes within 18 s.
+  // One by one: at a hundredfold speed a printer cools down if it does not hear from its host for 18 s.
   const Mishap mishap{"disconnect:5", 100, {"cable"}, {}, 1};
   suffer(mishap, times, seed, [&](Trial& trial) {
-    check_told(mishap, trial.cut);
-    check_kept(trial.bench.print_folder());
-    while (!fs::exists(trial.bench.path("port"))) poll(nullptr, 0, 5);
-    if (!resumed(trial)) return;
+    CHECK(trial.cut.code == 0);  // it has gone on by itself
+    CHECK(trial.cut.err.find("cable") != std::string::npos);
     check_equal(trial.bench.seen(), undisturbed());
   });
 }

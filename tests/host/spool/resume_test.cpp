@@ -188,17 +188,43 @@ TEST_CASE("a resumed print names the job's mixtures, with feeders that slip as w
 
 TEST_CASE("a cable that was pulled and plugged in again costs nothing") {
   const Seen whole = undisturbed(100).seen;
-  Bench bench(100, {"--fault", "disconnect:5@line=700"});
-  const Outcome cut = test::run(bench.print());
-  INFO(cut.err);
-  REQUIRE(cut.code == 1);
-  CHECK(cut.err.find("cable") != std::string::npos);
-  const auto plugged_in = [&] { return fs::exists(bench.path("port")); };
-  while (!plugged_in()) poll(nullptr, 0, 5);
-  const Outcome resumed = test::run(bench.resume());
-  INFO(resumed.out << resumed.err);
-  REQUIRE(resumed.code == 0);
+  Bench bench(100, {"--fault", "disconnect:100@line=700"});  // a second
+  const Outcome outcome = test::run(bench.print());
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.err.find("cable") != std::string::npos);
+  CHECK(outcome.err.find("the printer is back") != std::string::npos);
   check_equal(bench.seen(), whole);
+}
+
+TEST_CASE("a print whose printer comes back without knowing it ends, and can be resumed") {
+  const Seen whole = undisturbed(100).seen;
+  Bench bench(100, {"--fault", "disconnect@line=700"});
+  Child host(bench.print());
+  Bench::wait_for([&] { return host.err().find("when it is back") != std::string::npos; }, host);
+  REQUIRE(host.running());
+  bench.replace_printer();
+  const Outcome outcome = host.wait();
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("the print cannot simply go on") != std::string::npos);
+  CHECK(outcome.err.find("unicursal resume") != std::string::npos);
+  REQUIRE(bench.resume_anyway().code == 0);
+  const Seen seen = bench.seen();
+  CHECK(std::count(seen.lines.begin(), seen.lines.end(), "G28 X Y") == 1);
+  CHECK(ends_like(seen.lines, whole.lines, 750));
+}
+
+TEST_CASE("a signal ends the waiting for a printer whose cable was pulled") {
+  Bench bench(100, {"--fault", "disconnect@line=700"});
+  Child host(bench.print());
+  Bench::wait_for([&] { return host.err().find("when it is back") != std::string::npos; }, host);
+  REQUIRE(host.running());
+  kill(host.id(), SIGTERM);
+  const Outcome outcome = host.wait();
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("unicursal resume") != std::string::npos);
 }
 
 TEST_CASE("a print whose host dies while the nozzle is aside continues at its height") {
