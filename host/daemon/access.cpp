@@ -41,6 +41,12 @@ std::optional<std::string> token_of(const RequestHead& head) {
   return offered_token(head);
 }
 
+/// Whether a host such as "printer.lan:8443" or "[fe80::1]:80" ends in a port.
+bool has_port(const std::string& host) {
+  const std::size_t colon = host.rfind(':');
+  return colon != std::string::npos && host.find(']', colon) == std::string::npos;
+}
+
 void check_host(const RequestHead& head, const AccessRules& rules) {
   const auto host = head.header("host");
   if (!host) throw HttpError(400, "the request does not say which host it is for");
@@ -62,6 +68,7 @@ void check_origin(const RequestHead& head, const AccessRules& rules) {
 }  // namespace
 
 void check_access(const RequestHead& head, const AccessRules& rules) {
+  if (head.by_socket) return;
   check_host(head, rules);
   check_origin(head, rules);
   if (!rules.token) return;
@@ -73,13 +80,19 @@ void check_access(const RequestHead& head, const AccessRules& rules) {
 
 std::vector<std::string> hosts_for(const std::string& address, unsigned port,
                                    const std::vector<std::string>& names) {
-  std::vector<std::string> hosts = {"localhost", "127.0.0.1", "[::1]",
-                                    address.find(':') == std::string::npos ? address : "[" + address + "]"};
-  for (const std::string& name : names) hosts.push_back(core::lower(name));
+  const std::vector<std::string> own = {
+      "localhost", "127.0.0.1", "[::1]",
+      address.find(':') == std::string::npos ? address : "[" + address + "]"};
   std::vector<std::string> all;
-  for (const std::string& host : hosts) {
+  for (const std::string& host : own) {
     all.push_back(fmt::format("{}:{}", host, port));
     if (port == 80) all.push_back(host);
+  }
+  for (const std::string& given : names) {
+    const std::string name = core::lower(given);
+    all.push_back(name);
+    if (has_port(name)) continue;
+    for (const unsigned each : {port, 80U, 443U}) all.push_back(fmt::format("{}:{}", name, each));
   }
   return all;
 }

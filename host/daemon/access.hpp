@@ -18,10 +18,12 @@ struct AccessRules {
   std::vector<std::string> hosts;            ///< allowed values of Host, in lower case: "127.0.0.1:8377"
 };
 
-/// Throws HttpError 400, 401, 403 or 421.
+/// Throws HttpError 400, 401, 403 or 421. Who has come through the Unix socket needs no proof.
 void check_access(const RequestHead& head, const AccessRules& rules);
 
-/// The allowed values of Host for a daemon at this address: the address, localhost, and `names`.
+/// The allowed values of Host for a daemon at this address: the address and localhost, with the port; and
+/// `names`. A name with a port is taken as it is; one without also stands for the ports 80 and 443, where a
+/// proxy listens.
 std::vector<std::string> hosts_for(const std::string& address, unsigned port,
                                    const std::vector<std::string>& names);
 

@@ -63,6 +63,13 @@ std::optional<std::uint64_t> whole_number(const json& body, const char* key) {
   return found->get<std::uint64_t>();
 }
 
+bool yes(const json& body, const char* key) {
+  const auto found = body.find(key);
+  if (found == body.end()) return false;
+  if (!found->is_boolean()) throw HttpError(400, fmt::format("{} is not true or false", key));
+  return found->get<bool>();
+}
+
 std::optional<LayerRange> layers_of(const json& body) {
   const auto found = body.find("layers");
   if (found == body.end()) return std::nullopt;
@@ -156,6 +163,7 @@ const Api::Route& Api::route_of(const RequestHead& head) {
       {"POST", "/api/temperature", &Api::set_temperature},
       {"POST", "/api/flow", &Api::set_flow},
       {"POST", "/api/speed", &Api::set_speed},
+      {"POST", "/api/token/renew", &Api::renew_token},
   };
   const std::string_view asked = head.method == "HEAD" ? "GET" : std::string_view(head.method);
   std::string allowed;
@@ -201,6 +209,9 @@ asio::awaitable<Response> Api::answer(Request request) {
   } catch (const Refused& refused) {
     if (!asked.empty()) log_line(asked + ": refused: " + refused.what());
     throw HttpError(status_of(refused.why()), refused.what());
+  } catch (const std::exception& error) {
+    if (!asked.empty()) log_line(asked + ": refused: " + error.what());
+    throw;
   }
 }
 
@@ -273,8 +284,8 @@ asio::awaitable<Response> Api::remove_upload(Request request) {
 // ---- the print
 
 asio::awaitable<Response> Api::start(Request request) {
-  const json body = read_object(request, {"id"});
-  co_return reply({{"id", daemon_.start(whole_number(body, "id"))}}, 202);
+  const json body = read_object(request, {"id", "bed_clear"});
+  co_return reply({{"id", daemon_.start(whole_number(body, "id"), yes(body, "bed_clear"))}}, 202);
 }
 
 asio::awaitable<Response> Api::pause(Request request) {
@@ -284,8 +295,11 @@ asio::awaitable<Response> Api::pause(Request request) {
 }
 
 asio::awaitable<Response> Api::resume(Request request) {
-  read_object(request, {});
-  obeyed(daemon_.session().resume());
+  const json body = read_object(request, {"sure"});
+  if (daemon_.busy())
+    obeyed(daemon_.session().resume());
+  else
+    daemon_.continue_interrupted(yes(body, "sure"));
   co_return reply(daemon_.status(), 202);
 }
 
@@ -317,6 +331,18 @@ asio::awaitable<Response> Api::set_flow(Request request) {
   const double percent = required_number(read_object(request, {"percent"}), "percent");
   obeyed(daemon_.session().set_flow(percent));
   co_return reply(daemon_.status(), 202);
+}
+
+/// Only the owner of the state folder may shut others out; the new token does not cross the network.
+asio::awaitable<Response> Api::renew_token(Request request) {
+  read_object(request, {});
+  if (!request.by_socket)
+    throw HttpError(403, "the token is renewed through the socket in the state folder only");
+  if (!rules_.token) throw HttpError(409, "this daemon asks for no token");
+  Tokens tokens = renew_();
+  rules_.token = std::move(tokens.all);
+  rules_.metrics_token = std::move(tokens.metrics);
+  co_return reply(json::object());
 }
 
 asio::awaitable<Response> Api::set_speed(Request request) {

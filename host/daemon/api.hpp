@@ -1,6 +1,9 @@
 // The daemon's HTTP API (API.md): what each address does, who may use it, and how much may be sent.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "host/daemon/access.hpp"
 #include "host/daemon/daemon.hpp"
 #include "host/http/http_server.hpp"
@@ -12,6 +15,11 @@ class Api : public HttpHandler {
   explicit Api(Daemon& daemon) : daemon_(daemon) {}
   /// Nobody is let in before this is called.
   void set_rules(AccessRules rules) { rules_ = std::move(rules); }
+  struct Tokens {
+    std::string all, metrics;
+  };
+  /// Makes new tokens, and lets those go who knew the old ones. Throws core::DataError.
+  void on_renewal(std::function<Tokens()> renew) { renew_ = std::move(renew); }
 
   std::uint64_t admit(const RequestHead& head) override;
   asio::awaitable<Response> answer(Request request) override;
@@ -41,9 +49,11 @@ class Api : public HttpHandler {
   asio::awaitable<Response> set_temperature(Request request);
   asio::awaitable<Response> set_flow(Request request);
   asio::awaitable<Response> set_speed(Request request);
+  asio::awaitable<Response> renew_token(Request request);
 
   Daemon& daemon_;
   AccessRules rules_{random_token(), {}, {}};
+  std::function<Tokens()> renew_;
 };
 
 }  // namespace unicursal::host

@@ -1,16 +1,16 @@
 #include "host/daemon/client.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
-#include <asio/connect.hpp>
 #include <asio/io_context.hpp>
-#include <asio/ip/tcp.hpp>
+#include <asio/local/stream_protocol.hpp>
 #include <asio/read.hpp>
 #include <asio/write.hpp>
 #include <charconv>
 
 #include "host/daemon/state_folder.hpp"
-#include "host/http/http_server.hpp"
+#include "host/files/descriptor.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -20,20 +20,28 @@ using namespace std::chrono_literals;
 constexpr auto patience = 30s;
 constexpr std::size_t longest_answer = 16 * 1024 * 1024;  ///< bytes
 
+using Local = asio::local::stream_protocol;
+
+/// Connects to the socket in the folder, whose name may be too long for an address.
+bool connect(Local::socket& socket, const std::filesystem::path& state) {
+  const Descriptor folder(::open(state.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (!folder) return false;
+  asio::error_code error;
+  socket.connect(Local::endpoint(fmt::format("/proc/self/fd/{}/socket", folder.get())), error);
+  return !error;
+}
+
 /// Sends, and reads until the server closes the connection. Throws asio::system_error.
-std::string talk(const asio::ip::tcp::endpoint& at, const std::string& request) {
+std::string talk(const std::filesystem::path& state, const std::string& request) {
   asio::io_context loop;
-  asio::ip::tcp::socket socket(loop);
+  Local::socket socket(loop);
+  if (!connect(socket, state)) throw asio::system_error(asio::error::connection_refused);
   std::string answer;
   asio::error_code problem;
   const auto finished = [&](const asio::error_code& error, std::size_t) { problem = error; };
-  socket.async_connect(at, [&](const asio::error_code& error) {
-    problem = error;
-    if (error) return;
-    // An answer may come before everything is sent, so both happen at once.
-    asio::async_write(socket, asio::buffer(request), [](const asio::error_code&, std::size_t) {});
-    asio::async_read(socket, asio::dynamic_buffer(answer, longest_answer), asio::transfer_all(), finished);
-  });
+  // An answer may come before everything is sent, so both happen at once.
+  asio::async_write(socket, asio::buffer(request), [](const asio::error_code&, std::size_t) {});
+  asio::async_read(socket, asio::dynamic_buffer(answer, longest_answer), asio::transfer_all(), finished);
   loop.run_for(patience);
   if (!loop.stopped()) throw asio::system_error(asio::error::timed_out);
   if (problem && problem != asio::error::eof && answer.empty()) throw asio::system_error(problem);
@@ -55,9 +63,10 @@ Answer parse_answer(const std::string& text, const DaemonError& strange) {
 }  // namespace
 
 std::optional<Client> Client::find(const std::filesystem::path& state) {
-  const auto address = read_line(state / "address");
-  if (!address) return std::nullopt;
-  return Client(state, *address, read_line(state / "token"));
+  asio::io_context loop;
+  Local::socket socket(loop);
+  if (!connect(socket, state)) return std::nullopt;
+  return Client(state);
 }
 
 Answer Client::ask(const std::string& method, const std::string& path) const {
@@ -74,17 +83,17 @@ Answer Client::send_file(const std::string& path, const std::string& bytes) cons
 
 Answer Client::exchange(const std::string& method, const std::string& path, const std::string& type,
                         const std::string& body) const {
-  std::string request = fmt::format(
-      "{} {} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Type: {}\r\nContent-Length: {}\r\n", method,
-      path, address_, type, body.size());
-  if (token_) request += "Authorization: Bearer " + *token_ + "\r\n";
+  const std::string request = fmt::format(
+      "{} {} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Type: {}\r\nContent-Length: "
+      "{}\r\n\r\n",
+      method, path, type, body.size());
+  const std::string socket = (state_ / "socket").string();
   try {
-    const std::string answer = talk(parse_endpoint(address_), request + "\r\n" + body);
-    return parse_answer(answer,
-                        {address_, "", "the program that answers there is not a unicursal daemon",
-                         "start one with `unicursal serve`, or delete " + (state_ / "address").string()});
+    return parse_answer(talk(state_, request + body),
+                        {socket, "", "the program that answers there is not a unicursal daemon",
+                         "end it, and start one with `unicursal serve`"});
   } catch (const asio::system_error& error) {
-    throw DaemonError(address_, "", "the daemon does not answer (" + error.code().message() + ")",
+    throw DaemonError(socket, "", "the daemon does not answer (" + error.code().message() + ")",
                       "start it with `unicursal serve`");
   }
 }

@@ -1,4 +1,6 @@
-// The commands' side of the API: finds the daemon by its state folder, sends a request, waits for the answer.
+// The commands' side of the API: connects to the socket in the daemon's state folder, sends a request, waits
+// for the answer. The socket lives with its daemon, so that nobody else is spoken to, and the token is not
+// needed.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +17,7 @@ struct Answer {
 
 class Client {
  public:
-  /// Absent if no daemon has left its address there.
+  /// Absent if no daemon runs there.
   static std::optional<Client> find(const std::filesystem::path& state);
 
   /// Blocks for at most half a minute. Throws DaemonError if there is no answer, or another program answers.
@@ -24,14 +26,11 @@ class Client {
   Answer send_file(const std::string& path, const std::string& bytes) const;
 
  private:
-  Client(std::filesystem::path state, std::string address, std::optional<std::string> token)
-      : state_(std::move(state)), address_(std::move(address)), token_(std::move(token)) {}
+  explicit Client(std::filesystem::path state) : state_(std::move(state)) {}
   Answer exchange(const std::string& method, const std::string& path, const std::string& type,
                   const std::string& body) const;
 
   std::filesystem::path state_;
-  std::string address_;
-  std::optional<std::string> token_;
 };
 
 }  // namespace unicursal::host

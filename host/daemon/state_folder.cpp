@@ -47,8 +47,13 @@ StateFolder::StateFolder(fs::path folder) : folder_(std::move(folder)) {
 }
 
 StateFolder::~StateFolder() {
+  remove_address();
+}
+
+void StateFolder::remove_address() const noexcept {
   std::error_code ignored;
   fs::remove(folder_ / "address", ignored);
+  fs::remove(folder_ / "socket", ignored);
 }
 
 std::string StateFolder::secret(const std::string& name) const {
@@ -61,8 +66,12 @@ std::string StateFolder::secret(const std::string& name) const {
     }
     if (const auto known = read_line(file); known && known->size() >= 32) return *known;
   }
+  return renewed(name);
+}
+
+std::string StateFolder::renewed(const std::string& name) const {
   std::string token = random_token();
-  write_state(file, token + "\n");
+  write_state(folder_ / name, token + "\n");
   return token;
 }
 

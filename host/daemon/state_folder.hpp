@@ -2,9 +2,11 @@
 //
 //   lock            held by the one daemon that may use the folder
 //   address         "127.0.0.1:8377", while it runs
+//   socket          where this user's commands reach it, while it runs (0600)
 //   token           the clients' proof of access (0600)
 //   metrics-token   opens /metrics only, for a Prometheus that must not steer printers (0600)
 //   queue.json      the jobs (queue.hpp)
+//   printing        the print that is going on (interrupted.hpp)
 //   files/          uploads (job_files.hpp)
 //
 // Only its owner can read it.
@@ -37,8 +39,11 @@ class StateFolder {
   const std::filesystem::path& path() const { return folder_; }
   /// The text of a secret, which is made if it is missing. Throws DaemonError if others may read it.
   std::string secret(const std::string& name) const;
-  /// Writes the address for clients; the destructor removes it.
+  /// A new text for a secret; the old one is lost. Throws DaemonError.
+  std::string renewed(const std::string& name) const;
+  /// Writes the address for people and programs; the destructor removes it, and the socket.
   void write_address(const std::string& address) const;
+  void remove_address() const noexcept;
 
  private:
   std::filesystem::path folder_;

@@ -19,7 +19,7 @@ constexpr std::uint16_t normal_end = 1000, try_again_later = 1013;
 
 }  // namespace
 
-EventStream::EventStream(asio::ip::tcp::socket socket)
+EventStream::EventStream(asio::generic::stream_protocol::socket socket)
     : socket_(std::move(socket)),
       wake_(socket_.get_executor()),
       silence_(socket_.get_executor()),

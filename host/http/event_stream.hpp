@@ -4,7 +4,7 @@
 #pragma once
 
 #include <asio/awaitable.hpp>
-#include <asio/ip/tcp.hpp>
+#include <asio/generic/stream_protocol.hpp>
 #include <asio/steady_timer.hpp>
 #include <deque>
 #include <memory>
@@ -19,7 +19,7 @@ class EventStream : public std::enable_shared_from_this<EventStream> {
   /// Texts that may wait for a client.
   static constexpr std::size_t most_waiting = 256;
 
-  explicit EventStream(asio::ip::tcp::socket socket);
+  explicit EventStream(asio::generic::stream_protocol::socket socket);
 
   /// Runs until either side closes. `first`: bytes that came behind the handshake.
   asio::awaitable<void> run(std::string first);
@@ -35,7 +35,7 @@ class EventStream : public std::enable_shared_from_this<EventStream> {
   void put(std::string bytes);
   void abort();
 
-  asio::ip::tcp::socket socket_;
+  asio::generic::stream_protocol::socket socket_;
   asio::steady_timer wake_, silence_;
   std::chrono::steady_clock::time_point next_ping_;
   int unanswered_ = 0;  ///< pings since the client was last heard

@@ -45,6 +45,7 @@ struct RequestHead {
   std::vector<std::pair<std::string, std::string>> headers;  ///< names in lower case
   std::uint64_t content_length = 0;                          ///< bytes
   bool keep_alive = true;
+  bool by_socket = false;  ///< it came through the server's Unix socket, from this user or root
 
   /// `name` in lower case; absent if there is none. Throws HttpError 400 if there are several.
   std::optional<std::string> header(std::string_view name) const;

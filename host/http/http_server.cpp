@@ -1,6 +1,10 @@
 #include "host/http/http_server.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -11,15 +15,19 @@
 #include <asio/use_awaitable.hpp>
 #include <asio/write.hpp>
 #include <charconv>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
+#include "host/files/descriptor.hpp"
 
 namespace unicursal::host {
 namespace {
 
 using namespace std::chrono_literals;
 using asio::ip::tcp;
+using Local = asio::local::stream_protocol;
+using Socket = asio::generic::stream_protocol::socket;
 
 constexpr std::size_t most_unproven = 64, most_requests = 64, most_streams = 64;
 constexpr auto head_patience =
@@ -34,12 +42,30 @@ constexpr std::size_t longest_farewell = 4 * 1024 * 1024;  ///< bytes
 
 constexpr std::string_view end_of_head = "\r\n\r\n";
 
+/// Prepares a connection; returns false for one that is not wanted.
+bool welcome(tcp::socket& socket) {
+  asio::error_code ignored;
+  socket.set_option(tcp::no_delay(true), ignored);
+  return true;
+}
+
+bool welcome(Local::socket& socket) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (::getsockopt(socket.native_handle(), SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return false;
+  return peer.uid == ::geteuid() || peer.uid == 0;
+}
+
 }  // namespace
 
 class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(tcp::socket socket, HttpServer& server)
-      : socket_(std::move(socket)), deadline_(socket_.get_executor()), server_(server), all_(server.shared_) {
+  Connection(Socket socket, bool local, HttpServer& server)
+      : socket_(std::move(socket)),
+        deadline_(socket_.get_executor()),
+        server_(server),
+        all_(server.shared_),
+        local_(local) {
     all_->connections.insert(this);
     await_proof();
   }
@@ -48,6 +74,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   Connection& operator=(const Connection&) = delete;
 
   asio::awaitable<void> run();
+  bool local() const { return local_; }
   void close() {
     place_ = Place::none;
     asio::error_code ignored;
@@ -56,7 +83,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   }
 
  private:
-  enum class Place { unproven, request, stream, none };
+  enum class Place { unproven, request, stream, none };  // `none` is not counted
 
   std::size_t count(Place place) const;
   void await_proof();
@@ -71,10 +98,11 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   asio::awaitable<void> stream_events(RequestHead head);
   void expire_after(asio::steady_timer::duration patience);
 
-  tcp::socket socket_;
+  Socket socket_;
   asio::steady_timer deadline_;
   HttpServer& server_;
   const std::shared_ptr<Shared> all_;
+  const bool local_;  ///< it came over the Unix socket
   std::shared_ptr<EventStream> events_;
   Place place_ = Place::none;
   std::uint64_t arrival_ = 0;  ///< order of those without proof
@@ -112,6 +140,7 @@ std::size_t HttpServer::Connection::count(Place place) const {
 
 /// Takes a place of the unproven; the one that has waited longest gives way.
 void HttpServer::Connection::await_proof() {
+  if (local_) return;
   place_ = Place::unproven;
   arrival_ = ++all_->arrivals;
   if (count(Place::unproven) <= most_unproven) return;
@@ -123,6 +152,7 @@ void HttpServer::Connection::await_proof() {
 }
 
 void HttpServer::Connection::enter(Place place, std::size_t most) {
+  if (local_ && place == Place::request) return;
   if (count(place) >= most) throw HttpError(503, "too many connections; try again later");
   place_ = place;
 }
@@ -196,7 +226,7 @@ asio::awaitable<void> HttpServer::Connection::write(std::string bytes) {
 asio::awaitable<void> HttpServer::Connection::refuse(Response response) {
   co_await write(to_text(response, false, !head_only_));
   asio::error_code error;
-  socket_.shutdown(tcp::socket::shutdown_send, error);
+  socket_.shutdown(Socket::shutdown_send, error);
   std::array<char, 16 * 1024> bytes;
   expire_after(farewell);
   for (std::size_t taken = 0; !error && taken < longest_farewell;) {
@@ -240,6 +270,7 @@ asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head) {
 asio::awaitable<bool> HttpServer::Connection::serve_one() {
   std::optional<RequestHead> head = co_await read_head();
   if (!head) co_return false;
+  head->by_socket = local_;
   head_only_ = head->method == "HEAD";
   const std::uint64_t most = server_.handler_.admit(*head);
   if (server_.handler_.wants_events(*head)) {
@@ -283,7 +314,7 @@ asio::awaitable<void> HttpServer::Connection::run() {
 }
 
 HttpServer::HttpServer(asio::io_context& loop, const tcp::endpoint& at, HttpHandler& handler)
-    : loop_(loop), acceptor_(loop), handler_(handler) {
+    : loop_(loop), acceptor_(loop), local_acceptor_(loop), handler_(handler) {
   asio::error_code error;
   acceptor_.open(at.protocol(), error);
   if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
@@ -296,25 +327,46 @@ HttpServer::HttpServer(asio::io_context& loop, const tcp::endpoint& at, HttpHand
         "choose another port, or end the program that has it");
   }
   asio::co_spawn(
-      loop_, [this]() -> asio::awaitable<void> { co_await accept(); }, asio::detached);
+      loop_, [this]() -> asio::awaitable<void> { co_await accept(acceptor_); }, asio::detached);
 }
 
 HttpServer::~HttpServer() = default;
 
-asio::awaitable<void> HttpServer::accept() {
+void HttpServer::listen_in(const std::filesystem::path& folder, const std::string& name) {
+  // Addresses of sockets are short; this one is, however long the folder's name.
+  const Descriptor at(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  const std::string address = fmt::format("/proc/self/fd/{}/{}", at.get(), name);
+  std::error_code ignored;
+  std::filesystem::remove(folder / name, ignored);
+  asio::error_code error;
+  const mode_t before = ::umask(0177);
+  local_acceptor_.open(Local(), error);
+  if (!error) local_acceptor_.bind(Local::endpoint(address), error);
+  ::umask(before);
+  if (!error) local_acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  if (error) {
+    throw core::DataError((folder / name).string(), "", "cannot be made (" + error.message() + ")",
+                          "check the permissions, or name another folder with --state");
+  }
+  asio::co_spawn(
+      loop_, [this]() -> asio::awaitable<void> { co_await accept(local_acceptor_); }, asio::detached);
+}
+
+template <typename Acceptor>
+asio::awaitable<void> HttpServer::accept(Acceptor& acceptor) {
   asio::steady_timer pause(loop_);
-  while (acceptor_.is_open()) {
+  while (acceptor.is_open()) {
     asio::error_code error;
-    tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
-    if (error == asio::error::operation_aborted || !acceptor_.is_open()) co_return;
+    auto socket = co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, error));
+    if (error == asio::error::operation_aborted || !acceptor.is_open()) co_return;
     if (error) {  // for example no descriptor is left, which passes
       pause.expires_after(100ms);
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, error));
       continue;
     }
-    asio::error_code ignored;
-    socket.set_option(tcp::no_delay(true), ignored);
-    const auto connection = std::make_shared<Connection>(std::move(socket), *this);
+    if (!welcome(socket)) continue;
+    constexpr bool local = std::is_same_v<Acceptor, Local::acceptor>;
+    const auto connection = std::make_shared<Connection>(Socket(std::move(socket)), local, *this);
     asio::co_spawn(
         loop_, [connection]() -> asio::awaitable<void> { co_await connection->run(); }, asio::detached);
   }
@@ -323,7 +375,14 @@ asio::awaitable<void> HttpServer::accept() {
 void HttpServer::stop() {
   asio::error_code ignored;
   acceptor_.close(ignored);
+  local_acceptor_.close(ignored);
   for (Connection* connection : shared_->connections) connection->close();
+}
+
+void HttpServer::disconnect_network() {
+  for (Connection* connection : shared_->connections) {
+    if (!connection->local()) connection->close();
+  }
 }
 
 tcp::endpoint parse_endpoint(const std::string& text) {

@@ -1,18 +1,22 @@
-// HTTP/1.1 over TCP on the loop that also runs the link, with one coroutine for each connection. So requests
-// are carried out on the session's thread, without strands or locks. Requests are small and few; the handler
-// has to do slow work elsewhere.
+// HTTP/1.1 over TCP, and over a Unix socket, on the loop that also runs the link, with one coroutine for each
+// connection. So requests are carried out on the session's thread, without strands or locks. Requests are
+// small and few; the handler has to do slow work elsewhere.
 //
 // Connections have places of three kinds, so that none can take those of another: connections that have shown
 // no right yet (also those that wait for a further request), of which the oldest gives way to a new one;
-// requests that have been admitted; and event streams. An urgent request always has a place.
+// requests that have been admitted; and event streams. An urgent request always has a place, and so has a
+// client of the Unix socket: only this user and root can connect to it.
 //
 // Everything is limited: connections, bytes of the head, bytes of the body (checked before it is read; one
 // large body at a time), and the time for each. A client that exceeds a limit gets a 4xx and is disconnected.
 #pragma once
 
 #include <asio/awaitable.hpp>
+#include <asio/generic/stream_protocol.hpp>
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
+#include <asio/local/stream_protocol.hpp>
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
@@ -42,10 +46,15 @@ class HttpServer {
   HttpServer(asio::io_context& loop, const asio::ip::tcp::endpoint& at, HttpHandler& handler);
   ~HttpServer();
 
+  /// Also listens on a Unix socket of this name in the folder, for this user and root; an old one is
+  /// replaced. Throws core::DataError.
+  void listen_in(const std::filesystem::path& folder, const std::string& name);
   /// Has the port that the system chose if 0 was asked for.
   asio::ip::tcp::endpoint endpoint() const { return acceptor_.local_endpoint(); }
   /// Accepts no more clients and closes all connections.
   void stop();
+  /// Closes the connections that came over TCP.
+  void disconnect_network();
 
   /// Whether every client has been let go after stop().
   bool deserted() const { return shared_->connections.empty(); }
@@ -53,10 +62,12 @@ class HttpServer {
  private:
   class Connection;
   class LargeBody;
-  asio::awaitable<void> accept();
+  template <typename Acceptor>
+  asio::awaitable<void> accept(Acceptor& acceptor);
 
   asio::io_context& loop_;
   asio::ip::tcp::acceptor acceptor_;
+  asio::local::stream_protocol::acceptor local_acceptor_;
   HttpHandler& handler_;
   struct Shared {
     std::set<Connection*> connections;
