@@ -32,6 +32,7 @@
 #include "tests/core/support/random_islands.hpp"
 #include "tests/fuzz/damage.hpp"
 #include "tests/fuzz/http_target.hpp"
+#include "tests/fuzz/kept.hpp"
 #include "tests/fuzz/replies.hpp"
 #include "tests/fuzz/simulator.hpp"
 #include "tests/fuzz/spool.hpp"
@@ -151,6 +152,7 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"control", test::control},
     {"journal", test::journal},
     {"chunks", test::chunks},
+    {"kept", test::kept_print},
     {"replies", test::read_replies},
     {"conversation", test::converse},
     {"http", test::http}};
@@ -195,7 +197,7 @@ int main(int count, char** words) {
   if (count < 4) {
     std::fprintf(
         stderr,
-        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|"
+        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|kept|"
         "replies|conversation|http "
         "SECONDS [FIRST]\n");
     return 2;
