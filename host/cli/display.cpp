@@ -9,8 +9,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "core/text/printable.hpp"
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/cli/for_terminal.hpp"
 #include "host/engine/session_json.hpp"
 #include "host/report/summary.hpp"
 
@@ -96,12 +96,12 @@ void Display::show(const Session& session, const SessionEvent& event) {
     if (!often || is_due(event_interval)) write(event, session.status());
     return;
   }
-  if (is_news(event)) return say(core::printable(event.text));
+  if (is_news(event)) return say(event.text);
   const bool changed = event.kind == SessionEvent::Kind::state;
   if (changed || !terminal_ || is_due(redraw_interval)) {
     const SessionStatus status = session.status();
     if (changed && !status.reason.empty() && !has_ended(status.state))
-      say(fmt::format("{}: {}", name(status.state), core::printable(status.reason)));
+      say(fmt::format("{}: {}", name(status.state), status.reason));
     draw(status);
   }
 }
@@ -116,19 +116,26 @@ bool Display::is_due(std::chrono::milliseconds interval) {
 /// Without a terminal, shows a line only when another tenth of the print is done.
 void Display::draw(const SessionStatus& status) {
   if (terminal_) {
-    messages_.refresh("\r\x1b[K" + status_line(status, terminal_width() - 1));
+    messages_.refresh("\r\x1b[K" + for_terminal(status_line(status, terminal_width() - 1)));
     drawn_ = true;
     return;
   }
   const int tenth = static_cast<int>(status.percent / 10);
   if (status.layer == 0 || tenth <= last_tenth_) return;
   last_tenth_ = tenth;
-  messages_.write(status_line(status, SIZE_MAX) + "\n");
+  messages_.write(for_terminal(status_line(status, SIZE_MAX)) + "\n");
 }
 
 void Display::say(const std::string& sentence) {
   clear();
-  messages_.write(sentence + "\n");
+  messages_.write(for_terminal(sentence) + "\n");
+}
+
+void Display::notice(const std::string& sentence) {
+  if (form_ != DisplayForm::json) return say(sentence);
+  const nlohmann::json event = {{"event", "notice"}, {"text", sentence}};
+  events_.write(json_for_terminal(event.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) +
+                "\n");
 }
 
 void Display::answer(const std::string& sentence) {
@@ -142,7 +149,8 @@ void Display::clear() {
 
 void Display::write(const SessionEvent& event, const SessionStatus& status) {
   const auto event_json = to_json(event, status);
-  events_.write(event_json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  events_.write(json_for_terminal(event_json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) +
+                "\n");
 }
 
 }  // namespace unicursal::host

@@ -22,6 +22,8 @@ class Display {
   Display& operator=(const Display&) = delete;
 
   void show(const Session& session, const SessionEvent& event);
+  /// A sentence that no session says, shown like a notice of one.
+  void notice(const std::string& sentence);
   /// Shows the answer to words that were typed.
   void answer(const std::string& sentence);
 

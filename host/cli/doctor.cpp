@@ -69,7 +69,7 @@ Exit Doctor::run() {
   const Examination found = examine_port(port, options);
   const std::vector<Finding> list = findings(found, baud, profile_ ? &profile : nullptr);
   if (json_)
-    show(stdout, "{}\n", to_json(found, list).dump(2));
+    show_json_text(stdout, to_json(found, list).dump(2));
   else
     show(stdout, "{}", in_words(found, list));
   return has_trouble(list) ? Exit::failed : Exit::success;

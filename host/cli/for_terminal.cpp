@@ -14,9 +14,9 @@ bool is_control(std::string_view character) {
   return character.size() == 2 && first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
 }
 
-}  // namespace
-
-std::string for_terminal(std::string_view text) {
+/// `escaped` writes a character, or a byte that is none, that may not be shown.
+template <typename Escaped>
+std::string shown(std::string_view text, Escaped escaped) {
   std::string safe;
   while (!text.empty()) {
     const std::size_t size = core::utf8_size(text);
@@ -24,11 +24,27 @@ std::string for_terminal(std::string_view text) {
     if (size != 0 && !is_control(character)) {
       safe += character;
     } else {
-      for (const char byte : character) safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+      safe += escaped(character);
     }
     text.remove_prefix(character.size());
   }
   return safe;
+}
+
+}  // namespace
+
+std::string for_terminal(std::string_view text) {
+  return shown(text, [](std::string_view character) {
+    std::string bytes;
+    for (const char byte : character) bytes += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+    return bytes;
+  });
+}
+
+std::string json_for_terminal(std::string_view json) {
+  return shown(json, [](std::string_view character) {
+    return fmt::format("\\u{:04x}", static_cast<unsigned char>(character.back()));
+  });
 }
 
 }  // namespace unicursal::host

@@ -21,7 +21,7 @@ std::string dump(const nlohmann::json& event) {
 class Shown {
  public:
   explicit Shown(const DisplayOptions& options)
-      : json_(options.json), display_(options.json ? DisplayForm::json : DisplayForm::words) {}
+      : display_(options.json ? DisplayForm::json : DisplayForm::words) {}
 
   StreamResult stream(int port, Source& source, const StreamSettings& settings) {
     const auto observer = [this](const Session& session, const SessionEvent& event) {
@@ -33,15 +33,9 @@ class Shown {
     return host::stream(port, source, observer, settings, console);
   }
 
-  void notice(const std::string& sentence) const {
-    if (json_)
-      show_json_text(stdout, dump({{"event", "notice"}, {"text", sentence}}));
-    else
-      show(stderr, "{}\n", sentence);
-  }
+  void notice(const std::string& sentence) { display_.notice(sentence); }
 
  private:
-  const bool json_;
   Display display_;
 };
 

@@ -1,7 +1,6 @@
 #include "host/cli/preparation.hpp"
 
 #include "core/error.hpp"
-#include "host/cli/for_terminal.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/job/load_job.hpp"
 
@@ -54,9 +53,8 @@ PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::pa
   std::vector<fs::path> outputs = more_outputs;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
   check_outputs(files_of(prepared.job).all(), outputs);
-  for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", for_terminal(warning));
-  for (const std::string& warning : prepared.part->warnings())
-    show(stderr, "note: {}\n", for_terminal(warning));
+  for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
+  for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
   return prepared;
 }
 

@@ -42,12 +42,13 @@ void ProgressLine::update(std::size_t begun, double fraction) {
   if (now - drawn_ < redraw_interval) return;
   drawn_ = now;
   shown_ = true;
-  show(stderr, "\r\x1b[K{}", line(begun, share));
+  erase_line(stderr);
+  show(stderr, "{}", line(begun, share));
   std::fflush(stderr);
 }
 
 void ProgressLine::clear() {
-  if (shown_) show(stderr, "\r\x1b[K");
+  if (shown_) erase_line(stderr);
   shown_ = false;
   std::fflush(stderr);
 }
