@@ -19,10 +19,10 @@ namespace {
 
 /// All commands, in the order of the help.
 constexpr std::unique_ptr<Command> (*makers[])() = {
-    make_dry_run, make_plan,   make_curve, make_simulate,               // without a printer
-    make_ports,   make_doctor, make_tune,  make_print,    make_resume,  // with a printer
-    make_serve,   make_queue,  make_start, make_status,   make_pause,   // with a daemon
-    make_cancel,  make_stop,   make_set};
+    make_dry_run, make_plan,   make_curve, make_simulate,                   // without a printer
+    make_ports,   make_doctor, make_tune,  make_print,    make_resume,      // with a printer
+    make_serve,   make_queue,  make_start, make_status,   make_pause,       // with a daemon
+    make_cancel,  make_stop,   make_set,   make_token,    make_check_job};  // of the daemon's own
 
 /// A misspelt command differs by at most this many letters from the one that was meant.
 constexpr std::size_t most_misspelt_letters = 2;
@@ -83,10 +83,12 @@ class CommandLine {
     if (argc < 2 || argv[1][0] == '-') return;
     const std::string given = argv[1];
     std::vector<std::string> names;
-    for (const Declared& known : commands_) names.push_back(known.app->get_name());
+    for (const Declared& known : commands_) {
+      if (known.app->get_name() == given) return;
+      if (!known.app->get_group().empty()) names.push_back(known.app->get_name());  // others are not listed
+    }
     const std::string meant = nearest(given, names);
     const std::size_t distance = edit_distance(given, meant);
-    if (distance == 0) return;
     throw core::DataError("", "", "there is no command \"" + core::printable(given) + "\"",
                           distance <= most_misspelt_letters ? "did you mean \"" + meant + "\"?"
                                                             : "`unicursal --help` lists the commands");

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "core/error.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/terminal_output.hpp"
@@ -43,6 +46,11 @@ void show_as_text(const json& status) {
   if (!status.contains("job")) show(stdout, "idle; {} waiting\n", status.value("waiting", 0));
   if (!status.contains("job") && status.contains("last"))
     show(stdout, "last job {}\n", job_text(status["last"].value("job", json::object())));
+  if (status.contains("interrupted")) {
+    const json& print = status["interrupted"];
+    show(stdout, "note: the print of job {} ({}) was interrupted: continue it with `unicursal resume`\n",
+         print.value("id", 0), print.value("job", ""));
+  }
   if (status.contains("problem")) show(stdout, "note: {}\n", status["problem"].get<std::string>());
 }
 
@@ -60,9 +68,10 @@ Client DaemonAccess::connect() const {
                     "start one with `unicursal serve`, or name its folder with --state");
 }
 
-bool DaemonAccess::is_printing() const {
+bool DaemonAccess::has_print() const {
   try {
-    return accepted(connect().ask("GET", "/api/status")).contains("print");
+    const auto status = accepted(connect().ask("GET", "/api/status"));
+    return status.contains("job") || status.contains("interrupted");
   } catch (const core::DataError&) {
     return false;  // no daemon runs, or it ended without removing its address, or there is no home folder
   }
@@ -84,8 +93,20 @@ nlohmann::json accepted(const Answer& answer) {
   throw DaemonError("", "", answer.body.value("error", "the daemon refused"), "see `unicursal status`");
 }
 
+json begun_job(const Client& client, std::uint64_t id) {
+  constexpr auto look_again = std::chrono::milliseconds(200);
+  const std::string path = fmt::format("/api/jobs/{}", id);
+  json job = accepted(client.ask("GET", path));
+  while (job.value("state", "") == "preparing" ||
+         (job.value("state", "") == "queued" && !job.contains("reason"))) {
+    std::this_thread::sleep_for(look_again);
+    job = accepted(client.ask("GET", path));
+  }
+  return job;
+}
+
 void show_json(const nlohmann::json& body) {
-  show(stdout, "{}\n", body.dump(1, ' ', false, json::error_handler_t::replace));
+  show_json_text(stdout, body.dump(1, ' ', false, json::error_handler_t::replace));
 }
 
 std::string job_text(const json& job) {

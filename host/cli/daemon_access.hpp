@@ -19,8 +19,8 @@ struct DaemonAccess {
   void declare(CLI::App& app);
   /// Throws DaemonError if no daemon runs with this state folder.
   Client connect() const;
-  /// Returns whether a daemon runs and is printing. `resume` concerns that print then.
-  bool is_printing() const;
+  /// Returns whether a daemon runs and has a print, or one that was interrupted. `resume` concerns that then.
+  bool has_print() const;
   /// Shows a status of the daemon, as JSON or as text.
   void show_status(const nlohmann::json& status) const;
 };
@@ -30,6 +30,9 @@ void steer(const DaemonAccess& access, const std::string& action);
 
 /// Returns the answer's body. Throws DaemonError with the daemon's own sentence if it has refused.
 nlohmann::json accepted(const Answer& answer);
+/// Waits until a daemon has prepared a print, which may still fail, and returns its job. A job that waits
+/// again has a reason: its printer is off.
+nlohmann::json begun_job(const Client& client, std::uint64_t id);
 void show_json(const nlohmann::json& body);
 /// Describes a job of the queue: "3 leaf.toml: queued".
 std::string job_text(const nlohmann::json& job);

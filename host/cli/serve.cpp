@@ -24,6 +24,12 @@ class Serve final : public Command {
                "Additional host name to accept in requests. May be repeated.");
     app.add_flag("--no-token", options_.no_token,
                  "Let every user of this computer control the printer. Only with a loopback address.");
+    add_value(app, "--check-memory", memory_, "MB",
+              "Memory that the check of an uploaded job may take. Default: 1024.")
+        .check(integer_between(64, most_megabytes));
+    add_value(app, "--check-time", time_, "S",
+              "Time in which an uploaded job must have been read. Default: 20.")
+        .check(integer_between(1, 86400));
     declare_state(app, state_);
     declare_spool(app, daemon.spool);
     declare_pause_heat(app, daemon.pause_heat);
@@ -36,6 +42,8 @@ class Serve final : public Command {
   }
 
   Exit run() override {
+    if (memory_) options_.daemon.upload_limits.memory = *memory_ * 1024 * 1024;
+    if (time_) options_.daemon.upload_limits.time = std::chrono::seconds(*time_);
     options_.daemon.state = state_ ? *state_ : default_state_folder();
     serve(options_, [&](const std::string& address) {
       show(stdout, "listening on http://{}{}\n", address,
@@ -47,8 +55,12 @@ class Serve final : public Command {
   }
 
  private:
+  static constexpr std::uint64_t most_megabytes = 1 << 24;
+
   ServeOptions options_;
   std::optional<std::filesystem::path> state_;
+  std::optional<std::uint64_t> memory_;
+  std::optional<std::uint32_t> time_;
 };
 
 }  // namespace

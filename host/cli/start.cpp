@@ -1,6 +1,3 @@
-#include <chrono>
-#include <thread>
-
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/daemon_access.hpp"
@@ -11,20 +8,6 @@ namespace {
 
 using nlohmann::json;
 
-/// Waits until the daemon has read the part, which may still fail, and returns the job. A job that waits
-/// again has a reason: its printer is off.
-json started(const Client& client, std::uint64_t id) {
-  constexpr auto look_again = std::chrono::milliseconds(200);
-  const std::string path = fmt::format("/api/jobs/{}", id);
-  json job = accepted(client.ask("GET", path));
-  while (job.value("state", "") == "preparing" ||
-         (job.value("state", "") == "queued" && !job.contains("reason"))) {
-    std::this_thread::sleep_for(look_again);
-    job = accepted(client.ask("GET", path));
-  }
-  return job;
-}
-
 class Start final : public Command {
  public:
   CLI::App& declare(CLI::App& program) override {
@@ -33,15 +16,19 @@ class Start final : public Command {
                                 "unicursal start 3");
     add_value(app, "NUMBER", id_, " ", "Number of the job. Default: the first job of the queue.")
         .check(integer_between(0, std::numeric_limits<std::uint64_t>::max()));
+    app.add_flag("--bed-clear", bed_clear_,
+                 "Start although a print was interrupted: its part was taken off the bed.");
     access_.declare(app);
     return app;
   }
 
   Exit run() override {
     const Client client = access_.connect();
-    const json body = id_ ? json{{"id", *id_}} : json::object();
+    json body = json::object();
+    if (id_) body["id"] = *id_;
+    if (bed_clear_) body["bed_clear"] = true;
     const json begun = accepted(client.ask("POST", "/api/print/start", body));
-    const json job = started(client, begun.at("id").get<std::uint64_t>());
+    const json job = begun_job(client, begun.at("id").get<std::uint64_t>());
     if (access_.json)
       show_json(job);
     else
@@ -52,6 +39,7 @@ class Start final : public Command {
 
  private:
   std::optional<std::uint64_t> id_;
+  bool bed_clear_ = false;
   DaemonAccess access_;
 };
 

@@ -15,9 +15,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "host/daemon/interrupted.hpp"
+#include "host/daemon/job_check.hpp"
 #include "host/daemon/job_files.hpp"
 #include "host/daemon/queue.hpp"
 #include "host/engine/print.hpp"
@@ -31,6 +34,8 @@ struct DaemonOptions {
   std::optional<std::filesystem::path> profile;  ///< of the printer, instead of the jobs' own
   std::optional<std::filesystem::path> spool;    ///< folder of the prints
   PauseHeat pause_heat = PauseHeat::keep;
+  CheckLimits upload_limits{1024 * 1024 * 1024,
+                            std::chrono::seconds(20)};  ///< for uploads, when they are queued
 };
 
 /// Somebody who follows the daemon's events.
@@ -56,7 +61,8 @@ class Daemon {
 
   /// The session of the current print. Throws Refused when there is none.
   Session& session();
-  /// Checks the job's text, adds the job to the queue, and returns its number. Throws Refused.
+  /// Checks the job's text, adds the job to the queue, and returns its number. The models of an upload are
+  /// read and planned for a try as well, in a child process with limits. Throws Refused.
   asio::awaitable<std::uint64_t> add(std::string name, std::optional<LayerRange> layers);
   /// Removes a job from the queue. Throws Refused, also for the one that is being printed.
   asio::awaitable<void> remove(std::uint64_t id);
@@ -65,8 +71,12 @@ class Daemon {
   asio::awaitable<void> remove_upload(std::string upload);
   asio::awaitable<std::vector<std::string>> job_names();
   /// Prepares and then prints a job, the first that waits if `id` is absent. Returns its number at once. A
-  /// job whose printer is off stays in the queue, or returns to it with a reason. Throws Refused.
-  std::uint64_t start(std::optional<std::uint64_t> id);
+  /// job whose printer is off stays in the queue, or returns to it with a reason. Throws Refused, also while
+  /// an interrupted print may stand on the bed, unless somebody says that the bed is clear.
+  std::uint64_t start(std::optional<std::uint64_t> id, bool bed_clear = false);
+  /// Continues the interrupted print. If its printer has lost its place, the status asks a question; `sure`
+  /// answers it. Returns the job's number at once. Throws Refused.
+  std::uint64_t continue_interrupted(bool sure);
   /// Cancels the print, also while it is being prepared. Throws Refused when there is none.
   void cancel(const std::string& reason);
   void stop_at_once();
@@ -77,17 +87,39 @@ class Daemon {
   /// `done` is called when no print is left.
   void shut_down(std::function<void()> done);
   bool busy() const { return current_.has_value(); }
+  /// Whether a print is going on that is to be parked and cooled before the daemon ends.
+  bool printing() const { return current_ && current_->print && current_->print->session(); }
 
  private:
   struct Current {
     std::uint64_t id = 0;
     std::unique_ptr<Print> print;          ///< null until it is prepared
     std::optional<std::string> cancelled;  ///< the reason, if it was cancelled before that
+    std::stop_source preparing;            ///< ends the preparation, and the waiting for a printer
+    bool reconnecting = false;   ///< the cable was pulled; the print goes on when the printer is back
+    bool begun = false;          ///< lines of it may have been sent
+    nlohmann::json last_status;  ///< of its last session, or null
+  };
+  /// How an interrupted print is continued.
+  struct Continuing {
+    Interrupted print;
+    bool sure = false;
   };
 
-  asio::awaitable<void> print(std::uint64_t id);
-  asio::awaitable<std::string> print_prepared(std::uint64_t id, QueuedJob::State& ending);
+  void begin(std::uint64_t id, std::optional<Continuing> continuing);
+  asio::awaitable<void> print(std::uint64_t id, std::optional<Continuing> continuing);
+  asio::awaitable<std::string> print_new(std::uint64_t id, QueuedJob::State& ending);
+  asio::awaitable<std::string> continue_print(std::uint64_t id, Continuing how, QueuedJob::State& ending);
+  asio::awaitable<StreamResult> run_sessions(std::uint64_t id);
+  asio::awaitable<StreamResult> run_session(std::uint64_t id);
+  std::string conclude(const StreamResult& result, QueuedJob::State& ending);
+  void remember(std::uint64_t id, QueuedJob::State ending);
+  PrintOptions print_options(const std::string& job) const;
+  void broadcast_status();
+  asio::awaitable<std::unique_ptr<Print>> prepare_print(const QueuedJob& job, std::stop_token stop);
   std::unique_ptr<Print> prepared(const QueuedJob& job) const;
+  JobCheck check_of(const std::string& name, const std::optional<LayerRange>& layers) const;
+  asio::awaitable<void> check(std::string name, std::optional<LayerRange> layers);
   void check_not_needed(const std::string& upload) const;
   void check_port_exists() const;
   std::string way_on() const;
@@ -103,8 +135,10 @@ class Daemon {
   std::optional<Profile> profile_;
   JobFiles files_;
   Queue queue_;
-  std::multiset<std::string> being_added_;  ///< names of jobs that are being checked
+  /// Names of jobs that are being checked; shared with the checks, which a stopped loop ends later than this.
+  std::shared_ptr<std::multiset<std::string>> being_added_ = std::make_shared<std::multiset<std::string>>();
   std::optional<Current> current_;
+  std::optional<Interrupted> interrupted_;
   nlohmann::json last_;   ///< the final status of the last print, or null
   std::string firmware_;  ///< the printer's last answer to M115
   std::string problem_;   ///< with the state folder, a sentence; empty: none
@@ -113,6 +147,7 @@ class Daemon {
   asio::steady_timer progress_;
   bool progress_waits_ = false;
   asio::thread_pool disk_{1}, preparing_{1};
+  asio::thread_pool ending_{1};  ///< where prints go away, so that the next one is prepared meanwhile
 };
 
 }  // namespace unicursal::host

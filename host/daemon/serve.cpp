@@ -4,8 +4,13 @@
 
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <thread>
 
 #include "host/daemon/api.hpp"
+#include "host/daemon/log.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/http/http_server.hpp"
@@ -18,6 +23,8 @@ using namespace std::chrono_literals;
 
 /// Time by which systemd is repeatedly asked to extend its limit while the printer parks and cools.
 constexpr std::chrono::microseconds parking_time = 60s;
+
+constexpr auto longest_end = 1s;  ///< for the threads, once no print is left
 
 constexpr auto farewell = 300ms;  ///< for clients to close at the daemon's end
 
@@ -38,8 +45,8 @@ std::string words(const asio::ip::tcp::endpoint& at) {
 
 class Service {
  public:
-  explicit Service(const ServeOptions& options)
-      : state_(options.daemon.state),
+  Service(const ServeOptions& options, const StateFolder& state)
+      : state_(state),
         daemon_(loop_, options.daemon),
         api_(daemon_),
         server_(loop_, checked_endpoint(options), api_),
@@ -47,12 +54,14 @@ class Service {
         signal_rules_(signals_),
         watchdog_(loop_) {
     const auto at = server_.endpoint();
+    server_.listen_in(state_.path(), "socket");
     AccessRules rules;
     if (!options.no_token) {
       rules.token = state_.secret("token");
       rules.metrics_token = state_.secret("metrics-token");
     }
     rules.hosts = hosts_for(at.address().to_string(), at.port(), options.names);
+    api_.on_renewal([this] { return renew_tokens(); });
     api_.set_rules(std::move(rules));
     address_ = words(at);
     state_.write_address(address_);
@@ -75,9 +84,13 @@ class Service {
     signals_.async_wait([this](const asio::error_code& error, int signal) {
       if (error) return;
       if (stopping_ && !PrintSignals::counts_again(signal)) return await_signal();
-      notify_service(fmt::format("STOPPING=1\nSTATUS=parking and cooling\nEXTEND_TIMEOUT_USEC={}",
-                                 parking_time.count()));
+      log_line(fmt::format("signal {}: the daemon ends{}", signal,
+                           daemon_.printing() ? ", when its printer is parked and cools" : ""));
+      notify_service(daemon_.printing() ? "STOPPING=1\nSTATUS=parking and cooling"
+                                        : "STOPPING=1\nSTATUS=ending");
+      if (stopping_ && !daemon_.printing()) return end();
       stopping_ = true;
+      ask_for_time();
       await_signal();
       daemon_.shut_down([this] { end(); });
     });
@@ -90,6 +103,13 @@ class Service {
     loop_.stop();
   }
 
+  /// Whoever knows the old tokens is let go.
+  Api::Tokens renew_tokens() {
+    Api::Tokens tokens{state_.renewed("token"), state_.renewed("metrics-token")};
+    server_.disconnect_network();
+    return tokens;
+  }
+
   /// Runs on the loop, so that systemd notices if the loop hangs.
   void show_life() {
     const auto watched = watchdog_interval();
@@ -97,12 +117,18 @@ class Service {
     watchdog_.async_wait([this, watched](const asio::error_code& cut) {
       if (cut) return;
       if (watched) notify_service("WATCHDOG=1");
-      if (stopping_) notify_service(fmt::format("EXTEND_TIMEOUT_USEC={}", parking_time.count()));
+      ask_for_time();
       show_life();
     });
   }
 
-  StateFolder state_;
+  /// Only for a printer that is being parked and cooled; everything else ends soon by itself.
+  void ask_for_time() {
+    if (stopping_ && daemon_.printing())
+      notify_service(fmt::format("EXTEND_TIMEOUT_USEC={}", parking_time.count()));
+  }
+
+  const StateFolder& state_;
   asio::io_context loop_{1};
   Daemon daemon_;
   Api api_;
@@ -114,11 +140,36 @@ class Service {
   bool stopping_ = false;
 };
 
+/// A thread that is inside a library's long call cannot be ended. When no print is left, the process does not
+/// wait for it longer than this.
+class HurriedEnd {
+ public:
+  explicit HurriedEnd(const StateFolder& state) : state_(state) {}
+  void begin() {
+    thread_ = std::jthread([this](const std::stop_token& over) {
+      std::unique_lock lock(mutex_);
+      if (ended_.wait_for(lock, over, longest_end, [&over] { return over.stop_requested(); })) return;
+      state_.remove_address();
+      std::_Exit(0);
+    });
+  }
+
+ private:
+  const StateFolder& state_;
+  std::mutex mutex_;
+  std::condition_variable_any ended_;
+  std::jthread thread_;
+};
+
 }  // namespace
 
 void serve(const ServeOptions& options, const std::function<void(const std::string&)>& ready) {
   checked_endpoint(options);
-  Service(options).run(ready);
+  const StateFolder state(options.daemon.state);
+  HurriedEnd end(state);
+  Service service(options, state);
+  service.run(ready);
+  end.begin();
 }
 
 }  // namespace unicursal::host

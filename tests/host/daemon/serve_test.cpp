@@ -94,7 +94,8 @@ TEST_CASE("a print is paused and steered by the daemon's commands") {
   bench.await_job(id, "stopped");
   const std::string log = bench.daemon().err();
   for (const char* line : {"POST /api/jobs: done\n", "job 1 plate.toml: printing\n", "print: heating",
-                           "POST /api/print/pause: done\n", "job 1 plate.toml: stopped: "})
+                           "POST /api/print/pause: done\n", "POST /api/speed: refused: ",
+                           "POST /api/temperature: refused: ", "job 1 plate.toml: stopped: "})
     CHECK(count(log, line) >= 1);
   CHECK(log.find("GET ") == std::string::npos);
   const std::string lines = bench.transcript();
@@ -325,6 +326,25 @@ TEST_CASE("a user's own job is uploaded with its files") {
   CHECK(bench.command({"queue", "--upload", bench.path("far.toml")}).code == 2);
 }
 
+TEST_CASE("names of files do not command the terminal, and stay legible") {
+  DaemonBench bench;
+  bench.folder().write(
+      "jobs/a\x1b[31m\xc2\x9b"
+      "b\x7f.toml",
+      "");
+  bench.folder().write("jobs/caf\xc3\xa9.toml", "");
+  bench.serve();
+  const std::string words = bench.command({"queue", "--jobs"}).out;
+  CHECK(count(words, "a\\x1b[31m\\xc2\\x9bb\\x7f.toml\n") == 1);
+  CHECK(count(words, "caf\xc3\xa9.toml\n") == 1);
+  const std::string text = bench.command({"queue", "--jobs", "--json"}).out;
+  for (const char* raw : {"\x1b", "\xc2\x9b", "\x7f"}) CHECK(count(words + text, raw) == 0);
+  const json names = json::parse(text)["jobs"];
+  CHECK(std::find(names.begin(), names.end(),
+                  "a\x1b[31m\xc2\x9b"
+                  "b\x7f.toml") != names.end());
+}
+
 TEST_CASE("systemd gets messages: ready, alive, stopping") {
   DaemonBench bench;
   const std::string path = bench.path("notify");
@@ -351,6 +371,7 @@ TEST_CASE("systemd gets messages: ready, alive, stopping") {
   std::string last = next();
   while (last == "WATCHDOG=1") last = next();
   CHECK(last.find("STOPPING=1") == 0);
+  CHECK(last.find("EXTEND_TIMEOUT_USEC") == std::string::npos);  // nothing is to be parked
   CHECK(bench.daemon().wait().code == 0);
   close(heard);
 }

@@ -1,0 +1,238 @@
+#include "host/daemon/job_check.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <asio/posix/stream_descriptor.hpp>
+#include <asio/read.hpp>
+#include <asio/redirect_error.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/this_coro.hpp>
+#include <asio/use_awaitable.hpp>
+#include <cerrno>
+#include <condition_variable>
+#include <fstream>
+#include <mutex>
+#include <new>
+#include <set>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/stopping.hpp"
+#include "host/files/descriptor.hpp"
+#include "host/job/load_job.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr std::size_t longest_sentence = 64 * 1024;  ///< bytes that are taken from a child
+constexpr auto grace = std::chrono::seconds(1);  ///< for a child to report by itself that its time is over
+constexpr std::uint64_t megabyte = 1024 * 1024;
+
+std::string too_slow(const CheckLimits& limits) {
+  return fmt::format(
+      "the job takes longer than {} s to read; simplify its model, or start the daemon with more "
+      "--check-time",
+      limits.time.value_or(std::chrono::seconds(0)).count());
+}
+
+std::string too_large(const CheckLimits& limits) {
+  return fmt::format(
+      "the job needs more than {} MB of memory; simplify its model, or start the daemon with more "
+      "--check-memory",
+      limits.memory.value_or(0) / megabyte);
+}
+
+// ---- in the child
+
+void limit(__rlimit_resource which, rlim_t soft, rlim_t hard) {
+  const rlimit limits{soft, hard};
+  ::setrlimit(which, &limits);
+}
+
+/// When memory runs out, this process goes, and not the daemon.
+void offer_first() {
+  std::ofstream("/proc/self/oom_score_adj") << 1000;
+}
+
+void take_on(const CheckLimits& limits) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  offer_first();
+  limit(RLIMIT_CORE, 0, 0);
+  if (limits.memory) limit(RLIMIT_AS, *limits.memory, *limits.memory);
+  if (limits.time) {
+    const auto seconds = static_cast<rlim_t>(limits.time->count());
+    limit(RLIMIT_CPU, seconds, seconds + 1);
+  }
+}
+
+/// The first curve of every island is enough: what remains is the optimiser's work, which can be stopped.
+void plan_roughly(const PreparedJob& prepared, std::size_t index) {
+  LookaheadOptions options = lookahead_options(prepared);
+  options.plan.budget_spent = [] { return true; };
+  options.plan.threads = 1;
+  const core::Layer layer = prepared.part->layer(index);
+  for (const core::Island& island : layer.islands) prepared.planner->plan(island, layer.z, options.plan);
+}
+
+/// Asks to stop when a time is over; ends with this object.
+class Alarm {
+ public:
+  explicit Alarm(std::chrono::milliseconds time)
+      : thread_([this, time](const std::stop_token& over) {
+          std::unique_lock lock(mutex_);
+          const bool done = ended_.wait_for(lock, over, time, [&over] { return over.stop_requested(); });
+          if (!done) source_.request_stop();
+        }) {}
+  std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::mutex mutex_;
+  std::condition_variable_any ended_;
+  std::jthread thread_;
+};
+
+void probe(const PreparedJob& prepared, const std::optional<std::chrono::seconds>& time) {
+  std::optional<Alarm> alarm;
+  std::optional<core::StopScope> scope;
+  if (time) scope.emplace(alarm.emplace(*time / 2).token());
+  const std::size_t last = prepared.first + prepared.count - 1;
+  try {
+    for (const std::size_t index : std::set{prepared.first, prepared.first + prepared.count / 2, last})
+      plan_roughly(prepared, index);
+    for (std::size_t index = prepared.first; index <= last; ++index) prepared.part->layer(index);
+  } catch (const core::Stopped&) {
+    // It is a large job, and sound so far.
+  }
+}
+
+// ---- in the daemon
+
+/// A child whose standard error can be read. The destructor kills it.
+class Child {
+ public:
+  explicit Child(std::vector<std::string> words) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe");
+    read_end_.reset(ends[0]);
+    const Descriptor write_end(ends[1]);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    // The daemon ignores some signals, such as the one of the limit on processor time.
+    posix_spawnattr_t attributes;
+    sigset_t all;
+    sigfillset(&all);
+    ::posix_spawnattr_init(&attributes);
+    ::posix_spawnattr_setsigdefault(&attributes, &all);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    posix_spawn_file_actions_t files;
+    ::posix_spawn_file_actions_init(&files);
+    ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&files, write_end.get(), STDERR_FILENO);
+    const int error = ::posix_spawn(&id_, "/proc/self/exe", &files, &attributes, arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&files);
+    ::posix_spawnattr_destroy(&attributes);
+    if (error != 0) throw std::system_error(error, std::generic_category(), "no process to check the job");
+  }
+  ~Child() {
+    kill();
+    if (id_ > 0) ::waitpid(id_, nullptr, 0);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  int release_output() { return read_end_.release(); }
+  void kill() const {
+    if (id_ > 0) ::kill(id_, SIGKILL);
+  }
+  /// As waitpid() gives it. The child has closed its output, and is ending.
+  int wait() {
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    id_ = -1;
+    return status;
+  }
+
+ private:
+  Descriptor read_end_;
+  pid_t id_ = -1;
+};
+
+std::vector<std::string> words_for(const JobCheck& check) {
+  std::vector<std::string> words{"unicursal", "check-job", check.job.string()};
+  if (check.profile) words.insert(words.end(), {"--profile", check.profile->string()});
+  if (check.layers)
+    words.insert(words.end(), {"--layers", fmt::format("{}:{}", check.layers->first, check.layers->last)});
+  if (check.limits.memory)
+    words.insert(words.end(), {"--memory", std::to_string(*check.limits.memory / megabyte)});
+  if (check.limits.time) words.insert(words.end(), {"--time", std::to_string(check.limits.time->count())});
+  return words;
+}
+
+std::string verdict(const JobCheck& check, int status, std::string said, bool late) {
+  constexpr std::string_view prefix = "unicursal: ";
+  if (said.starts_with(prefix)) said.erase(0, prefix.size());
+  said.resize(said.find_last_not_of('\n') + 1);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  if (late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))
+    return too_slow(check.limits);
+  if (WIFEXITED(status) && !said.empty()) return said;
+  return fmt::format("{}: the program fails when it reads this job (signal {}); simplify its model",
+                     check.job.filename().string(), WIFSIGNALED(status) ? WTERMSIG(status) : 0);
+}
+
+}  // namespace
+
+asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop) {
+  const auto executor = co_await asio::this_coro::executor;
+  Child child(words_for(check));
+  asio::posix::stream_descriptor output(executor, child.release_output());
+  bool late = false;
+  asio::steady_timer timer(executor);
+  if (check.limits.time) {
+    timer.expires_after(*check.limits.time + grace);
+    timer.async_wait([&child, &late](const asio::error_code& cut) {
+      if (cut) return;
+      late = true;
+      child.kill();
+    });
+  }
+  std::string said;
+  {
+    const std::stop_callback killing(stop, [&child] { child.kill(); });
+    asio::error_code ended;
+    co_await asio::async_read(output, asio::dynamic_buffer(said, longest_sentence), asio::transfer_all(),
+                              asio::redirect_error(asio::use_awaitable, ended));
+  }
+  timer.cancel();
+  if (said.size() == longest_sentence) child.kill();
+  const int status = child.wait();
+  if (stop.stop_requested()) throw core::Stopped();
+  co_return verdict(check, status, std::move(said), late);
+}
+
+void check_here(const JobCheck& check) {
+  take_on(check.limits);
+  try {
+    const PreparedJob prepared = prepare(load_job(check.job, check.profile), check.layers);
+    check_beginning(prepared);
+    probe(prepared, check.limits.time);
+  } catch (const std::bad_alloc&) {
+    throw core::DataError("", "", too_large(check.limits), "");
+  }
+}
+
+}  // namespace unicursal::host

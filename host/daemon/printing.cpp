@@ -1,0 +1,329 @@
+// How a daemon prints: from a queued job, or an interrupted print, to cold heaters.
+#include <fmt/format.h>
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/post.hpp>
+#include <utility>
+
+#include "core/stopping.hpp"
+#include "core/text/printable.hpp"
+#include "host/daemon/daemon.hpp"
+#include "host/daemon/elsewhere.hpp"
+#include "host/daemon/log.hpp"
+#include "host/daemon/refused.hpp"
+#include "host/daemon/service_notify.hpp"
+#include "host/engine/reconnecting.hpp"
+#include "host/engine/restart.hpp"
+#include "host/engine/session_json.hpp"
+#include "host/job/load_job.hpp"
+#include "host/loop/sentence.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using Why = Refused::Why;
+using nlohmann::json;
+
+QueuedJob::State state_after(Ending ending) {
+  switch (ending) {
+    case Ending::completed:
+      return QueuedJob::State::done;
+    case Ending::stopped:
+      return QueuedJob::State::stopped;
+    case Ending::failed:
+      break;
+  }
+  return QueuedJob::State::failed;
+}
+
+}  // namespace
+
+std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
+  if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
+  if (current_) throw Refused(Why::conflict, "a print is going on");
+  const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
+  if (!job)
+    throw Refused(id ? Why::not_found : Why::conflict,
+                  id ? "there is no job with that number" : "no job is waiting");
+  // Somebody may have continued it beside this daemon.
+  if (interrupted_ && !interrupted_print(options_.state)) interrupted_.reset();
+  if (interrupted_ && !bed_clear) {
+    throw Refused(
+        Why::conflict,
+        "the print of job " + std::to_string(interrupted_->id) +
+            " was interrupted, and its printer may be hot with its nozzle in the part; continue it with "
+            "`unicursal resume`, or clear the bed and start with --bed-clear");
+  }
+  check_port_exists();
+  interrupted_.reset();
+  const std::uint64_t chosen = job->id;
+  begin(chosen, std::nullopt);
+  return chosen;
+}
+
+std::uint64_t Daemon::continue_interrupted(bool sure) {
+  if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
+  if (current_) throw Refused(Why::conflict, "a print is going on");
+  if (interrupted_ && !interrupted_print(options_.state)) interrupted_.reset();
+  if (!interrupted_) throw Refused(Why::conflict, "nothing is being printed, and no print was interrupted");
+  if (sure && interrupted_->question.empty())
+    throw Refused(Why::conflict, "nothing was asked; continue the print, and it is asked if need be");
+  check_port_exists();
+  Continuing how{*interrupted_, sure};
+  if (!queue_.find(how.print.id)) how.print.id = queue_.add(how.print.job, std::nullopt);
+  const std::uint64_t id = how.print.id;
+  begin(id, std::move(how));
+  return id;
+}
+
+void Daemon::begin(std::uint64_t id, std::optional<Continuing> continuing) {
+  current_.emplace();
+  current_->id = id;
+  queue_.enter(id, QueuedJob::State::preparing);
+  asio::co_spawn(
+      loop_,
+      [this, id, continuing = std::move(continuing)]() -> asio::awaitable<void> {
+        co_await print(id, continuing);
+      },
+      asio::detached);
+}
+
+/// Throws Refused if the printer's port is a device that is not there; then the job has not left the queue.
+void Daemon::check_port_exists() const {
+  const std::string port = options_.port ? *options_.port : profile_ ? profile_->port : "";
+  std::error_code error;
+  if (port.starts_with('/') && !std::filesystem::exists(port, error))
+    throw Refused(Why::conflict,
+                  "the printer's port " + core::printable(port) +
+                      " is not there: plug the printer in and switch it on; the job stays in the queue");
+}
+
+PrintOptions Daemon::print_options(const std::string& job) const {
+  PrintOptions options;
+  options.port = options_.port;
+  if (!options.port && profile_) options.port = profile_->port;
+  if (!options.port && JobFiles::is_upload(job)) options.port = "auto";  // an upload may name any port
+  options.spool = options_.spool;
+  options.pause_heat = options_.pause_heat;
+  return options;
+}
+
+/// Reads files and opens the port; blocks.
+std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
+  PreparedJob prepared = prepare(load_job(files_.find(job.name), options_.profile), job.layers);
+  auto print = std::make_unique<Print>(std::move(prepared), print_options(job.name));
+  print->connect();
+  try {
+    note_printing(options_.state, {job.id, job.name, print->spool().folder(), {}});
+  } catch (...) {
+    print->spool().discard();
+    throw;
+  }
+  return print;
+}
+
+/// A job of the daemon's own folders is read by a child process first: a preparation that does not end can be
+/// cancelled there at once, wherever it is. Uploads were read by one when they were queued. Throws
+/// core::Stopped.
+asio::awaitable<std::unique_ptr<Print>> Daemon::prepare_print(const QueuedJob& job, std::stop_token stop) {
+  if (!JobFiles::is_upload(job.name)) {
+    const std::string problem = co_await check_in_child(check_of(job.name, job.layers), stop);
+    if (!problem.empty()) throw core::DataError("", "", problem, "");
+  }
+  const auto prepare = [this, job, stop] {
+    const core::StopScope scope(stop);
+    core::stop_point();
+    return prepared(job);
+  };
+  co_return co_await elsewhere(preparing_, prepare);
+}
+
+asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> continuing) {
+  auto ending = QueuedJob::State::failed;
+  const auto not_begun = continuing ? QueuedJob::State::interrupted : QueuedJob::State::queued;
+  std::string reason;
+  std::exception_ptr error;
+  try {
+    if (continuing)
+      reason = co_await continue_print(id, *continuing, ending);
+    else
+      reason = co_await print_new(id, ending);
+  } catch (const PortError& closed) {
+    ending = not_begun;
+    reason = closed.what();
+  } catch (const core::Stopped&) {
+    ending = continuing ? QueuedJob::State::interrupted : QueuedJob::State::stopped;
+    reason = current_->cancelled.value_or("the daemon was asked to end");
+  } catch (...) {
+    error = std::current_exception();
+  }
+  if (error) reason = sentence(error);
+  if (error && continuing) ending = QueuedJob::State::interrupted;
+  if (continuing && !interrupted_) interrupted_ = continuing->print;
+  remember(id, ending);
+  if (current_->print) {
+    last_ = current_->print->session() || !current_->last_status.is_null() ? job_and_print() : json();
+    current_->print->end();
+    asio::post(ending_,
+               [gone = std::shared_ptr<Print>(std::move(current_->print))]() mutable { gone.reset(); });
+  }
+  current_.reset();
+  notify_service("STATUS=idle");
+  co_await enter(id, ending, reason);
+  if (when_idle_) when_idle_();
+}
+
+/// Whether the print that has ended may still be continued, and must not be printed over.
+void Daemon::remember(std::uint64_t id, QueuedJob::State ending) {
+  if (ending == QueuedJob::State::interrupted) return;  // it stays what it was
+  if (ending == QueuedJob::State::failed && current_->begun) {
+    interrupted_ = Interrupted{id, queue_.find(id)->name, current_->print->spool().folder(), {}};
+    return;
+  }
+  interrupted_.reset();
+  forget_printing(options_.state);
+}
+
+/// Returns why the print did not complete; empty if it did.
+asio::awaitable<std::string> Daemon::print_new(std::uint64_t id, QueuedJob::State& ending) {
+  co_await enter(id, QueuedJob::State::preparing, {});
+  const QueuedJob job = *queue_.find(id);
+  current_->print = co_await prepare_print(job, current_->preparing.get_token());
+  if (current_->cancelled) {
+    current_->print->spool().discard();  // nothing was sent
+    throw core::Stopped();
+  }
+  co_return conclude(co_await run_sessions(id), ending);
+}
+
+/// Goes on with the next line if the printer is where the print left it. Otherwise a person has to agree to
+/// what will be done: the first call asks, and the second one, which is sure, does it.
+asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing how,
+                                                    QueuedJob::State& ending) {
+  ending = QueuedJob::State::interrupted;
+  co_await enter(id, QueuedJob::State::preparing, {});
+  std::string later;
+  const auto open = [this, &how, &later, stop = current_->preparing.get_token()] {
+    const core::StopScope scope(stop);
+    PrintOptions options = print_options(how.print.job);
+    Spool spool = Spool::open(how.print.folder);
+    later = check_not_superseded(spool, options.port);
+    return std::make_unique<Print>(std::move(spool), options);
+  };
+  current_->print = co_await elsewhere(preparing_, open);
+  Print& print = *current_->print;
+  const auto connect = [&print](std::optional<Leg> leg) {
+    return [&print, leg = std::move(leg)] { return print.connect(leg), true; };
+  };
+  if (current_->cancelled) throw core::Stopped();
+  std::optional<Lost> lost = lost_before(print.spool().before());
+  if (!lost && later.empty()) {
+    co_await elsewhere(preparing_, connect(std::nullopt));
+    const StreamResult result = co_await run_sessions(id);
+    if (!result.lost) co_return conclude(result, ending);
+    lost = result.lost;
+    print.end();
+  }
+  if (!lost) lost = Lost{"only a person knows whether it was left alone", std::nullopt};
+  const auto plan = [&print, &lost] { return restart_after(print.prepared(), print.spool(), *lost); };
+  const Restart restart = co_await elsewhere(preparing_, plan);
+  std::string question = restart_in_words(restart, *lost, print.spool());
+  if (!later.empty())
+    question += "A later print, " + later +
+                ", has begun on another port. Continue only if that was another printer.\n";
+  if (!how.sure) {
+    interrupted_ = how.print;
+    interrupted_->question = std::move(question);
+    co_return "a person has to agree to how it continues: see `unicursal resume`";
+  }
+  co_await elsewhere(preparing_, connect(restart.leg));
+  co_return conclude(co_await run_sessions(id), ending);
+}
+
+/// One session, and further ones while the cable is pulled and plugged in again.
+asio::awaitable<StreamResult> Daemon::run_sessions(std::uint64_t id) {
+  StreamResult result = co_await run_session(id);
+  while (may_reconnect(result) && !current_->cancelled && !when_idle_) {
+    log_line(fmt::format("job {}: {}; waiting for the printer to come back", id, result.reason));
+    current_->last_status = to_json(current_->print->session()->status());
+    current_->print->end();
+    current_->reconnecting = true;
+    broadcast_status();
+    std::string problem;
+    bool back = false;
+    try {
+      back = co_await reconnect(*current_->print, preparing_.get_executor(), current_->preparing.get_token());
+    } catch (const core::DataError& error) {
+      problem = error.what();
+    }
+    current_->reconnecting = false;
+    if (!back) {
+      result.reason += problem.empty() ? "; the printer did not come back" : "; " + problem;
+      break;
+    }
+    log_line(fmt::format("job {}: the printer is back", id));
+    result = as_failure(co_await run_session(id));
+  }
+  co_return result;
+}
+
+asio::awaitable<StreamResult> Daemon::run_session(std::uint64_t id) {
+  Session& session = current_->print->begin(loop_.get_executor());
+  session.on_event([this](const SessionEvent& event) { on_session_event(event); });
+  co_await enter(id, QueuedJob::State::printing, {});
+  notify_service("STATUS=printing " + core::printable(queue_.find(id)->name));
+  const StreamResult result = co_await session.run();
+  firmware_ = result.firmware;
+  current_->begun = current_->begun || result.begun;
+  co_return result;
+}
+
+/// Returns why the print did not complete; empty if it did.
+std::string Daemon::conclude(const StreamResult& result, QueuedJob::State& ending) {
+  ending = state_after(result.ending);
+  // A printer that is switched off, or does not answer, is not the job's fault.
+  if (result.ending == Ending::failed && !current_->begun && !result.unfit) ending = QueuedJob::State::queued;
+  const Session* session = current_->print->session();
+  std::string reason = result.ending == Ending::stopped && session ? session->status().reason : result.reason;
+  if (result.ending != Ending::completed && current_->begun)
+    reason += "; to continue it: " + way_on() + " " + current_->print->kept_as();
+  return reason;
+}
+
+/// The command that continues a print; a terminal may have another folder of prints.
+std::string Daemon::way_on() const {
+  return options_.spool ? "unicursal resume --spool " + options_.spool->string() : "unicursal resume";
+}
+
+void Daemon::cancel(const std::string& reason) {
+  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
+  if (!current_->print || !current_->print->session()) {
+    current_->cancelled = reason;
+    current_->preparing.request_stop();
+    return;
+  }
+  if (const Refusal no = session().cancel(reason)) throw Refused(Why::conflict, *no);
+}
+
+void Daemon::stop_at_once() {
+  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
+  if (!current_->print || !current_->print->session()) return cancel("the user has stopped it");
+  if (const Refusal no = session().emergency_stop()) throw Refused(Why::conflict, *no);
+}
+
+void Daemon::shut_down(std::function<void()> done) {
+  const bool again = static_cast<bool>(when_idle_);
+  when_idle_ = std::move(done);
+  if (!current_) return when_idle_();
+  try {
+    if (again)
+      stop_at_once();
+    else
+      cancel("the daemon was asked to end");
+  } catch (const Refused&) {
+    // The print is ending already.
+  }
+}
+
+}  // namespace unicursal::host
