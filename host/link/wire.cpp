@@ -73,9 +73,10 @@ void LinkState::pump() {
     statistics.bytes += count;
     if (error == asio::error::would_block || error == asio::error::try_again)
       wait_for_port();
-    else if (error)
+    else if (error) {
       statistics.cut = true;
       fail(with_heat_warning(lost(error)));
+    }
   }
 }
 
