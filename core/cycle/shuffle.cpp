@@ -11,7 +11,7 @@
 namespace unicursal::core {
 namespace {
 
-constexpr std::size_t fewest_stops = 12;  ///< a smaller tour leaves nothing to choose
+constexpr std::size_t fewest_stops = 12;     ///< a smaller tour leaves nothing to choose
 constexpr std::size_t looks_at_once = 4096;  ///< without a stop point
 constexpr int quench_sweeps = 4;  ///< sweeps that only accept improvements, after the last temperature
 

@@ -12,7 +12,8 @@
 
 namespace unicursal::core {
 
-/// Asked before every step of a stage; false ends the stage, Stopped (core/stopping.hpp) the whole work. An empty function means always true.
+/// Asked before every step of a stage; false ends the stage, Stopped (core/stopping.hpp) the whole work. An
+/// empty function means always true.
 using MayContinue = std::function<bool()>;
 
 class StepBudget {

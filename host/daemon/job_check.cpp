@@ -102,10 +102,10 @@ class Alarm {
   std::jthread thread_;
 };
 
-void probe(const PreparedJob& prepared, const std::optional<std::chrono::seconds>& time) {
-  std::optional<Alarm> alarm;
-  std::optional<core::StopScope> scope;
-  if (time) scope.emplace(alarm.emplace(*time / 2).token());
+/// Plans and slices for as long as `time`.
+void probe(const PreparedJob& prepared, std::chrono::milliseconds time) {
+  const Alarm alarm(time);
+  const core::StopScope scope(alarm.token());
   const std::size_t last = prepared.first + prepared.count - 1;
   try {
     for (const std::size_t index : std::set{prepared.first, prepared.first + prepared.count / 2, last})
@@ -229,7 +229,7 @@ void check_here(const JobCheck& check) {
   try {
     const PreparedJob prepared = prepare(load_job(check.job, check.profile), check.layers);
     check_beginning(prepared);
-    probe(prepared, check.limits.time);
+    if (check.limits.time) probe(prepared, *check.limits.time / 2);
   } catch (const std::bad_alloc&) {
     throw core::DataError("", "", too_large(check.limits), "");
   }

@@ -33,8 +33,8 @@ struct JobCheck {
 /// then core::Stopped is thrown. Belongs to the loop's thread. Throws std::system_error if there is no child.
 asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop);
 
-/// The child's part: takes on the limits, reads and prepares the job, and plans layers of it for as long as
-/// half of the time is left. Throws core::DataError, also for a limit that was reached, if the process
+/// The child's part: takes on the limits, reads and prepares the job, and, if there is a limit of time, plans
+/// layers of it for half of that. Throws core::DataError, also for a limit that was reached, if the process
 /// survives that.
 void check_here(const JobCheck& check);
 

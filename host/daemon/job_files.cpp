@@ -63,7 +63,7 @@ void check_texts(const toml::node& node) {
 void check_uploaded_job(const fs::path& file) {
   std::error_code error;
   if (fs::file_size(file, error) > largest_job || error)
-    throw Refused(Why::bad_job, "the job's text is too long to be one");
+    throw Refused(Why::bad_job, "the job's text is too long to be one; keep models in files of their own");
   try {
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;

@@ -146,6 +146,8 @@ std::optional<Frame> FrameReader::next() {
   if (size == 126) {
     if (buffer_.size() < 4) return std::nullopt;
     size = static_cast<std::size_t>(byte(2)) << 8 | byte(3);
+    if (size < 126)
+      throw WebSocketError(protocol_error, "a length that is not the shortest");  // RFC 6455, 5.2
     head = 4;
   }
   if (size > longest_payload) throw WebSocketError(too_big, "a frame that is too long");

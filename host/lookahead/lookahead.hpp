@@ -70,8 +70,8 @@ class Lookahead {
   /// the first report islands have unlimited time. May be called from any thread.
   void printed(double now, double left);
 
-  /// Begins no further island and gives up those being planned, within a second; wakes a caller of wait(). May
-  /// be called from any thread.
+  /// Begins no further island and gives up those being planned, within a second; wakes a caller of wait().
+  /// May be called from any thread.
   void cancel();
 
   PlanningEffort effort() const;

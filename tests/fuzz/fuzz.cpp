@@ -195,11 +195,11 @@ int run(const std::string& name, const fs::path& folder, double seconds, std::ui
 
 int main(int count, char** words) {
   if (count < 4) {
-    std::fprintf(
-        stderr,
-        "usage: fuzz FOLDER drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|kept|"
-        "replies|conversation|http "
-        "SECONDS [FIRST]\n");
+    std::fprintf(stderr,
+                 "usage: fuzz FOLDER "
+                 "drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|kept|"
+                 "replies|conversation|http "
+                 "SECONDS [FIRST]\n");
     return 2;
   }
   std::signal(SIGPIPE, SIG_IGN);  // as the program itself does

@@ -38,7 +38,9 @@ struct Killed {
     bench.serve();
     id = add(bench, layers);
     REQUIRE(bench.command({"start"}).code == 0);
-    bench.await_laying();
+    // So many lines that some of them have certainly been run.
+    test::await([&] { return count(test::read_text(bench.path("lines.txt")), "\nG1 ") > 100; },
+                bench.daemon());
     kill(bench.daemon().id(), SIGKILL);
     bench.daemon().wait();
   }

@@ -37,7 +37,8 @@ TEST_CASE("a device that is plugged in again is found by the name that stays the
   std::filesystem::create_directory(by_id);
   std::filesystem::create_symlink("../ttyUSB0", by_id / "usb-1a86_USB_Serial-if00");
   std::filesystem::create_symlink("../gone", by_id / "usb-other");
-  CHECK(host::stable_name_of((folder / "ttyUSB0").string(), by_id) == (by_id / "usb-1a86_USB_Serial-if00").string());
+  CHECK(host::stable_name_of((folder / "ttyUSB0").string(), by_id) ==
+        (by_id / "usb-1a86_USB_Serial-if00").string());
   CHECK(host::stable_name_of((folder / "ttyUSB1").string(), by_id).empty());
   CHECK(host::stable_name_of((folder / "ttyUSB0").string(), folder / "none").empty());
 }
