@@ -110,6 +110,7 @@ void Print::reconnect() {
   settings_.link.log = log;
   const std::string port = stable_name_.empty() ? port_name_ : stable_name_;
   port_ = open_port(port, profile.baud, settings_.link);
+  if (!awake_) awake_.emplace("printing " + prepared_.job.file.stem().string());
   settings_.continuation = Continuation{std::nullopt, [] {}};  // the source is where the spool ends
 }
 

@@ -6,6 +6,7 @@
 
 #include "tests/host/support/daemon_process.hpp"
 #include "tests/host/support/hostile_requests.hpp"
+#include "tests/paths.hpp"
 
 using namespace unicursal;
 using test::DaemonBench;
@@ -15,7 +16,7 @@ using test::status_of;
 namespace {
 
 constexpr const char* program = "/usr/sbin/nginx";
-const char* const api = TEST_DATA "/../../host/daemon/API.md";
+const auto api = test::source_folder() / "host/daemon/API.md";
 
 int free_port() {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
