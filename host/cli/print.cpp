@@ -44,7 +44,12 @@ Exit PrintCommand::run() {
   print.connect();
   const StreamResult result = stream_with_progress(print, display_);
   // The report does not wait for a terminal that is halted.
-  conclude(books, result, {{"planning", planning_json(print.lookahead())}});
+  try {
+    conclude(books, result, {{"planning", planning_json(print.lookahead())}});
+  } catch (...) {
+    show_how_to_resume(print.spool(), result);
+    throw;
+  }
   show_how_to_resume(print.spool(), result);
   if (result.ending == Ending::completed)
     show(message_stream(display_), "{}", summary(books.totals(), print.lookahead().effort()));

@@ -271,6 +271,8 @@ asio::awaitable<StreamResult> Daemon::run_sessions(std::uint64_t id) {
 asio::awaitable<StreamResult> Daemon::run_session(std::uint64_t id) {
   Session& session = current_->print->begin(loop_.get_executor());
   session.on_event([this](const SessionEvent& event) { on_session_event(event); });
+  // It was cancelled while the printer was being found again: the session still parks and cools it.
+  if (current_->cancelled) session.cancel(*current_->cancelled);
   co_await enter(id, QueuedJob::State::printing, {});
   notify_service("STATUS=printing " + core::printable(queue_.find(id)->name));
   const StreamResult result = co_await session.run();
