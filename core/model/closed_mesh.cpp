@@ -11,6 +11,7 @@
 #include "core/model/mesh_shells.hpp"
 #include "core/model/stitch.hpp"
 #include "core/model/weld.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -36,10 +37,13 @@ class Mender {
     const std::size_t collapsed = drop_collapsed(mesh_);
     borders_ = pair_edges(mesh_);
     if (!borders_.empty()) {
+      stop_point();
       weld_and_stitch();
+      stop_point();
       turn_facets();
       close_holes();
     }
+    stop_point();
     finish_shells();
     if (collapsed > 0) note(counted(collapsed, "facet", "facets") + " without area were left out");
     return std::move(mesh_);

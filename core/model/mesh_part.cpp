@@ -5,23 +5,33 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/model/closed_mesh.hpp"
 #include "core/model/layer_stack.hpp"
+#include "core/model/mesh_bodies.hpp"
 #include "core/model/slicer.hpp"
-#include "core/model/stl_reader.hpp"
 #include "core/model/zoning.hpp"
 
 namespace unicursal::core {
 namespace {
 
-struct Body {
+struct Paint {
   Slicer slicer;
   std::size_t zone = 0;
 };
+
+struct Body {
+  Slicer slicer;
+  BodyRole role = BodyRole::solid;
+  std::optional<std::size_t> zone;  ///< absent: of a negative body
+  std::vector<Paint> paints;
+};
+
+/// The bodies of one object: what is negative is cut out of all of them.
+using Object = std::vector<Body>;
 
 Eigen::AlignedBox3d box_of(const ClosedMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -31,11 +41,42 @@ Eigen::AlignedBox3d box_of(const ClosedMesh& mesh) {
   return box;
 }
 
+/// Adds the sections of an object's bodies and of their paint; the later ones cover the earlier ones.
+void add_sections(const Object& object, double z, std::vector<Painted>& sections) {
+  Region negative, whole;
+  for (const Body& body : object) {
+    if (body.role == BodyRole::negative)
+      negative = unite(negative, enclosed(body.slicer.contours(z), FillRule::non_zero));
+  }
+  const auto section = [&](const Body& body) {
+    Region region = enclosed(body.slicer.contours(z), FillRule::non_zero);
+    return negative.empty() ? region : subtract(region, negative);
+  };
+  const bool modified = std::any_of(object.begin(), object.end(),
+                                    [](const Body& body) { return body.role == BodyRole::modifier; });
+  for (const Body& body : object) {
+    if (body.role != BodyRole::solid) continue;
+    const Region region = section(body);
+    if (region.empty()) continue;
+    if (modified) whole = unite(whole, region);
+    sections.push_back({region, body.zone, ""});
+    for (const Paint& paint : body.paints) {
+      Region painted = intersect(enclosed(paint.slicer.contours(z), FillRule::non_zero), region);
+      if (!painted.empty()) sections.push_back({std::move(painted), paint.zone, ""});
+    }
+  }
+  for (const Body& body : object) {
+    if (body.role != BodyRole::modifier || !body.zone) continue;
+    Region region = intersect(section(body), whole);
+    if (!region.empty()) sections.push_back({std::move(region), body.zone, ""});
+  }
+}
+
 class MeshPart final : public Part {
  public:
-  MeshPart(std::vector<Body> bodies, const Eigen::AlignedBox3d& box, LayerStack stack,
+  MeshPart(std::vector<Object> objects, const Eigen::AlignedBox3d& box, LayerStack stack,
            std::vector<Zone> zones, std::vector<std::string> warnings)
-      : bodies_(std::move(bodies)),
+      : objects_(std::move(objects)),
         box_(box),
         stack_(stack),
         zones_(std::move(zones)),
@@ -48,10 +89,7 @@ class MeshPart final : public Part {
     // A part thinner than half of its only layer is cut in its own middle.
     if (layer.z >= box_.sizes().z()) layer.z = box_.sizes().z() / 2;
     std::vector<Painted> sections;
-    for (const Body& body : bodies_) {
-      Region section = enclosed(body.slicer.contours(box_.min().z() + layer.z), FillRule::non_zero);
-      if (!section.empty()) sections.push_back({std::move(section), body.zone, ""});
-    }
+    for (const Object& object : objects_) add_sections(object, box_.min().z() + layer.z, sections);
     layer.islands = zoned(sections).islands;
     return layer;
   }
@@ -61,51 +99,72 @@ class MeshPart final : public Part {
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
-  std::vector<Body> bodies_;
+  std::vector<Object> objects_;
   Eigen::AlignedBox3d box_;
   LayerStack stack_;
   std::vector<Zone> zones_;
   std::vector<std::string> warnings_;
 };
 
-bool selects(const Zone& zone, const std::filesystem::path& file) {
-  return !zone.select.empty() && (zone.select == file.filename() || zone.select == file.stem());
-}
+class Builder {
+ public:
+  Builder(const PartSource& source, Warnings& warnings)
+      : source_(source), warnings_(warnings), zones_(source.zones) {}
 
-std::string choices(const std::vector<std::filesystem::path>& files) {
-  std::vector<std::string> names;
-  for (const auto& file : files) names.push_back(in_quotes(file.filename().string()));
-  return listed(names);
-}
-
-std::size_t zone_of(const std::filesystem::path& file, const std::vector<Zone>& zones) {
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < zones.size(); ++i) {
-    if (!selects(zones[i], file)) continue;
-    if (found) {
-      throw ModelError(file.string(), "select = " + in_quotes(zones[i].select),
-                       "this file is already selected by " + in_quotes(zones[*found].select),
-                       "let only one zone select it");
-    }
-    found = i;
-  }
-  if (!found) {
-    throw ModelError(
-        file.string(), "", "no zone selects this file",
-        "add a zone with select = " + in_quotes(file.filename().string()) + ", or leave the file out");
-  }
-  return *found;
-}
-
-void refuse_unmatched(const PartSource& source) {
-  for (const Zone& zone : source.zones) {
-    if (std::none_of(source.files.begin(), source.files.end(),
-                     [&](const auto& f) { return selects(zone, f); })) {
-      throw ModelError("", "select = " + in_quotes(zone.select), "this matches none of the files",
-                       "choose among " + choices(source.files));
+  void add_file(const std::filesystem::path& file) {
+    std::vector<MendedBody> bodies;
+    add_bodies(bodies, file, {usual_paint_depth, selects_by_number(source_.zones)}, warnings_);
+    std::map<std::size_t, std::size_t> object_of;
+    for (MendedBody& body : bodies) {
+      const auto [known, added] = object_of.try_emplace(body.object, objects.size());
+      if (added) objects.emplace_back();
+      if (body.role == BodyRole::solid) box.extend(box_of(body.mesh));
+      add(std::move(body), objects[known->second]);
     }
   }
-}
+
+  void finish() const {
+    zones_.refuse_unmatched();
+    if (unclaimed_) {
+      throw ModelError(unclaimed_->file.string(), "",
+                       by_file_ ? "no zone selects this file" : "no zone selects " + unclaimed_->label(),
+                       by_file_
+                           ? "add a zone with select = " + in_quotes(unclaimed_->file.filename().string()) +
+                                 ", or leave the file out"
+                           : "add a zone that selects it; choose among " + zones_.choices());
+    }
+  }
+
+  std::vector<Object> objects;
+  Eigen::AlignedBox3d box;
+
+ private:
+  void add(MendedBody body, Object& object) {
+    Body made{Slicer(std::move(body.mesh)), body.role, std::nullopt, {}};
+    if (body.role != BodyRole::negative) made.zone = zones_.zone_of(body.name);
+    if (body.role == BodyRole::solid && !made.zone && !unclaimed_) {
+      unclaimed_ = body.name;
+      by_file_ = body.name.names.empty() && body.name.tint == Tint{};
+    }
+    for (std::size_t i = 0; i < body.shells.size(); ++i) {
+      if (body.shells[i].facets.empty()) continue;
+      const Selectable paint{body.name.file, "", {}, body.paints[i], true};
+      if (const auto zone = zones_.zone_of(paint)) {
+        made.paints.push_back({Slicer(std::move(body.shells[i])), *zone});
+      } else {
+        warnings_.add(fmt::format("{}: no zone selects {}; it is printed like its body",
+                                  body.name.file.string(), paint.label()));
+      }
+    }
+    object.push_back(std::move(made));
+  }
+
+  const PartSource& source_;
+  Warnings& warnings_;
+  BodyZones zones_;
+  std::optional<Selectable> unclaimed_;
+  bool by_file_ = false;
+};
 
 }  // namespace
 
@@ -113,17 +172,13 @@ std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
   Warnings warnings;
   layers_of_mesh(0, source.layer_height,
                  source.first_layer_height);  // refuses a bad layer height before the files are read
-  refuse_unmatched(source);
-  std::vector<Body> bodies;
-  Eigen::AlignedBox3d box;
-  for (const std::filesystem::path& file : source.files) {
-    const std::size_t zone = zone_of(file, source.zones);
-    ClosedMesh mesh = closed_mesh(read_stl(file, warnings), file.string(), warnings);
-    box.extend(box_of(mesh));
-    bodies.push_back({Slicer(std::move(mesh)), zone});
-  }
-  const LayerStack stack = layers_of_mesh(box.sizes().z(), source.layer_height, source.first_layer_height);
-  return std::make_unique<MeshPart>(std::move(bodies), box, stack, source.zones, warnings.sentences());
+  Builder builder(source, warnings);
+  for (const std::filesystem::path& file : source.files) builder.add_file(file);
+  builder.finish();
+  const LayerStack stack =
+      layers_of_mesh(builder.box.sizes().z(), source.layer_height, source.first_layer_height);
+  return std::make_unique<MeshPart>(std::move(builder.objects), builder.box, stack, source.zones,
+                                    warnings.sentences());
 }
 
 }  // namespace unicursal::core

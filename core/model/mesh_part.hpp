@@ -1,5 +1,5 @@
-// A part made of one or more meshes, each of which belongs to one zone. Where meshes overlap, later files
-// cover earlier ones.
+// A part made of the bodies of one or more files. Each body belongs to one zone, and so does each colour that
+// is painted on it. Where bodies overlap, later ones cover earlier ones.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace unicursal::core {
 
-/// Precondition: `source.files` holds STL files, at least one. Throws FileError or ModelError.
+/// Precondition: `source.files` holds files of meshes, at least one. Throws FileError or ModelError.
 std::unique_ptr<const Part> read_mesh_part(const PartSource& source);
 
 }  // namespace unicursal::core

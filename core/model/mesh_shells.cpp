@@ -224,4 +224,25 @@ std::size_t turn_shells(ClosedMesh& mesh, std::vector<Shell>& shells) {
   return count;
 }
 
+std::vector<std::vector<std::uint32_t>> facets_of_solids(const ClosedMesh& mesh) {
+  const std::vector<Shell> shells = shells_of(mesh);
+  const auto outward = [&](std::uint32_t s) { return shells[s].volume > 0 && !shells[s].thin(); };
+  const Nesting nesting(mesh, shells);
+  std::vector<std::vector<std::uint32_t>> solids;
+  std::vector<std::size_t> solid_of(shells.size(), 0);
+  for (std::uint32_t s = 0; s < shells.size(); ++s) {
+    if (!outward(s)) continue;
+    solid_of[s] = solids.size();
+    solids.push_back(shells[s].facets);
+  }
+  for (std::uint32_t s = 0; s < shells.size(); ++s) {
+    if (outward(s) || shells[s].thin()) continue;
+    const auto around = nesting.around(s);
+    const auto owner = std::find_if(around.begin(), around.end(), outward);
+    auto& facets = solids[owner == around.end() ? 0 : solid_of[*owner]];
+    facets.insert(facets.end(), shells[s].facets.begin(), shells[s].facets.end());
+  }
+  return solids;
+}
+
 }  // namespace unicursal::core

@@ -37,4 +37,8 @@ std::vector<Shell> shells_of(const ClosedMesh& mesh);
 /// Turns shells that are inside out, also in `shells`, and returns their number.
 std::size_t turn_shells(ClosedMesh& mesh, std::vector<Shell>& shells);
 
+/// The facets of each solid: of a shell that faces outwards, and of the shells within it that face inwards. A
+/// void in several solids belongs to the first. Precondition: as for shells_of(), and no shell is inside out.
+std::vector<std::vector<std::uint32_t>> facets_of_solids(const ClosedMesh& mesh);
+
 }  // namespace unicursal::core

@@ -5,30 +5,41 @@
 #include "core/error.hpp"
 #include "core/model/drawing_part.hpp"
 #include "core/model/mesh_part.hpp"
+#include "core/model/obj_reader.hpp"
+#include "core/model/read_mesh_model.hpp"
+#include "core/text/file_bytes.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {
-namespace {
 
-bool has_ending(const std::filesystem::path& file, const std::string& ending) {
-  return lower(file.extension().string()) == ending;
+bool is_drawing_file(const std::filesystem::path& file) {
+  return lower(file.extension().string()) == ".svg";
 }
 
-}  // namespace
+bool is_model_file(const std::filesystem::path& file) {
+  return is_drawing_file(file) || is_mesh_file(file);
+}
+
+std::vector<std::filesystem::path> companion_files(const std::filesystem::path& file) {
+  std::error_code error;
+  if (lower(file.extension().string()) != ".obj" || !std::filesystem::is_regular_file(file, error)) return {};
+  std::vector<std::filesystem::path> files = material_files(file_bytes(file), file);
+  std::erase_if(files,
+                [&](const auto& companion) { return !std::filesystem::is_regular_file(companion, error); });
+  return files;
+}
 
 std::unique_ptr<const Part> read_part(const PartSource& source) {
   const auto& files = source.files;
-  if (files.empty()) throw ModelError("", "file", "the part names no file", "name one SVG or some STL files");
+  if (files.empty())
+    throw ModelError("", "file", "the part names no file", "name one drawing or some files of meshes");
   if (source.zones.empty()) {
     throw ModelError(files.front().string(), "", "the part has no zone", "add a zone that selects it");
   }
-  const auto all = [&](const char* ending) {
-    return std::all_of(files.begin(), files.end(),
-                       [&](const auto& file) { return has_ending(file, ending); });
-  };
-  if (all(".stl")) return read_mesh_part(source);
-  if (all(".svg") && files.size() == 1) return read_drawing_part(source);
-  throw ModelError(files.back().string(), "file", "a part is one .svg file or some .stl files",
+  if (std::all_of(files.begin(), files.end(), is_mesh_file)) return read_mesh_part(source);
+  if (files.size() == 1 && is_drawing_file(files.front())) return read_drawing_part(source);
+  throw ModelError(files.back().string(), "file",
+                   "a part is one .svg file, or some .stl, .3mf, .obj and .amf files",
                    "export the model in one of these formats");
 }
 

@@ -43,8 +43,8 @@ struct Context {
 
 class SvgReader {
  public:
-  SvgReader(const std::filesystem::path& file, Warnings& warnings)
-      : file_(file.string()), bytes_(file_bytes(file)), warnings_(warnings) {
+  SvgReader(const std::filesystem::path& file, Warnings& warnings, const Eigen::Matrix2d& turn)
+      : file_(file.string()), bytes_(file_bytes(file)), warnings_(warnings), turn_(turn) {
     for (std::size_t i = 0; i < bytes_.size(); ++i) {
       if (bytes_[i] == '\n') line_ends_.push_back(std::ptrdiff_t(i));
     }
@@ -73,6 +73,7 @@ class SvgReader {
   std::string file_, bytes_;
   std::vector<std::ptrdiff_t> line_ends_;  ///< offsets of the newlines in bytes_
   Warnings& warnings_;
+  Eigen::Matrix2d turn_;
   Page page_;
   std::vector<Shape> shapes_;
 };
@@ -108,7 +109,7 @@ std::vector<Shape> SvgReader::read() {
     refuse(root, problem.what(), "correct the drawing's size");
   }
   context.names.clear();  // the page's own name would match everything
-  context.to_part = page_.to_part * context.to_part;
+  context.to_part = Eigen::Affine2d(turn_) * page_.to_part * context.to_part;
   if (context.style.displayed) children(root, context);
   return std::move(shapes_);
 }
@@ -222,8 +223,9 @@ double SvgReader::size(const pugi::xml_node& node, const char* name, double whol
 
 }  // namespace
 
-std::vector<Shape> read_svg(const std::filesystem::path& file, Warnings& warnings) {
-  return SvgReader(file, warnings).read();
+std::vector<Shape> read_svg(const std::filesystem::path& file, Warnings& warnings,
+                            const Eigen::Matrix2d& turn) {
+  return SvgReader(file, warnings, turn).read();
 }
 
 }  // namespace unicursal::core

@@ -20,6 +20,8 @@ struct Shape {
 
 /// Returns shapes in painter's order: later shapes cover earlier ones; may be empty. Throws FileError, or
 /// ModelError naming line and element.
-std::vector<Shape> read_svg(const std::filesystem::path& file, Warnings& warnings);
+/// `turn` is applied before curves become polygons.
+std::vector<Shape> read_svg(const std::filesystem::path& file, Warnings& warnings,
+                            const Eigen::Matrix2d& turn = Eigen::Matrix2d::Identity());
 
 }  // namespace unicursal::core

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 namespace unicursal::core {
 namespace {
@@ -18,41 +19,59 @@ bool lexicographic(const Vec3& a, const Vec3& b) {
   return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
 }
 
-/// Finds an earlier vertex through a grid of cells as large as the distance.
+/// Finds an earlier vertex through a grid of cells that are much larger than the distance, so that few
+/// searches have to look into a neighbouring cell.
 class WeldGrid {
  public:
-  WeldGrid(const std::vector<Vec3>& vertices, double distance) : vertices_(vertices), distance_(distance) {}
+  WeldGrid(const std::vector<Vec3>& vertices, double distance)
+      : vertices_(vertices), distance_(distance), next_(vertices.size(), none) {
+    first_.reserve(vertices.size() / 2);
+  }
 
   /// Returns `v` itself if no earlier vertex is near; later calls can then find `v`.
   Index find_or_add(Index v) {
-    const auto [x, y, z] = cell(vertices_[v]);
-    for (int i = 0; i < 27; ++i) {
-      const auto found = cells_.find(key(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1));
-      if (found == cells_.end()) continue;
-      for (const Index other : found->second) {
-        if ((vertices_[other] - vertices_[v]).norm() <= distance_) return other;
+    const Cell low = cell(vertices_[v].array() - distance_), high = cell(vertices_[v].array() + distance_);
+    for (std::int64_t x = low[0]; x <= high[0]; ++x) {
+      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+        for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+          if (const Index found = find_in({x, y, z}, v); found != none) return found;
+        }
       }
     }
-    cells_[key(x, y, z)].push_back(v);
+    const auto added = first_.try_emplace(key(cell(vertices_[v])), v);
+    if (!added.second) next_[v] = std::exchange(added.first->second, v);
     return v;
   }
 
  private:
   using Cell = std::array<std::int64_t, 3>;
+  static constexpr Index none = std::numeric_limits<Index>::max();
+  static constexpr double cell_size = 16;  // in weld distances
 
   Cell cell(const Vec3& p) const {
-    return {std::llround(p.x() / distance_), std::llround(p.y() / distance_),
-            std::llround(p.z() / distance_)};
+    const auto number = [&](double x) {
+      return static_cast<std::int64_t>(std::floor(x / (cell_size * distance_)));
+    };
+    return {number(p.x()), number(p.y()), number(p.z())};
   }
   /// Different cells may share a key; the distance decides.
-  static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
-    return std::uint64_t(x) * 0x9e3779b97f4a7c15u ^ std::uint64_t(y) * 0xc2b2ae3d27d4eb4fu ^
-           std::uint64_t(z) * 0x165667b19e3779f9u;
+  static std::uint64_t key(const Cell& c) {
+    return std::uint64_t(c[0]) * 0x9e3779b97f4a7c15u ^ std::uint64_t(c[1]) * 0xc2b2ae3d27d4eb4fu ^
+           std::uint64_t(c[2]) * 0x165667b19e3779f9u;
+  }
+  Index find_in(const Cell& cell, Index v) const {
+    const auto found = first_.find(key(cell));
+    if (found == first_.end()) return none;
+    for (Index other = found->second; other != none; other = next_[other]) {
+      if ((vertices_[other] - vertices_[v]).norm() <= distance_) return other;
+    }
+    return none;
   }
 
   const std::vector<Vec3>& vertices_;
   double distance_;
-  std::unordered_map<std::uint64_t, std::vector<Index>> cells_;
+  std::unordered_map<std::uint64_t, Index> first_;  ///< per cell: the vertex that came last
+  std::vector<Index> next_;                         ///< the one that came before it in the same cell
 };
 
 template <class Predicate>

@@ -88,7 +88,9 @@ LayerRange parse_layers(const std::string& text) {
 }
 
 void JobOptions::declare(CLI::App& app) {
-  add_value(app, "JOB", job, " ", "The job, a TOML file: see unicursal-job(5).").required();
+  add_value(app, "JOB", job, " ",
+            "The job, a TOML file (see unicursal-job(5)), or a model: .svg, .stl, .3mf, .obj or .amf.")
+      .required();
   add_value(app, "--profile", profile, "FILE",
             "Use this printer profile instead of the one that the job names.")
       .group("Job");

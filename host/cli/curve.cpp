@@ -140,7 +140,9 @@ CLI::App& Curve::declare(CLI::App& program) {
       "The formats are .txt (x y width of each vertex, in the frame of the part), .svg and .png. "
       "--picture shows how the curve comes about: the field, the cell graph, the first and the optimised "
       "cycle, the curve, and the bead widths.");
-  add_value(app, "JOB", options_.job, " ", "The job, a TOML file: see unicursal-job(5).").required();
+  add_value(app, "JOB", options_.job, " ",
+            "The job, a TOML file (see unicursal-job(5)), or a model: .svg, .stl, .3mf, .obj or .amf.")
+      .required();
   add_value(app, "--profile", options_.profile, "FILE",
             "Use this printer profile instead of the one that the job names.")
       .group("Job");

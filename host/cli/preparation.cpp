@@ -1,6 +1,10 @@
 #include "host/cli/preparation.hpp"
 
+#include <chrono>
+
 #include "core/error.hpp"
+#include "core/model/hanging.hpp"
+#include "core/model/read_part.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/job/load_job.hpp"
 
@@ -21,7 +25,23 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return !error && real_a == real_b;
 }
 
+/// Islands and layers that would begin in the air. Slicing takes long for large parts, so that it ends after
+/// a while.
+std::vector<std::string> hanging_places(const PreparedJob& prepared) {
+  constexpr auto longest = std::chrono::seconds(5);
+  if (core::is_drawing_file(prepared.job.source.files.front())) return {};  // all layers are alike
+  const auto end = std::chrono::steady_clock::now() + longest;
+  core::HangingCheck check;
+  for (std::size_t i = 0; i < prepared.count && std::chrono::steady_clock::now() < end; ++i)
+    check.add(prepared.part->layer(prepared.first + i));
+  return check.sentences();
+}
+
 }  // namespace
+
+void show_note(const std::string& sentence) {
+  show(stderr, "note: {}\n", sentence);
+}
 
 void check_outputs(std::vector<fs::path> inputs, const std::vector<fs::path>& outputs) {
   std::vector<fs::path>& taken = inputs;
@@ -45,7 +65,7 @@ std::vector<fs::path> present(std::initializer_list<std::optional<fs::path>> pat
 }
 
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs) {
-  Job job = load_job(options.job, options.profile);
+  Job job = load_job_or_model(options.job, options.profile);
   job.print.look_ahead = options.look_ahead;
   job.full_quality = options.full_quality;
   PreparedJob prepared = prepare(std::move(job), options.layers);
@@ -53,8 +73,9 @@ PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::pa
   std::vector<fs::path> outputs = more_outputs;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
   check_outputs(files_of(prepared.job).all(), outputs);
-  for (const std::string& warning : prepared.job.warnings) show(stderr, "note: {}\n", warning);
-  for (const std::string& warning : prepared.part->warnings()) show(stderr, "note: {}\n", warning);
+  for (const std::string& warning : prepared.job.warnings) show_note(warning);
+  for (const std::string& warning : prepared.part->warnings()) show_note(warning);
+  for (const std::string& sentence : hanging_places(prepared)) show_note(sentence);
   return prepared;
 }
 

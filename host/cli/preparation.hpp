@@ -18,6 +18,9 @@ void check_outputs(std::vector<std::filesystem::path> inputs,
 /// Returns those paths that are not absent.
 std::vector<std::filesystem::path> present(std::initializer_list<std::optional<std::filesystem::path>> paths);
 
+/// Shows a note on standard error.
+void show_note(const std::string& sentence);
+
 /// Loads, checks and places a job, and shows its warnings on standard error. Also checks the outputs of the
 /// options and `more_outputs` (check_outputs). Throws core::DataError.
 PreparedJob prepare_and_warn(const JobOptions& options,

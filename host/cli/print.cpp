@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
+#include "core/model/read_part.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/foreground.hpp"
@@ -39,6 +41,10 @@ CLI::App& PrintCommand::declare(CLI::App& program) {
 }
 
 Exit PrintCommand::run() {
+  if (core::is_model_file(job_.job)) {
+    throw core::DataError(job_.job.string(), "", "is a model, not a job",
+                          "write a job for it with `unicursal new`, which can be kept for a resume");
+  }
   Print print(prepare_and_warn(job_, present({options_.log})), options_);
   Books books(print.maker(), "print", job_.outputs);
   print.connect();

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
-#include "core/text/wording.hpp"
+#include "core/model/read_part.hpp"
 #include "host/job/keys.hpp"
+#include "host/job/model_job.hpp"
 #include "host/job/print_keys.hpp"
 #include "host/job/settings_file.hpp"
+#include "host/job/usual_profile.hpp"
 #include "host/job/zones.hpp"
 
 namespace unicursal::host {
@@ -30,7 +32,7 @@ constexpr double greatest_seed_distance = 4;
 const char* const place_remedy = "write \"center\", \"as-is\" or [x, y] in mm on the bed";
 
 std::vector<std::filesystem::path> read_files(const Section& part) {
-  const char* const remedy = "name an SVG or STL file, or several STL files in a list";
+  const char* const remedy = "name a drawing (.svg) or meshes (.stl, .3mf, .obj, .amf), several in a list";
   const toml::node* node = part.find("file");
   if (!node) part.fail("file", "is missing", remedy);
   const std::filesystem::path folder = part.file().parent_path();
@@ -43,10 +45,6 @@ std::vector<std::filesystem::path> read_files(const Section& part) {
   }
   if (files.empty()) part.fail("file", "is an empty list", remedy);
   return files;
-}
-
-bool is_drawing(const std::filesystem::path& file) {
-  return core::lower(file.extension().string()) == ".svg";
 }
 
 double read_layer_height(const Section& part, const char* key, double nozzle) {
@@ -72,7 +70,7 @@ core::PartSource read_source(const Section& part, double nozzle) {
   if (part.has("first_layer_height")) {
     source.first_layer_height = read_layer_height(part, "first_layer_height", nozzle);
   }
-  const bool drawing = std::any_of(source.files.begin(), source.files.end(), is_drawing);
+  const bool drawing = std::any_of(source.files.begin(), source.files.end(), core::is_drawing_file);
   if (drawing || part.has("height")) {
     source.height =
         part.number("height", length, "write how high the drawing is to become, for example height = 1.0");
@@ -194,8 +192,10 @@ double bead_width_from_seed_distance(double d) {
   return bead_width_per_seed_distance * d;
 }
 
-Job load_job(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile) {
-  const SettingsFile file(path);
+namespace {
+
+Job read_job(const SettingsFile& file, const std::filesystem::path& path,
+             const std::optional<std::filesystem::path>& profile) {
   const Section root = file.root(keys::job);
   Job job;
   job.file = path;
@@ -217,6 +217,34 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
   job.source.zones = std::move(zones.zones);
   job.print.materials = std::move(zones.materials);
   return job;
+}
+
+/// A model is printed with the defaults of its own job.
+Job job_for_model(const std::filesystem::path& model, const std::optional<std::filesystem::path>& chosen) {
+  const std::optional<std::filesystem::path> own = chosen ? chosen : own_profile();
+  const std::filesystem::path profile = own ? *own : common_frame();
+  const ModelJob written = model_job({model}, load_profile(profile), model.parent_path());
+  Job job = read_job(SettingsFile(model, written.text), model, profile);
+  if (!own) {
+    job.warnings.push_back(
+        "no profile is named: a common frame with a nozzle of 0.6 mm is assumed; name yours with --profile, "
+        "or keep it as unicursal/printer.toml in ~/.config");
+  }
+  return job;
+}
+
+}  // namespace
+
+Job load_job(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile) {
+  if (core::is_model_file(path)) {
+    throw JobError(path.string(), "", "is a model, not a job", "write a job for it with `unicursal new`");
+  }
+  return read_job(SettingsFile(path), path, profile);
+}
+
+Job load_job_or_model(const std::filesystem::path& path,
+                      const std::optional<std::filesystem::path>& profile) {
+  return core::is_model_file(path) ? job_for_model(path, profile) : load_job(path, profile);
 }
 
 }  // namespace unicursal::host

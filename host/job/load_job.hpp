@@ -1,4 +1,4 @@
-// Reads a job file. Lengths in mm.
+// Reads a job file, or makes a job for a model. Lengths in mm.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,11 @@ namespace unicursal::host {
 /// Reads and checks a job and the profile it names, or `profile` instead. File names in a job are relative
 /// to it. Throws JobError, core::FileError, core::DataError.
 Job load_job(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile = {});
+
+/// The same, and a model (a drawing or meshes) counts as the job that model_job() writes for it. Without
+/// `profile` it is printed with that of own_profile(), or with common_frame().
+Job load_job_or_model(const std::filesystem::path& file,
+                      const std::optional<std::filesystem::path>& profile = {});
 
 /// The bead width that results from seeds at distance `d` (the paper's d), both in mm.
 double bead_width_from_seed_distance(double d);

@@ -33,4 +33,10 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
   return best;
 }
 
+std::string meant_by(std::string_view name, const std::vector<std::string>& known) {
+  const std::string best = nearest(name, known);
+  const std::size_t letters = std::max(name.size(), best.size());
+  return 3 * edit_distance(name, best) <= letters + 1 ? best : "";
+}
+
 }  // namespace unicursal::host

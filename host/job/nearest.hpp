@@ -15,4 +15,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// The first of `known` with the smallest distance to `name`; empty if nothing is known.
 std::string nearest(std::string_view name, const std::vector<std::string>& known);
 
+/// The same, but empty if even the nearest is another word: if it differs by more than a third of the
+/// letters.
+std::string meant_by(std::string_view name, const std::vector<std::string>& known);
+
 }  // namespace unicursal::host

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/text/wording.hpp"
 #include "host/job/job_error.hpp"
 #include "host/job/nearest.hpp"
 #include "host/job/parse_toml.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 /// Bytes. Settings are written by hand; a larger file was named by mistake.
 constexpr std::uintmax_t largest_file = 1 << 20;
+constexpr std::size_t most_listed_keys = 40;
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
@@ -80,8 +82,10 @@ Section::Section(const std::filesystem::path& file, const toml::table& table, st
     : file_(file), table_(table), name_(std::move(name)) {
   for (auto&& [key, node] : table_) {
     if (known.empty() || std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+    const std::string meant = meant_by(key.str(), known);
     fail(key.str(), "is not a known key here",
-         fmt::format("did you mean \"{}\"?", nearest(key.str(), known)));
+         meant.empty() ? "leave it out; the keys here are " + core::listed(known, most_listed_keys)
+                       : fmt::format("did you mean \"{}\"?", meant));
   }
 }
 
@@ -186,6 +190,9 @@ std::string Section::choice(std::string_view key, const toml::node& node,
 
 SettingsFile::SettingsFile(std::filesystem::path file)
     : file_(std::move(file)), table_(parse_toml(read_text(file_), file_)) {}
+
+SettingsFile::SettingsFile(std::filesystem::path file, const std::string& text)
+    : file_(std::move(file)), table_(parse_toml(text, file_)) {}
 
 Section SettingsFile::root(std::vector<std::string> known) const {
   return {file_, table_, "", std::move(known)};

@@ -84,6 +84,8 @@ class SettingsFile {
  public:
   /// Throws core::FileError if it cannot be read, JobError if it is not TOML.
   explicit SettingsFile(std::filesystem::path file);
+  /// Settings that are not in a file; `file` is for messages, and relative names start from its folder.
+  SettingsFile(std::filesystem::path file, const std::string& text);
 
   Section root(std::vector<std::string> known) const;
 

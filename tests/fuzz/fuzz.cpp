@@ -33,6 +33,7 @@
 #include "tests/fuzz/damage.hpp"
 #include "tests/fuzz/http_target.hpp"
 #include "tests/fuzz/kept.hpp"
+#include "tests/fuzz/models.hpp"
 #include "tests/fuzz/replies.hpp"
 #include "tests/fuzz/simulator.hpp"
 #include "tests/fuzz/spool.hpp"
@@ -143,6 +144,9 @@ void plan(const fs::path& folder, core::Random& random) {
 const std::map<std::string, std::function<void(const fs::path&, core::Random&)>> targets{
     {"drawing", drawing},
     {"mesh", mesh},
+    {"package", test::package},
+    {"wavefront", test::wavefront},
+    {"amf", test::amf},
     {"directions", directions},
     {"job", job},
     {"plan", plan},
@@ -195,11 +199,12 @@ int run(const std::string& name, const fs::path& folder, double seconds, std::ui
 
 int main(int count, char** words) {
   if (count < 4) {
-    std::fprintf(stderr,
-                 "usage: fuzz FOLDER "
-                 "drawing|mesh|directions|job|plan|printer|lines|faults|control|journal|chunks|kept|"
-                 "replies|conversation|http "
-                 "SECONDS [FIRST]\n");
+    std::fprintf(
+        stderr,
+        "usage: fuzz FOLDER "
+        "drawing|mesh|package|wavefront|amf|directions|job|plan|printer|lines|faults|control|journal|"
+        "chunks|kept|replies|conversation|http "
+        "SECONDS [FIRST]\n");
     return 2;
   }
   std::signal(SIGPIPE, SIG_IGN);  // as the program itself does

@@ -1,0 +1,134 @@
+#include "core/model/inspect_model.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/model/mesh_bodies.hpp"
+#include "core/model/read_part.hpp"
+#include "core/model/svg_reader.hpp"
+#include "core/model/zoning.hpp"
+
+namespace unicursal::core {
+namespace {
+
+void add(std::vector<ZoneOffer>& zones, const ZoneOffer& offer) {
+  const auto known =
+      std::find_if(zones.begin(), zones.end(), [&](const ZoneOffer& z) { return z.select == offer.select; });
+  if (known == zones.end()) {
+    zones.push_back(offer);
+  } else {
+    known->amount += offer.amount;
+    known->paint = known->paint && offer.paint;
+  }
+}
+
+std::string tint_select(const Tint& tint) {
+  return tint.colour.empty() && !tint.names.empty() ? tint.names.front() : tint.colour;
+}
+
+/// One zone for each colour or material if the files name any, else for each body, or for the whole file.
+std::vector<ZoneOffer> zones_of(const std::vector<MendedBody>& bodies) {
+  std::map<std::string, std::size_t> uses;  // of a body's own name
+  std::size_t solids = 0;
+  bool tinted = false;
+  for (const MendedBody& body : bodies) {
+    if (body.role == BodyRole::negative) continue;
+    if (body.role == BodyRole::solid) ++solids;
+    if (!body.name.names.empty()) ++uses[body.name.names.front()];
+    tinted = tinted || !tint_select(body.name.tint).empty();
+  }
+  std::vector<ZoneOffer> zones;
+  for (const MendedBody& body : bodies) {
+    const std::string tint = tint_select(body.name.tint);
+    if (body.role == BodyRole::negative || (body.role == BodyRole::modifier && tint.empty())) continue;
+    std::string select = tint;
+    if (select.empty()) {
+      const bool unique = !body.name.names.empty() && uses[body.name.names.front()] == 1;
+      select = unique ? body.name.names.front() : body.name.number;
+      if (solids == 1 && !tinted) select = body.name.file.filename().string();
+    }
+    add(zones, {select, body.name.tint.colour, volume(body.mesh), false});
+    for (std::size_t i = 0; i < body.shells.size(); ++i) {
+      if (!body.shells[i].facets.empty())
+        add(zones, {tint_select(body.paints[i]), body.paints[i].colour, volume(body.shells[i]), true});
+    }
+  }
+  return zones;
+}
+
+ModelContents contents_of_meshes(const std::vector<std::filesystem::path>& files) {
+  Warnings warnings;
+  std::vector<MendedBody> bodies;
+  BodyOptions options;
+  options.shells_are_bodies = files.size() == 1;
+  for (const auto& file : files) add_bodies(bodies, file, options, warnings);
+  ModelContents contents;
+  Eigen::AlignedBox3d box;
+  for (const MendedBody& body : bodies) {
+    contents.facets += body.mesh.facets.size();
+    if (body.role != BodyRole::solid) continue;
+    ++contents.bodies;
+    for (const auto& facet : body.mesh.facets) {
+      for (const auto v : facet) box.extend(body.mesh.vertices[v]);
+    }
+  }
+  contents.size = box.sizes();
+  contents.zones = zones_of(bodies);
+  contents.notes = warnings.sentences();
+  return contents;
+}
+
+ModelContents contents_of_drawing(const std::filesystem::path& file) {
+  Warnings warnings;
+  const std::vector<Shape> shapes = read_svg(file, warnings);
+  if (shapes.empty()) {
+    throw ModelError(file.string(), "", "the drawing holds no filled shape",
+                     "fill shapes, or convert strokes to paths");
+  }
+  ModelContents contents;
+  contents.drawing = true;
+  std::vector<Painted> painted;
+  std::vector<std::string> fills;
+  for (const Shape& shape : shapes) {
+    auto known = std::find(fills.begin(), fills.end(), shape.fill);
+    if (known == fills.end()) known = fills.insert(fills.end(), shape.fill);
+    painted.push_back({shape.region, std::size_t(known - fills.begin()), shape.fill});
+  }
+  std::vector<Polygon> outlines;
+  std::vector<double> areas(fills.size(), 0);
+  for (const Island& island : zoned(painted).islands) {
+    outlines.push_back(island.outline);
+    contents.holes += island.outline.holes.size();
+    for (const ZoneRegion& region : island.zones) areas[region.zone] += area(region.polygons);
+  }
+  if (outlines.empty()) {
+    throw ModelError(file.string(), "", "the drawing's shapes are too small to print",
+                     "check its width and height");
+  }
+  contents.bodies = outlines.size();
+  contents.size.head<2>() = bounds(outlines).size();
+  for (std::size_t i = 0; i < fills.size(); ++i) {
+    if (areas[i] > 0)
+      contents.zones.push_back({fills[i], fills[i].starts_with('#') ? fills[i] : "", areas[i], false});
+  }
+  contents.notes = warnings.sentences();
+  return contents;
+}
+
+}  // namespace
+
+ModelContents inspect_model(const std::vector<std::filesystem::path>& files) {
+  if (files.size() == 1 && is_drawing_file(files.front())) return contents_of_drawing(files.front());
+  for (const auto& file : files) {
+    if (is_drawing_file(file) || !is_model_file(file)) {
+      throw ModelError(file.string(), "", "this is not one of the files that make a part",
+                       "name one .svg file, or some .stl, .3mf, .obj and .amf files");
+    }
+  }
+  return contents_of_meshes(files);
+}
+
+}  // namespace unicursal::core

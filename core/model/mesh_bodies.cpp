@@ -1,0 +1,87 @@
+#include "core/model/mesh_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "core/model/closed_mesh.hpp"
+#include "core/model/edge_pairing.hpp"
+#include "core/model/mesh_shells.hpp"
+#include "core/model/painted_shell.hpp"
+#include "core/model/read_mesh_model.hpp"
+
+namespace unicursal::core {
+namespace {
+
+ClosedMesh only(const ClosedMesh& mesh, std::vector<std::uint32_t> facets) {
+  std::sort(facets.begin(), facets.end());
+  ClosedMesh result;
+  result.vertices = mesh.vertices;
+  for (const auto f : facets) {
+    result.facets.push_back(mesh.facets[f]);
+    result.sources.push_back(mesh.sources[f]);
+  }
+  pair_edges(result);
+  return result;
+}
+
+/// Divides a mesh into its solids; voids stay with the solid around them.
+std::vector<ClosedMesh> solids_of(ClosedMesh mesh) {
+  std::vector<std::vector<std::uint32_t>> solids = facets_of_solids(mesh);
+  std::vector<ClosedMesh> result;
+  if (solids.size() == 1) {
+    result.push_back(std::move(mesh));
+  } else {
+    for (auto& facets : solids) result.push_back(only(mesh, std::move(facets)));
+  }
+  return result;
+}
+
+}  // namespace
+
+void add_bodies(std::vector<MendedBody>& bodies, const std::filesystem::path& file,
+                const BodyOptions& options, Warnings& warnings) {
+  MeshModel model = read_mesh_model(file, warnings);
+  const std::size_t objects = bodies.empty() ? 0 : bodies.back().object + 1;
+  std::size_t number = 0;
+  for (MeshBody& body : model) {
+    MendedBody mended;
+    mended.name = {file, "", body.names, body.tint, false};
+    mended.role = body.role;
+    mended.object = objects + body.object;
+    mended.paints = body.paints;
+    const auto numbered = [&] { return fmt::format("body {}", ++number); };
+    std::string label = file.string();
+    if (model.size() > 1) {
+      mended.name.number = numbered();
+      label += ": " + mended.name.number;
+      if (!body.names.empty()) label += " (" + in_quotes(body.names.front()) + ")";
+    }
+    ClosedMesh mesh = closed_mesh(body.triangles, label, warnings);
+    if (!body.painted.empty()) mended.shells = painted_shells(body, mesh, options.paint_depth);
+    if (!options.shells_are_bodies || model.size() > 1 || !body.names.empty() || !body.painted.empty()) {
+      if (mended.name.number.empty()) mended.name.number = numbered();
+      mended.mesh = std::move(mesh);
+      bodies.push_back(std::move(mended));
+    } else {
+      for (ClosedMesh& solid : solids_of(std::move(mesh))) {
+        MendedBody one = mended;
+        one.name.number = numbered();
+        one.mesh = std::move(solid);
+        bodies.push_back(std::move(one));
+      }
+    }
+    body = {};
+  }
+}
+
+double volume(const ClosedMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.facets)
+    sum += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6;
+  return sum;
+}
+
+}  // namespace unicursal::core

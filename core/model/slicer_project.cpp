@@ -1,0 +1,142 @@
+#include "core/model/slicer_project.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/model/css_colour.hpp"
+#include "core/model/malformed.hpp"
+#include "core/model/xml_document.hpp"
+
+namespace unicursal::core {
+namespace {
+
+constexpr std::size_t most_filaments = 1000;
+constexpr std::size_t largest_settings = 16u << 20;  ///< bytes
+
+/// The value of a child <metadata key="…" value="…"/>; empty if it is absent.
+std::string_view setting(const pugi::xml_node& node, std::string_view key) {
+  for (const pugi::xml_node& entry : node.children("metadata")) {
+    if (key == entry.attribute("key").value()) return entry.attribute("value").value();
+  }
+  return {};
+}
+
+std::size_t index_or_zero(std::string_view text) {
+  return text.empty() ? 0 : xml_index(text);
+}
+
+ProjectPart part_of(const pugi::xml_node& node, std::string_view kind) {
+  ProjectPart part;
+  part.name = setting(node, "name");
+  part.filament = index_or_zero(setting(node, "extruder"));
+  if (kind == "NegativeVolume" || kind == "negative_part") part.role = BodyRole::negative;
+  if (kind == "ParameterModifier" || kind == "modifier_part") part.role = BodyRole::modifier;
+  part.printed = kind.find("upport") == std::string_view::npos;  // SupportBlocker, support_enforcer and so on
+  return part;
+}
+
+/// The files of PrusaSlicer and of Bambu Studio have the same outer form.
+void read_objects(const pugi::xml_node& config, SlicerProject& project) {
+  for (const pugi::xml_node& node : config.children("object")) {
+    ProjectObject& object = project.objects[xml_index(node.attribute("id").value())];
+    object.name = setting(node, "name");
+    object.filament = index_or_zero(setting(node, "extruder"));
+    for (const pugi::xml_node& volume : node.children("volume")) {
+      std::string_view kind = setting(volume, "volume_type");
+      if (kind.empty() && setting(volume, "modifier") == "1") kind = "ParameterModifier";
+      object.volumes.push_back({xml_index(volume.attribute("firstid").value()),
+                                xml_index(volume.attribute("lastid").value()), part_of(volume, kind)});
+    }
+    for (const pugi::xml_node& part : node.children("part")) {
+      object.parts[xml_index(part.attribute("id").value())] =
+          part_of(part, part.attribute("subtype").value());
+    }
+  }
+  for (const pugi::xml_node& node : config.children("plate")) {
+    auto& plate = project.plates.emplace_back();
+    for (const pugi::xml_node& instance : node.children("model_instance")) {
+      plate.emplace(index_or_zero(setting(instance, "object_id")),
+                    index_or_zero(setting(instance, "instance_id")));
+    }
+  }
+}
+
+bool read_config(ZipArchive& archive, const std::string& name, const std::string& file,
+                 SlicerProject& project) {
+  std::optional<std::string> bytes = archive.content(name);
+  if (!bytes) return false;
+  pugi::xml_document document;
+  parse_xml(document, *bytes, file + ": " + name);
+  try {
+    read_objects(document.document_element(), project);
+  } catch (const Malformed& problem) {
+    throw ModelError(file, name, problem.what(), "save the project again");
+  }
+  return true;
+}
+
+void add_colour(SlicerProject& project, std::string_view text) {
+  if (project.colours.size() < most_filaments) project.colours.push_back(css_colour(text).value_or(""));
+}
+
+/// PrusaSlicer's settings are comments: "; extruder_colour = #FF8000;#0000FF". An extruder without a colour
+/// of its own has that of its filament.
+void read_prusa_colours(ZipArchive& archive, SlicerProject& project) {
+  const std::optional<std::string> text = archive.content("Metadata/Slic3r_PE.config");
+  if (!text) return;
+  const auto colours = [&](const std::string& key) {
+    std::vector<std::string> result;
+    const std::string start = "\n; " + key + " = ";
+    const auto found = ("\n" + *text).find(start);
+    if (found == std::string::npos) return result;
+    std::string_view line = std::string_view(*text).substr(found + start.size() - 1);
+    line = line.substr(0, line.find_first_of("\r\n"));
+    while (result.size() < most_filaments) {
+      const auto end = line.find(';');
+      result.push_back(css_colour(line.substr(0, end)).value_or(""));
+      if (end == std::string_view::npos) break;
+      line.remove_prefix(end + 1);
+    }
+    return result;
+  };
+  const auto extruders = colours("extruder_colour"), filaments = colours("filament_colour");
+  for (std::size_t i = 0; i < std::max(extruders.size(), filaments.size()); ++i) {
+    std::string colour = i < extruders.size() ? extruders[i] : "";
+    if (colour.empty() && i < filaments.size()) colour = filaments[i];
+    project.colours.push_back(colour);
+  }
+}
+
+void read_bambu_colours(ZipArchive& archive, SlicerProject& project) {
+  const std::optional<std::string> text = archive.content("Metadata/project_settings.config");
+  if (!text || text->size() > largest_settings) return;
+  const nlohmann::json settings = nlohmann::json::parse(*text, nullptr, false);
+  const auto list = settings.is_object() ? settings.find("filament_colour") : settings.end();
+  if (!settings.is_object() || list == settings.end() || !list->is_array()) return;
+  for (const nlohmann::json& colour : *list)
+    add_colour(project, colour.is_string() ? colour.get<std::string>() : "");
+}
+
+}  // namespace
+
+Tint SlicerProject::tint(std::size_t filament) const {
+  if (filament == 0) filament = 1;
+  return {filament <= colours.size() ? colours[filament - 1] : "",
+          {fmt::format("filament {}", filament), fmt::format("extruder {}", filament)}};
+}
+
+std::optional<SlicerProject> slicer_project(ZipArchive& archive, const std::string& file) {
+  SlicerProject project;
+  bool found = read_config(archive, "Metadata/Slic3r_PE_model.config", file, project);
+  read_prusa_colours(archive, project);
+  found = read_config(archive, "Metadata/model_settings.config", file, project) || found;
+  if (project.colours.empty()) read_bambu_colours(archive, project);
+  if (!found && project.colours.empty()) return std::nullopt;
+  return project;
+}
+
+}  // namespace unicursal::core

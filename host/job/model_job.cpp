@@ -1,0 +1,163 @@
+#include "host/job/model_job.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/picture/filaments.hpp"
+
+namespace unicursal::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double layer_per_nozzle = 0.5, highest_layer = 0.3;  ///< mm
+constexpr double bead_per_nozzle = 1.25;
+constexpr double step = 0.05;      ///< mm, to which these are rounded
+constexpr int drawing_layers = 5;  ///< in which a drawing is extruded
+constexpr int share_steps = 20;    ///< mixtures are tried in steps of 1/20
+
+double rounded(double length) {
+  return std::max(1.0, std::round(length / step)) * step;
+}
+
+/// As a basic string of TOML.
+std::string toml_text(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      result += fmt::format("\\u{:04X}", code);
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::string name_for(const fs::path& file, fs::path folder) {
+  if (folder.empty()) folder = ".";
+  const fs::path relative =
+      fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
+  const bool below = !relative.empty() && *relative.begin() != "..";
+  return (below ? relative : fs::absolute(file).lexically_normal()).string();
+}
+
+using Shares = std::vector<double>;
+
+/// All mixtures of so many feeders in steps of 1 / share_steps.
+void for_each_mixture(int feeders, int left, Shares& shares, const auto& visit) {
+  if (feeders == 1) {
+    shares.push_back(double(left) / share_steps);
+    visit(shares);
+    shares.pop_back();
+    return;
+  }
+  for (int n = 0; n <= left; ++n) {
+    shares.push_back(double(n) / share_steps);
+    for_each_mixture(feeders - 1, left - n, shares, visit);
+    shares.pop_back();
+  }
+}
+
+Shares mixture_near(const std::string& colour, int feeders) {
+  const unsigned long rgb = std::stoul(colour.substr(1), nullptr, 16);
+  Shares best, shares;
+  double least = 1e300;
+  for_each_mixture(std::min(feeders, int(picture::filaments.size())), share_steps, shares,
+                   [&](const Shares& tried) {
+                     const picture::Colour made = picture::mixed_filaments(tried);
+                     const double r = made.r - double(rgb >> 16), g = made.g - double(rgb >> 8 & 255),
+                                  b = made.b - double(rgb & 255);
+                     const double distance = r * r + g * g + b * b;
+                     if (distance < least) least = distance, best = tried;
+                   });
+  best.resize(std::size_t(feeders), 0);
+  return best;
+}
+
+Shares one_feeder(std::size_t which, int feeders) {
+  Shares shares(std::size_t(feeders), 0);
+  shares[which % shares.size()] = 1;
+  return shares;
+}
+
+/// A bare key of TOML that is not taken yet.
+std::string key_for(const std::string& select, std::set<std::string>& taken) {
+  std::string key;
+  for (const char c : select) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (plain) {
+      key += c;
+    } else if (!key.empty() && key.back() != '-') {
+      key += '-';
+    }
+    if (key.size() >= 24) break;
+  }
+  while (!key.empty() && key.back() == '-') key.pop_back();
+  if (key.empty()) key = "mixture";
+  std::string unique = key;
+  for (int n = 2; taken.contains(unique); ++n) unique = fmt::format("{}-{}", key, n);
+  taken.insert(unique);
+  return unique;
+}
+
+std::string head(const std::vector<fs::path>& files, const Profile& profile, const fs::path& folder,
+                 const core::ModelContents& model) {
+  const gcode::Printer& printer = profile.printer;
+  const double layer = std::min(highest_layer, rounded(layer_per_nozzle * printer.nozzle));
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(toml_text(name_for(file, folder)));
+  std::string text = "# Written by `unicursal new`. unicursal-job(5) explains all keys.\n";
+  text += "printer = " + toml_text(name_for(profile.file, folder)) + "\n\n[part]\n";
+  text +=
+      "file = " + (names.size() == 1 ? names.front() : fmt::format("[{}]", fmt::join(names, ", "))) + "\n";
+  if (model.drawing) {
+    text +=
+        fmt::format("height = {:.4g}        # mm, how far the drawing is extruded\n", drawing_layers * layer);
+  }
+  text += fmt::format("layer_height = {:.4g}  # mm\n", layer);
+  text +=
+      fmt::format("bead_width = {:.4g}   # mm, from fold to fold of the curve\n", usual_bead_width(printer));
+  text += "#perimeters = 1     # contours around the fill\n";
+  return text;
+}
+
+}  // namespace
+
+double usual_bead_width(const gcode::Printer& printer) {
+  return std::clamp(rounded(bead_per_nozzle * printer.nozzle), printer.bead_width_range[0],
+                    printer.bead_width_range[1]);
+}
+
+ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, const fs::path& folder) {
+  ModelJob job;
+  job.contents = core::inspect_model(files);
+  std::string zones, mixtures = "\n[mixture]           # shares of the feeders\n";
+  std::set<std::string> keys;
+  std::size_t uncoloured = 0;
+  for (const core::ZoneOffer& offer : job.contents.zones) {
+    const std::string key = key_for(offer.select, keys);
+    zones += fmt::format(
+        "\n[[zone]]\nselect = {}  # {:.4g} {}\npattern = \"isotropic\"  # or parallel, anisotropic, {{ angle "
+        "= 45 "
+        "}}\nmixture = \"{}\"\n",
+        toml_text(offer.select), offer.amount,
+        job.contents.drawing ? "mm²" : (offer.paint ? "mm³ of paint" : "mm³"), key);
+    const Shares shares = offer.colour.empty() ? one_feeder(uncoloured++, profile.printer.feeders)
+                                               : mixture_near(offer.colour, profile.printer.feeders);
+    std::vector<std::string> words;
+    for (const double share : shares) words.push_back(fmt::format("{:.2f}", share));
+    mixtures += fmt::format("{} = [{}]\n", key, fmt::join(words, ", "));
+  }
+  job.text = head(files, profile, folder, job.contents) + zones + mixtures;
+  return job;
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,109 @@
+// Commands on models, run as real processes.
+#include <catch2/catch.hpp>
+
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal {
+namespace {
+
+using Catch::Matchers::Contains;
+using test::Outcome;
+using test::run;
+using test::TempFolder;
+
+/// Two boxes of 8 x 8 x 1 mm, one of them `gap` mm above the other, as facets of an STL file.
+std::string boxes(double gap) {
+  std::string text = "solid two\n";
+  for (const double z : {0.0, 1 + gap}) {
+    static constexpr const char* facets[] = {"023", "031", "457", "476", "015", "054",
+                                             "267", "273", "046", "062", "137", "175"};
+    for (const char* facet : facets) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (int k = 0; k < 3; ++k) {
+        const int corner = facet[k] - '0';
+        text += "vertex " + std::to_string(corner % 2 * 8) + ' ' + std::to_string(corner / 2 % 2 * 8) + ' ' +
+                std::to_string(z + corner / 4) + '\n';
+      }
+      text += "endloop\nendfacet\n";
+    }
+  }
+  return text + "endsolid\n";
+}
+
+}  // namespace
+
+TEST_CASE("A model is printed without a job") {
+  const TempFolder folder;
+  const std::string model = folder.write("plate.svg", test::sample_drawing).string();
+  const std::string profile = folder.write("bench.toml", test::sample_profile).string();
+  const Outcome with = run({"dry-run", model, "--profile", profile, "--layers", "0:0"});
+  INFO(with.err);
+  CHECK(with.code == 0);
+  CHECK(with.err.find("note:") == std::string::npos);
+  const Outcome without = run({"plan", model, "--layers", "0:0", "-o", (folder / "plate.gcode").string()});
+  CHECK(without.code == 0);
+  CHECK_THAT(without.err, Contains("note: no profile is named"));
+  CHECK(test::read_text(folder / "plate.gcode").find("G1 ") != std::string::npos);
+}
+
+TEST_CASE("print asks for a job, which is kept with the print") {
+  const TempFolder folder;
+  const Outcome outcome = run({"print", folder.write("plate.svg", test::sample_drawing).string()});
+  CHECK(outcome.code == 2);
+  CHECK_THAT(outcome.err, Contains("unicursal new"));
+}
+
+TEST_CASE("inspect lists what zones can select, what was mended, and whether it fits") {
+  const TempFolder folder;
+  const std::string profile = folder.write("bench.toml", test::sample_profile).string();
+  const Outcome drawing =
+      run({"inspect", folder.write("plate.svg", test::sample_drawing).string(), "--profile", profile});
+  CHECK(drawing.code == 0);
+  CHECK_THAT(drawing.out, Contains("20 x 16 mm") && Contains("\"#0000ff\"  192 mm²") &&
+                              Contains("\"#ff0000\"  128 mm²") && Contains("fits:    yes"));
+  const Outcome mesh = run({"inspect", folder.write("two.stl", boxes(-0.5)).string(), "--profile", profile});
+  CHECK(mesh.code == 0);
+  CHECK_THAT(mesh.out,
+             Contains("8 x 8 x 1.5 mm") && Contains("\"body 2\"  64 mm³") && Contains("mended:  nothing"));
+  const Outcome large = run({"inspect",
+                             folder
+                                 .write("large.svg",
+                                        "<svg xmlns='http://www.w3.org/2000/svg' width='300mm' "
+                                        "height='9mm' viewBox='0 0 300 9'><rect width='300' "
+                                        "height='9'/></svg>")
+                                 .string(),
+                             "--profile", profile});
+  CHECK(large.code == 2);
+  CHECK_THAT(large.out, Contains("fits:    no"));
+}
+
+TEST_CASE("new writes a job that plans, and never over a file") {
+  const TempFolder folder;
+  folder.write("bench.toml", test::sample_profile);
+  const std::string model = folder.write("plate.svg", test::sample_drawing).string(),
+                    job = (folder / "job.toml").string();
+  const std::vector<std::string> command{"new", model,       "-o",
+                                         job,   "--profile", (folder / "bench.toml").string()};
+  const Outcome outcome = run(command);
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK_THAT(outcome.out, Contains("2 zones"));
+  CHECK_THAT(test::read_text(job), Contains("printer = \"bench.toml\"") && Contains("file = \"plate.svg\""));
+  CHECK(run({"plan", job, "--layers", "0:0", "-o", (folder / "x.gcode").string()}).code == 0);
+  CHECK(run(command).code == 2);
+  CHECK(run({"new", (folder / "bench.toml").string(), "-o", (folder / "other.toml").string()}).code == 2);
+}
+
+TEST_CASE("What begins in the air is told with its layer and place") {
+  const TempFolder folder;
+  const std::string profile = folder.write("bench.toml", test::sample_profile).string();
+  const Outcome outcome = run({"plan", folder.write("two.stl", boxes(2)).string(), "--profile", profile, "-o",
+                               (folder / "x.gcode").string()});
+  CHECK(outcome.code == 0);
+  CHECK_THAT(outcome.err,
+             Contains("layers are empty from layer 3 on") && Contains("begins in the air at z = 3.00 mm"));
+}
+
+}  // namespace unicursal
