@@ -13,6 +13,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/model/read_part.hpp"
 #include "host/files/descriptor.hpp"
 #include "host/files/state_home.hpp"
 #include "host/files/whole_file.hpp"
@@ -142,8 +143,13 @@ class Copies {
 
   /// Returns the copy's name below the folder.
   std::string add(const fs::path& file) {
+    ++count_;
+    return add_beside(file);
+  }
+  /// The same, beside the copy that was made last.
+  std::string add_beside(const fs::path& file) {
     check_text("a file of the job", file.filename().string());
-    const fs::path name = fs::path(std::to_string(count_++)) / file.filename();
+    const fs::path name = fs::path(std::to_string(count_ - 1)) / file.filename();
     const fs::path copy = folder_ / name;
     std::error_code error;
     for (const fs::path& folder : {folder_, copy.parent_path()}) {
@@ -175,7 +181,10 @@ json copies_of(const Job& job, const fs::path& folder) {
   Copies copies(folder / "job");
   const JobInputs inputs = files_of(job);
   json files = {{"job", copies.add(inputs.job)}, {"profile", copies.add(inputs.profile)}};
-  for (const fs::path& file : inputs.models) files["models"].push_back(copies.add(file));
+  for (const fs::path& model : inputs.models) {
+    files["models"].push_back(copies.add(model));
+    for (const fs::path& file : core::companion_files(model)) copies.add_beside(file);
+  }
   for (const fs::path& file : inputs.fields) {
     files["fields"].push_back(file.empty() ? "" : copies.add(file));
   }
