@@ -29,7 +29,7 @@ class Serve final : public Command {
         .check(integer_between(64, most_megabytes));
     add_value(app, "--check-time", time_, "S",
               "Time in which an uploaded job must have been read. Default: 20.")
-        .check(integer_between(1, 86400));
+        .check(integer_between(1, longest_check));
     declare_state(app, state_);
     declare_spool(app, daemon.spool);
     declare_pause_heat(app, daemon.pause_heat);
@@ -56,6 +56,7 @@ class Serve final : public Command {
 
  private:
   static constexpr std::uint64_t most_megabytes = 1 << 24;
+  static constexpr std::uint64_t longest_check = 600;  ///< s; the commands wait a little longer
 
   ServeOptions options_;
   std::optional<std::filesystem::path> state_;

@@ -17,7 +17,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto patience = 30s;
+constexpr std::chrono::seconds patience = 30s;
+constexpr std::chrono::seconds checking_patience =
+    610s;  ///< for a job that is checked as long as --check-time allows at most
 constexpr std::size_t longest_answer = 16 * 1024 * 1024;  ///< bytes
 
 using Local = asio::local::stream_protocol;
@@ -32,7 +34,8 @@ bool connect(Local::socket& socket, const std::filesystem::path& state) {
 }
 
 /// Sends, and reads until the server closes the connection. Throws asio::system_error.
-std::string talk(const std::filesystem::path& state, const std::string& request) {
+std::string talk(const std::filesystem::path& state, const std::string& request,
+                 std::chrono::seconds longest) {
   asio::io_context loop;
   Local::socket socket(loop);
   if (!connect(socket, state)) throw asio::system_error(asio::error::connection_refused);
@@ -42,7 +45,7 @@ std::string talk(const std::filesystem::path& state, const std::string& request)
   // An answer may come before everything is sent, so both happen at once.
   asio::async_write(socket, asio::buffer(request), [](const asio::error_code&, std::size_t) {});
   asio::async_read(socket, asio::dynamic_buffer(answer, longest_answer), asio::transfer_all(), finished);
-  loop.run_for(patience);
+  loop.run_for(longest);
   if (!loop.stopped()) throw asio::system_error(asio::error::timed_out);
   if (problem && problem != asio::error::eof && answer.empty()) throw asio::system_error(problem);
   return answer;
@@ -89,7 +92,8 @@ Answer Client::exchange(const std::string& method, const std::string& path, cons
       method, path, type, body.size());
   const std::string socket = (state_ / "socket").string();
   try {
-    return parse_answer(talk(state_, request + body),
+    const bool checked = method == "POST" && path == "/api/jobs";
+    return parse_answer(talk(state_, request + body, checked ? checking_patience : patience),
                         {socket, "", "the program that answers there is not a unicursal daemon",
                          "end it, and start one with `unicursal serve`"});
   } catch (const asio::system_error& error) {

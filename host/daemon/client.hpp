@@ -20,7 +20,8 @@ class Client {
   /// Absent if no daemon runs there.
   static std::optional<Client> find(const std::filesystem::path& state);
 
-  /// Blocks for at most half a minute. Throws DaemonError if there is no answer, or another program answers.
+  /// Blocks for at most half a minute, or ten minutes while a job is checked. Throws DaemonError if there is
+  /// no answer, or another program answers.
   Answer ask(const std::string& method, const std::string& path) const;
   Answer ask(const std::string& method, const std::string& path, const nlohmann::json& body) const;
   Answer send_file(const std::string& path, const std::string& bytes) const;
