@@ -166,6 +166,25 @@ class Builder {
   bool by_file_ = false;
 };
 
+/// STL and OBJ files do not say their unit. A part that is too small for any bead was probably drawn in
+/// another one.
+void warn_of_unit(const std::vector<std::filesystem::path>& files, const Eigen::Vector3d& size,
+                  Warnings& warnings) {
+  constexpr double smallest = 3;  // mm
+  const auto names_no_unit = [](const std::filesystem::path& file) {
+    const std::string ending = lower(file.extension().string());
+    return ending == ".stl" || ending == ".obj";
+  };
+  if (size.maxCoeff() >= smallest || !std::all_of(files.begin(), files.end(), names_no_unit)) return;
+  const bool metres = 25.4 * size.maxCoeff() < smallest;
+  const Eigen::Vector3d real = (metres ? 1000 : 25.4) * size;
+  warnings.add(
+      fmt::format("the part is only {:.3g} x {:.3g} x {:.3g} mm; if its file is in {}, so that it should be "
+                  "{:.4g} x {:.4g} x "
+                  "{:.4g} mm, export it in millimetres",
+                  size.x(), size.y(), size.z(), metres ? "metres" : "inches", real.x(), real.y(), real.z()));
+}
+
 }  // namespace
 
 std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
@@ -175,6 +194,7 @@ std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
   Builder builder(source, warnings);
   for (const std::filesystem::path& file : source.files) builder.add_file(file);
   builder.finish();
+  warn_of_unit(source.files, builder.box.sizes(), warnings);
   const LayerStack stack =
       layers_of_mesh(builder.box.sizes().z(), source.layer_height, source.first_layer_height);
   return std::make_unique<MeshPart>(std::move(builder.objects), builder.box, stack, source.zones,

@@ -145,6 +145,18 @@ TEST_CASE("a mesh that lacks its lid is printed, with a note") {
   CHECK_THAT(p->warnings().at(0), Contains("closed, the largest of"));
 }
 
+TEST_CASE("a part that is too small for a bead is suspected to be in another unit") {
+  const TempFolder folder;
+  const auto said = [&](double size) {
+    const auto file = folder.write("box.stl", binary_stl(box_mesh({0, 0, 0}, {size, size, size / 2})));
+    const auto p = part({file}, {"box"}, 0.002);
+    return p->warnings().empty() ? std::string() : p->warnings().front();
+  };
+  CHECK_THAT(said(0.7874), Contains("in inches") && Contains("20 x 20 x 10 mm"));
+  CHECK_THAT(said(0.02), Contains("in metres") && Contains("20 x 20 x 10 mm"));
+  CHECK(said(3).empty());
+}
+
 TEST_CASE("a solid inside a solid of the same file does not hollow it") {
   const TempFolder folder;
   const Mesh both = joined(box_mesh({0, 0, 0}, {20, 20, 3}), box_mesh({5, 5, 0}, {15, 15, 3}));
