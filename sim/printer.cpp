@@ -104,13 +104,17 @@ void Printer::strike(const Fault& fault) {
       return nozzle.break_down(now_, Heater::Defect::open);
     case FaultKind::bed_failure:
       return firmware_->bed().break_down(now_, Heater::Defect::open);
+    case FaultKind::unguarded:
+      nozzle.leave_unguarded();
+      return firmware_->bed().leave_unguarded();
     case FaultKind::runaway:
       return nozzle.break_down(now_, Heater::Defect::closed);
     case FaultKind::thermistor:
       return nozzle.pull_thermistor(now_);
     case FaultKind::runout:
-      say("//action:out_of_filament T0");
-      return say("//action:paused filament_runout 0");
+      return firmware_->run_out("M600");  // the stock script
+    case FaultKind::filament_change:
+      return firmware_->run_out("M600 T0");
     case FaultKind::say:
       return say(fault.text);
     case FaultKind::fatal:

@@ -47,7 +47,7 @@ class Doctor final : public Command {
         .check(integer_between(300, 4'000'000));
     app.add_flag("--json", json_, "Write the findings as JSON.")->group("Output");
     declare_log(app, log_);
-    add_note(app, "Nothing moves and nothing heats. The exit code is 1 if a print would fail.");
+    add_note(app, "Nothing moves and nothing heats. The exit code is 2 if a print would be refused.");
     return app;
   }
   Exit run() override;
@@ -72,7 +72,7 @@ Exit Doctor::run() {
     show_json_text(stdout, to_json(found, list).dump(2));
   else
     show(stdout, "{}", in_words(found, list));
-  return has_trouble(list) ? Exit::failed : Exit::success;
+  return has_trouble(list) ? Exit::bad_input : Exit::success;
 }
 
 }  // namespace

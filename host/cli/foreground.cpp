@@ -82,8 +82,7 @@ Exit show_ending(const StreamResult& result, const DisplayOptions& display) {
     if (!result.reason.empty()) end["reason"] = result.reason;
     show_json_text(stdout, dump(end));
   } else if (result.ending == Ending::stopped) {
-    show(stdout, "stopped by the user; the printer is {}\n",
-         result.parked ? "parked and cooling" : "cooling");
+    show(stdout, "stopped; the printer is {}\n", result.parked ? "parked and cooling" : "cooling");
   }
   switch (result.ending) {
     case Ending::completed:

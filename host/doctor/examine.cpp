@@ -4,6 +4,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "firmware_gcode/reply/phrases.hpp"
 #include "host/engine/printer_check.hpp"
 #include "host/loop/signal.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr unsigned most_tools = 16;      ///< A print uses no more.
 constexpr int questions = 11;            ///< Questions to measure the answer time; odd, for the median.
 constexpr auto late_answers = 500ms;     ///< Wait after the ok of firmwares whose answer follows it.
 constexpr std::size_t most_lines = 500;  ///< Lines of an answer that are kept; M503 has about forty.
@@ -71,6 +73,20 @@ class Interview {
     co_return std::move(heard_);
   }
 
+  /// Returns the number of virtual tools, up to `most`. A Marlin refuses a tool that it does not have.
+  asio::awaitable<unsigned> tools(unsigned most) {
+    unsigned count = most;
+    for (; count > 1; --count) {
+      const std::vector<std::string> answer = co_await ask("T" + std::to_string(count - 1));
+      const bool denied = std::any_of(answer.begin(), answer.end(), [](const std::string& line) {
+        return gcode::meaning_of(line) == gcode::Meaning::no_such_tool;
+      });
+      if (!denied) break;
+    }
+    co_await ask("T0");
+    co_return count;
+  }
+
   /// Returns whether the printer knows the command.
   asio::awaitable<bool> knows(std::string line) {
     const std::vector<std::string> answer = co_await ask(std::move(line));
@@ -128,6 +144,8 @@ asio::awaitable<Examination> examine(Link& link, asio::any_io_executor executor,
   co_await interview.connect();
   found.reset_by_opening = interview.heard("start");
   found.mixes = co_await interview.knows(mixing_question);
+  if (found.mixes && link.identity().family == gcode::Family::marlin)
+    found.tools = co_await interview.tools(most_tools);
   found.shuts_down = co_await interview.knows("M85 S0");
   found.tells_settings = co_await interview.knows("M503 S0");
   if (found.tells_settings) {

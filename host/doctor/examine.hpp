@@ -1,7 +1,7 @@
 // Finds out a printer's firmware and abilities by asking it. The questions move nothing, heat nothing and
-// change no setting: M115, M503, M105, and forms of M163 and M85 without effect (M163 for a feeder that does
-// not exist; M85 S0, which is the default of every firmware and the end of every job). mm, mm/s, mm/s², °C,
-// s.
+// change no setting: M115, M503, M105, T (the tool is then T0 again), and forms of M163 and M85 without
+// effect (M163 for a feeder that does not exist; M85 S0, which is the default of every firmware and the end
+// of every job). mm, mm/s, mm/s², °C, s.
 #pragma once
 
 #include <array>
@@ -30,6 +30,7 @@ struct Examination {
   std::optional<PrinterQueues> queues;  ///< nullopt without ADVANCED_OK.
   bool reset_by_opening = false;        ///< Whether the board has said "start".
   bool mixes = false;                   ///< Whether it knows M163.
+  std::optional<unsigned> tools;        ///< Its virtual tools, up to 16; nullopt if it cannot be asked.
   bool shuts_down = false;              ///< Whether it knows M85.
   bool tells_settings = false;          ///< Whether it knows M503.
   MachineSettings settings;

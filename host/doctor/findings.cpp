@@ -66,6 +66,15 @@ class Doctor {
     add_if(found_.mixes, Weight::trouble,
            "its feeders mix (it knows M163); it does not report how many there are, so check the profile",
            does_not_mix);
+    if (const auto few = lacks_feeders(found_.identity)) add(Weight::trouble, *few);
+    constexpr unsigned enough = 16;
+    if (found_.tools)
+      add_if(
+          *found_.tools >= enough, Weight::warning,
+          fmt::format("it has {} virtual tools for mixtures", *found_.tools),
+          fmt::format("it has only {} virtual tools: a print that needs more mixtures is refused; build its "
+                      "firmware with MIXING_VIRTUAL_TOOLS {}",
+                      *found_.tools, enough));
     const auto extruders = found_.identity.extruders.value_or(1);
     if (!found_.mixes && extruders > 1)
       add(Weight::note, fmt::format("it treats its feeders as {} separate extruders", extruders));
@@ -131,6 +140,9 @@ class Doctor {
            fmt::format("it takes {:.0f} ms to answer; if its cable has an FTDI chip, write 1 to "
                        "/sys/bus/usb-serial/devices/…/latency_timer",
                        1000 * found_.answer_seconds));
+    if (found_.identity.family == Family::repetier)
+      add(Weight::note,
+          "it takes some damaged lines without a word, so keep its cable short and away from motors");
     if (found_.reset_by_opening)
       add(Weight::note, "it has just started: opening its port resets it, or it has just been switched on");
   }
@@ -207,6 +219,7 @@ nlohmann::json to_json(const Examination& found, const std::vector<Finding>& fin
   if (who.version)
     json["version"] = fmt::format("{}.{}.{}", who.version->major, who.version->minor, who.version->patch);
   if (who.extruders) json["extruders"] = *who.extruders;
+  if (found.tools) json["virtual_tools"] = *found.tools;
   if (found.queues)
     json["queues"] = {{"moves", found.queues->planner_size}, {"commands", found.queues->commands_size}};
   if (found.temperatures.nozzle) json["nozzle_temperature"] = *found.temperatures.nozzle;

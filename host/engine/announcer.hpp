@@ -2,6 +2,7 @@
 // to the loop's thread.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <utility>
@@ -30,6 +31,11 @@ class Announcer {
   void explain(std::string reason) { reason_ = std::move(reason); }
   void event(SessionEvent::Kind kind, const std::string& text = {}) const;
   void notice(const std::string& sentence) const { event(SessionEvent::Kind::notice, sentence); }
+  /// A line from the printer. One that it repeats is shown once, then at the 10th, 100th … time, and with
+  /// its count when another follows.
+  void quote(const std::string& line);
+  /// The printer says nothing more.
+  void end_quotes();
   /// A notice that the status keeps; given once, however often it is repeated.
   void warn(const std::string& sentence);
 
@@ -38,6 +44,9 @@ class Announcer {
   SessionState state_ = SessionState::connecting;
   std::string reason_;
   std::vector<std::string> warnings_;
+  std::string quoted_;           ///< the printer's last line
+  std::size_t times_ = 0;        ///< that it has said it
+  std::size_t times_shown_ = 1;  ///< the count that was shown last
 };
 
 }  // namespace unicursal::host

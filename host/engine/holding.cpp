@@ -22,6 +22,8 @@ constexpr auto sign_of_life = 10s;
 constexpr auto idle_patience = 5s;
 /// How long a nozzle is kept hot during a pause: the plastic in it chars, and a hot nozzle is a danger.
 constexpr auto hot_patience = 15min;
+/// How long a firmware that has paused itself may be silent about it; Marlin repeats every 2 s that it waits.
+constexpr auto firmware_patience = 6s;
 constexpr auto look_interval = 2s;  ///< between looks whether what is missing has come
 
 std::vector<std::string> signs_of_life() {
@@ -31,14 +33,31 @@ std::vector<std::string> signs_of_life() {
 }  // namespace
 
 asio::awaitable<void> Holding::between_batches() {
-  co_await make_changes();
-  while (parts_.intent.pausing()) co_await hold();
+  co_await make_changes(false);
+  while (parts_.intent.pausing()) {
+    co_await hold();
+    co_await make_changes(false);
+  }
 }
 
-asio::awaitable<void> Holding::make_changes() {
-  while (!changes_.empty() && !parts_.intent.ends()) {
-    std::vector<std::string> lines(1, changes_.front());
-    changes_.pop_front();
+/// Both moves of a retraction must have the same flow factor, or the filament is not where it was.
+/// `drawn`: the filament is drawn back by lines that are not the print's.
+bool Holding::can_change(const std::string& line, bool drawn) const {
+  return !line.starts_with("M221") || (!drawn && parts_.printer.expected.drawn_back == 0);
+}
+
+bool Holding::change_due(bool drawn) const {
+  return std::any_of(changes_.begin(), changes_.end(),
+                     [&](const std::string& line) { return can_change(line, drawn); });
+}
+
+asio::awaitable<void> Holding::make_changes(bool drawn) {
+  while (!parts_.intent.ends()) {
+    const auto due = std::find_if(changes_.begin(), changes_.end(),
+                                  [&](const std::string& line) { return can_change(line, drawn); });
+    if (due == changes_.end()) co_return;
+    std::vector<std::string> lines(1, *due);
+    changes_.erase(due);
     parts_.printer.expected.run(lines.front());
     co_await parts_.places.interpose(std::move(lines));
   }
@@ -57,10 +76,12 @@ void Holding::report_position() {
 /// Before the first move there is nothing to go away from.
 asio::awaitable<void> Holding::hold() {
   const bool moving = !parts_.intent.paused_by_firmware() && parts_.printer.knows_position();
+  waits_until_ = now() + firmware_patience;
   co_await go_aside(parts_.intent.reason(), moving);
-  co_await wait_held();
+  const bool moved = co_await wait_held(moving);
   parts_.intent.end_pause();
-  co_await come_back(moving);
+  waited_ = false;
+  co_await come_back(moved);
 }
 
 /// Precondition: the printer is not in a wait for heat.
@@ -77,7 +98,7 @@ asio::awaitable<void> Holding::go_aside(std::string why, bool moving) {
     parts_.places.record_progress();
     parts_.places.record_aside();
   }
-  hot_until_ = now() + hot_patience;
+  hot_until_ = std::exchange(cool_soon_, false) ? now() : now() + hot_patience;
   parts_.announcer.enter(SessionState::paused, why);
 }
 
@@ -112,19 +133,48 @@ asio::awaitable<void> Holding::heat_again() {
   parts_.printer.may_wait_for_heat = false;
 }
 
-/// Returns when the pause ends. Changes that are requested meanwhile are made at once.
-asio::awaitable<void> Holding::wait_held() {
+/// Returns when the pause ends, whether the nozzle stands aside then. Changes that are requested meanwhile
+/// are made at once.
+asio::awaitable<bool> Holding::wait_held(bool aside) {
   const Intent& intent = parts_.intent;
   const auto& longest = parts_.settings.longest_pause;
   const TimePoint last = longest ? now() + duration(*longest) : TimePoint::max();
-  const std::function<bool()> ready = [&] { return !intent.paused() || !changes_.empty(); };
+  const std::function<bool()> ready = [&] { return !intent.paused() || change_due(aside); };
   while (intent.paused()) {
-    if (!co_await parts_.wake.wait(std::min(last, now() + sign_of_life), ready)) {
-      if (now() >= last) co_return;
-      if (!intent.paused_by_firmware()) co_await stay_aside(parts_.printer.knows_position());
+    const Duration look = intent.paused_by_firmware() ? Duration(look_interval) : Duration(sign_of_life);
+    if (!co_await parts_.wake.wait(std::min(last, now() + look), ready)) {
+      if (now() >= last) break;
+      if (intent.paused_by_firmware())
+        aside = co_await look_after_firmware();
+      else
+        co_await stay_aside(parts_.printer.knows_position());
     }
-    co_await make_changes();
+    co_await make_changes(aside);
   }
+  co_return aside;
+}
+
+/// A firmware that waits for a person reads nothing and says so. One that takes lines again has ended its
+/// wait, although its word for that is lost. One that has never waited stands on the part: some mixing builds
+/// of Marlin announce a change of filament and then refuse it ("M600 E stepper not specified"). Returns
+/// whether the nozzle has been taken aside.
+asio::awaitable<bool> Holding::look_after_firmware() {
+  if (parts_.link.waits_for_user()) waits_until_ = now() + firmware_patience;
+  const LinkStatistics& taken = parts_.link.statistics();
+  if (now() < waits_until_ || taken.acknowledged < taken.lines) co_return false;
+  co_await parts_.places.interpose(signs_of_life());
+  co_await parts_.link.drain();
+  if (!parts_.intent.paused()) co_return false;
+  if (waited_) {
+    parts_.announcer.notice("the printer has gone on by itself");
+    parts_.intent.end_pause();
+    co_return false;
+  }
+  parts_.intent.take_over();
+  const bool moving = parts_.printer.knows_position();
+  co_await go_aside(parts_.intent.reason() + "; since it did not wait, its nozzle was taken aside", moving);
+  --pauses_;  // it is the same one
+  co_return moving;
 }
 
 /// Lets the firmware know that this program is alive. If nobody comes for long, the nozzle cools until the
@@ -146,7 +196,7 @@ asio::awaitable<void> Holding::wait_for(const Need& need) {
   // Before the printer has answered there is nothing to be steered.
   const bool connected = parts_.announcer.state() != SessionState::connecting;
   const std::function<bool()> event = [&] {
-    return need.come() || intent.ends() || (connected && (intent.pausing() || !changes_.empty()));
+    return need.come() || intent.ends() || (connected && (intent.pausing() || change_due(false)));
   };
   while (!need.come() && !intent.ends()) {
     const TimePoint patient_until = now() + idle_patience;
@@ -173,7 +223,7 @@ asio::awaitable<void> Holding::wait_aside(const Need& need) {
     const bool paused = intent.paused_by_session();
     return moving ? need.come() && !paused : need.come() || paused;
   };
-  const std::function<bool()> event = [&] { return over() || !changes_.empty(); };
+  const std::function<bool()> event = [&] { return over() || change_due(moving); };
   waits_aside_ = moving;
   hot_until_ = now() + hot_patience;
   if (moving) co_await go_aside(need.why, true);
@@ -185,7 +235,7 @@ asio::awaitable<void> Holding::wait_aside(const Need& need) {
     }
     co_await parts_.wake.wait(next, event);
     if (parts_.announcer.state() == SessionState::connecting) continue;
-    co_await make_changes();
+    co_await make_changes(moving);
     if (now() < sign) continue;
     sign = now() + sign_of_life;
     co_await stay_aside(moving);
@@ -216,13 +266,25 @@ Refusal Holding::resume() {
   if (parts_.intent.ends()) return ends_already;
   if (waits_aside_ && !parts_.intent.pausing()) return "the print is waiting: " + parts_.announcer.reason();
   if (!parts_.intent.pausing() && !parts_.announcer.holds()) return "it is not paused";
+  if (parts_.intent.paused_by_firmware() && parts_.link.waits_for_user()) {
+    // It ends when the printer goes on; it may ask something else first.
+    let_printer_go_on();
+    parts_.announcer.notice("the printer was asked to go on");
+    return std::nullopt;
+  }
   end_pause();
   return std::nullopt;
 }
 
+/// It answers the printer's question, if there is one.
+void Holding::let_printer_go_on() {
+  parts_.printer.prompt.answered();
+  parts_.link.end_wait_for_user();
+}
+
 /// A pause that has not been carried out is forgotten.
 void Holding::end_pause() {
-  parts_.link.end_wait_for_user();
+  if (parts_.link.waits_for_user()) let_printer_go_on();
   if (parts_.intent.paused_by_firmware() || (parts_.announcer.holds() && !waits_aside_))
     parts_.intent.resume();
   else
@@ -237,18 +299,44 @@ Refusal Holding::change(const std::string& line) {
   return std::nullopt;
 }
 
-void Holding::pause_because_cold() {
+void Holding::pause_for_fault(const std::string& reason, bool cool) {
   if (over() || !parts_.intent.printing() || waits_aside_ || parts_.announcer.holds()) return;
-  parts_.intent.pause(
-      "the nozzle is too cold, so the printer refuses to push filament: check the heater before you resume, "
-      "and the part, since the last lines were not laid");
-  parts_.announcer.notice("Error: " + parts_.intent.reason());
+  cool_soon_ = cool;
+  parts_.intent.pause(reason);
+  parts_.announcer.notice("Error: " + reason);
   parts_.wake.notify();
 }
 
 void Holding::pause_for_printer(const std::string& reason, PausedBy by) {
   if (!over()) parts_.intent.pause(reason, by);
   parts_.wake.notify();
+}
+
+/// Before the printer has answered, and at the end, there is no print to be held. A nozzle that is to be
+/// parked does not wait for a person.
+void Holding::printer_waits() {
+  if (parts_.intent.ends()) return let_printer_go_on();
+  const SessionState state = parts_.announcer.state();
+  if (state == SessionState::connecting || over()) return;
+  if (!std::exchange(waited_, true)) wait_began_ = now();
+  const auto& longest = parts_.settings.longest_pause;
+  if (longest && now() >= wait_began_ + duration(*longest)) return let_printer_go_on();
+  HostPrompt& prompt = parts_.printer.prompt;
+  const bool asked = prompt.shown() && prompt.is_new();
+  parts_.intent.pause(prompt.shown() ? prompt.sentence() : "the printer waits for a person",
+                      PausedBy::firmware);
+  if (!parts_.intent.paused_by_firmware()) return;
+  if (asked || state != SessionState::paused)
+    parts_.announcer.enter(SessionState::paused, asked ? prompt.sentence() : parts_.intent.reason());
+  parts_.wake.notify();
+}
+
+void Holding::look_for_person() {
+  if (!parts_.printer.may_wait_for_heat || !waited_ || parts_.link.waits_for_user()) return;
+  waited_ = false;
+  if (!parts_.intent.paused_by_firmware()) return;
+  parts_.intent.end_pause();
+  parts_.announcer.enter(SessionState::heating);
 }
 
 void Holding::resume_for_printer() {

@@ -76,23 +76,32 @@ class Holding {
   Refusal resume();
   /// A G-code line for the printer; while it heats, the printer reads it only afterwards.
   Refusal change(const std::string& line);
-  /// The printer moves without extruding, line by line: the print is held and a person is called.
-  void pause_because_cold();
+  /// The printer does not lay what it is sent, or is about to: the print is held and a person is called.
+  /// `reason`: a sentence with the remedy. `cool`: the nozzle is not kept hot meanwhile.
+  void pause_for_fault(const std::string& reason, bool cool = false);
   /// The printer asks for a pause, or has paused itself (`by`).
   void pause_for_printer(const std::string& reason, PausedBy by);
   /// The printer asks for the end of a pause. No effect unless there is one.
   void resume_for_printer();
+  /// The printer reports that it waits for a person, or asks one.
+  void printer_waits();
+  /// Ends a pause in mid-heating, which the printer's own wait has caused, when that wait has ended.
+  void look_for_person();
 
  private:
-  asio::awaitable<void> make_changes();
+  asio::awaitable<void> make_changes(bool drawn);
+  bool can_change(const std::string& line, bool drawn) const;
+  bool change_due(bool drawn) const;
   asio::awaitable<void> hold();
-  asio::awaitable<void> wait_held();
+  asio::awaitable<bool> wait_held(bool aside);
+  asio::awaitable<bool> look_after_firmware();
   asio::awaitable<void> go_aside(std::string why, bool moving);
   asio::awaitable<void> come_back(bool moving);
   asio::awaitable<void> heat_again();
   asio::awaitable<void> stay_aside(bool moved);
   asio::awaitable<void> wait_aside(const Need& need);
   void end_pause();
+  void let_printer_go_on();
   void report_position();
   gcode::Pause pause_here() const;
   bool over() const;
@@ -104,6 +113,10 @@ class Holding {
   bool waits_aside_ = false;                ///< the nozzle stands aside since something is missing
   std::vector<std::string> way_aside_;      ///< lines that have led the nozzle away in a pause, and back
   bool cooled_ = false;                     ///< the nozzle was cooled while the print was held
+  bool waited_ = false;                     ///< in this pause the printer has said that it waits
+  TimePoint wait_began_{};                  ///< when it said so first
+  TimePoint waits_until_{};                 ///< until then it may still be in its own wait
+  bool cool_soon_ = false;                  ///< it is not kept hot in the next pause
   std::size_t pauses_ = 0;
 };
 

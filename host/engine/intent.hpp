@@ -48,6 +48,10 @@ class Intent {
   void end_pause() {
     if (pausing()) *this = Intent();
   }
+  /// The session takes the printer aside itself, since the firmware has not parked or does not wait.
+  void take_over() {
+    if (paused()) by_ = PausedBy::session;
+  }
   void stop(std::string reason) {
     if (!ends()) *this = Intent(Kind::stopped, std::move(reason), PausedBy::session);
   }

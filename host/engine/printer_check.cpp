@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <string_view>
 #include <variant>
 
 #include "core/error.hpp"
 #include "core/text/wording.hpp"
 #include "firmware_gcode/dialect/dialect_named.hpp"
+#include "firmware_gcode/print/mixture.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 
 namespace unicursal::host {
@@ -15,6 +19,32 @@ bool denies_mixing(const std::string& line) {
   const gcode::Reply reply = gcode::parse_reply(line);
   const auto* echo = std::get_if<gcode::reply::Echo>(&reply);
   return echo && echo->unknown_command && echo->text.find(mixing_question) != std::string::npos;
+}
+
+std::optional<unsigned> highest_tool(const std::vector<std::string>& lines) {
+  constexpr std::string_view stores = "M164 S";
+  std::optional<unsigned> highest;
+  for (const std::string& line : lines) {
+    unsigned tool = 0;
+    if (!line.starts_with(stores)) continue;
+    const auto [end, error] = std::from_chars(line.data() + stores.size(), line.data() + line.size(), tool);
+    if (error == std::errc()) highest = std::max(highest.value_or(tool), tool);
+  }
+  return highest;
+}
+
+std::string lacks_tools(unsigned highest) {
+  return fmt::format(
+      "it has fewer virtual tools than the {0} that this print needs; build its firmware with "
+      "MIXING_VIRTUAL_TOOLS {0}, or use fewer mixtures",
+      highest + 1);
+}
+
+std::optional<std::string> lacks_feeders(const gcode::Identity& printer) {
+  if (printer.family != gcode::Family::repetier || !printer.extruders) return std::nullopt;
+  if (*printer.extruders >= gcode::max_feeders) return std::nullopt;
+  return fmt::format("it has {} feeders and a print needs {}; set NUM_EXTRUDER in its firmware",
+                     *printer.extruders, gcode::max_feeders);
 }
 
 std::optional<std::string> dialect_of(gcode::Family family) {

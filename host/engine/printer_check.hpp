@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware_gcode/reply/identity.hpp"
 
@@ -17,6 +18,17 @@ bool denies_mixing(const std::string& line);
 /// A sentence with its remedy.
 inline constexpr auto does_not_mix =
     "its feeders do not mix: it does not know M163; build its firmware with MIXING_EXTRUDER";
+
+/// The highest virtual tool that lines define, by "M164 S5"; absent if they define none.
+std::optional<unsigned> highest_tool(const std::vector<std::string>& lines);
+/// Why a print that needs the tools up to `highest` cannot run, a sentence with its remedy. A Marlin with
+/// fewer answers T5 by "echo:T5 Invalid extruder" and keeps the tool that it had (Marlin 2.1,
+/// invalid_extruder_error()). Repetier selects T0 instead and does not say so; its VIRTUAL_EXTRUDER cannot be
+/// asked.
+std::string lacks_tools(unsigned highest);
+/// Why the feeders of a Repetier are too few, a sentence with its remedy; absent if they are enough, and for
+/// other firmwares: a Marlin that mixes counts all its feeders as one extruder.
+std::optional<std::string> lacks_feeders(const gcode::Identity& printer);
 
 /// The profile's word for a family of firmware; absent for families that this program does not support.
 std::optional<std::string> dialect_of(gcode::Family family);

@@ -23,7 +23,7 @@ void update(gcode::Temperatures& known, const gcode::Temperatures& reported) {
 Remark::Kind kind_of(const reply::Echo& echo, const std::string& line) {
   if (echo.unknown_command && denies_mixing(line)) return Remark::Kind::no_mixing;
   if (echo.unknown_command && echo.text.find("M85") != std::string::npos) return Remark::Kind::unknown_m85;
-  return Remark::Kind::other;
+  return echo.unknown_command ? Remark::Kind::unknown : Remark::Kind::other;
 }
 
 }  // namespace
@@ -42,7 +42,15 @@ Remark PrinterView::hear(const std::string& line) {
     halted = true;
     return {Remark::Kind::halted, error->text};
   }
-  if (gcode::meaning_of(line) == gcode::Meaning::too_cold) return {Remark::Kind::too_cold, line};
+  const auto meaning = gcode::meaning_of(line);
+  if (meaning == gcode::Meaning::too_cold) return {Remark::Kind::too_cold, line};
+  if (meaning == gcode::Meaning::too_long) return {Remark::Kind::too_long, line};
+  if (meaning == gcode::Meaning::no_such_tool) {
+    has_tools = false;
+    return {Remark::Kind::no_such_tool, line};
+  }
+  if (const auto* busy = std::get_if<reply::Busy>(&reply); busy && busy->for_user)
+    return {Remark::Kind::waits, line};
   if (const auto* action = std::get_if<reply::Action>(&reply)) return {Remark::Kind::action, action->text};
   if (const auto* echo = std::get_if<reply::Echo>(&reply)) {
     const Remark::Kind kind = kind_of(*echo, line);

@@ -7,6 +7,7 @@
 
 #include "firmware_gcode/interruption/modal_state.hpp"
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/link/host_prompt.hpp"
 
 namespace unicursal::host {
 
@@ -16,8 +17,12 @@ struct Remark {
     temperatures,  ///< it only reports temperatures
     unknown_m85,   ///< the firmware does not know M85: nothing cools it when this computer fails
     no_mixing,     ///< the firmware does not know M163
+    no_such_tool,  ///< it has fewer virtual tools
+    unknown,       ///< it does not know a command; `text`: its words
     too_cold,      ///< it drives on without extruding, since the nozzle is too cold
+    too_long,      ///< the same, since it takes the extrusion for a mistake
     action,        ///< `text`: what it asks for by "//action:"
+    waits,         ///< it waits for a person, and reads nothing until that ends
     halted,        ///< it has stopped itself; only a reset helps
     other          ///< a person may want to see it; the session does nothing
   };
@@ -34,8 +39,10 @@ struct PrinterView {
 
   gcode::Temperatures temperatures;  ///< as the printer last reported them, °C
   bool mixes = true;                 ///< false once the printer has denied it
+  bool has_tools = true;             ///< false once the printer has denied one
   bool halted = false;               ///< the firmware has said that it has stopped itself
   gcode::ModalState expected;        ///< its state after all lines of the print that were handed to the link
+  HostPrompt prompt;                 ///< what it asks a person
   std::string mixture;               ///< fed after those lines: name or shares; empty before the first
   bool may_wait_for_heat = false;    ///< it may be in a wait for heat, and read nothing until that ends
   bool must_not_move = false;        ///< it does not know where its nozzle is

@@ -22,7 +22,7 @@ std::optional<std::size_t> layer_at(const std::vector<gcode::LayerShare>& layers
 Progress Progress::resumed(std::size_t layers_kept) {
   Progress progress;
   progress.resumed_ = true;
-  progress.layers_kept_ = layers_kept;
+  progress.layers_kept_ = progress.layers_done_ = layers_kept;
   return progress;
 }
 
@@ -33,14 +33,24 @@ void Progress::replay(std::size_t layers_begun, double fraction) {
 }
 
 void Progress::end_replay() {
+  // What was withheld of the last layer follows with the next chunk.
+  if (replaying_) layers_done_ = measured_from_ = std::max<std::size_t>(layers_begun_ + 1, 1);
   replaying_ = false;
   fraction_ = 0;
+}
+
+void Progress::note_ends(const gcode::Chunk& chunk) {
+  if (chunk.layers.empty() && chunk.seconds > 0) ++layers_done_;
+  for (const gcode::LayerShare& share : chunk.layers) {
+    if (share.last) layers_done_ = std::max(layers_done_, share.layer + 1);
+  }
 }
 
 void Progress::begin_chunk(const gcode::Chunk& chunk, double flow) {
   chunk_seconds_ = chunk.seconds;
   chunk_layers_ = chunk.layers;
   measure_layers(chunk, flow);
+  note_ends(chunk);
   layers_begun_ = layer_at(chunk_layers_, 0).value_or(layers_begun_);
 }
 
@@ -51,7 +61,7 @@ void Progress::measure_layers(const gcode::Chunk& chunk, double flow) {
   for (const gcode::LayerShare& share : chunk.layers) {
     unfinished_seconds_ += share.seconds;
     if (!share.last) continue;
-    if (share.layer > 0) measured_seconds_ += unfinished_seconds_;
+    if (share.layer >= measured_from_) measured_seconds_ += unfinished_seconds_;
     unfinished_seconds_ = 0;
   }
 }
@@ -89,16 +99,16 @@ double Progress::seconds_left(const Ahead& ahead) const {
     return ahead.foretold(layers_begun_, ahead.layers).value_or(0) - fraction_ * this_layer;
   }
   const std::size_t sent = layers_sent_ + layers_ended_in_chunk();
-  const std::size_t done = layers_kept_ + sent;
+  const std::size_t done = layers_done_;
   if (const auto rest = ahead.foretold(done, ahead.layers)) {
-    const double foretold = ahead.foretold(std::max<std::size_t>(layers_kept_, 1), done).value_or(0);
+    const double foretold = ahead.foretold(std::min(measured_from_, done), done).value_or(0);
     const double stretch = foretold > 0 && measured_seconds_ > 0 ? measured_seconds_ / foretold : 1;
     return chunk_seconds_left() + std::max(stretch * *rest - unfinished_seconds_, no_time);
   }
   const std::size_t known = sent + ahead.waiting.layers;
   const double sum = seconds_sent_ + chunk_seconds_ + ahead.waiting.seconds;
   const double mean = known > 0 ? sum / static_cast<double>(known) : sum;
-  const std::size_t unknown = ahead.layers - std::min(ahead.layers, layers_kept_ + known);
+  const std::size_t unknown = ahead.layers - std::min(ahead.layers, done + ahead.waiting.layers);
   return chunk_seconds_left() + ahead.waiting.seconds + mean * static_cast<double>(unknown);
 }
 

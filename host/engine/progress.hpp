@@ -68,16 +68,20 @@ class Progress {
 
  private:
   void measure_layers(const gcode::Chunk& chunk, double flow);
+  void note_ends(const gcode::Chunk& chunk);
   std::size_t layers_ended_in_chunk() const;
 
   bool resumed_ = false;
-  std::size_t layers_kept_ = 0;   ///< in the spool when this session began
-  bool replaying_ = false;        ///< the lines that are sent come from the spool
-  std::size_t layers_begun_ = 0;  ///< layers before the one that is being sent
-  double fraction_ = 0;           ///< of the lines at hand that is sent
-  double seconds_sent_ = 0;       ///< of the chunks before this one
-  std::size_t layers_sent_ = 0;   ///< layers that ended in the chunks before this one
-  double chunk_seconds_ = 0;      ///< of the chunk that is being sent
+  /// Layers that have ended when this chunk has been sent. The chunk after kept ones ends a layer of theirs.
+  std::size_t layers_done_ = 0;
+  std::size_t measured_from_ = 1;  ///< the first layer that is measured whole
+  std::size_t layers_kept_ = 0;    ///< in the spool when this session began
+  bool replaying_ = false;         ///< the lines that are sent come from the spool
+  std::size_t layers_begun_ = 0;   ///< layers before the one that is being sent
+  double fraction_ = 0;            ///< of the lines at hand that is sent
+  double seconds_sent_ = 0;        ///< of the chunks before this one
+  std::size_t layers_sent_ = 0;    ///< layers that ended in the chunks before this one
+  double chunk_seconds_ = 0;       ///< of the chunk that is being sent
   std::vector<gcode::LayerShare> chunk_layers_;
   double unfinished_seconds_ = 0;  ///< sent or being sent, of a layer that ends in a later chunk
   double measured_seconds_ = 0;    ///< of the layers that have ended, without the print's first

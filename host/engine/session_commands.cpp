@@ -1,6 +1,7 @@
 // A session from outside: its public functions, and what the printer says.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,19 @@ constexpr auto stop_patience = 2s;  ///< for the printer to confirm an emergency
 constexpr double least_speed = 10, most_speed = 300;  ///< %
 constexpr double least_flow = 50, most_flow = 200;    ///< %
 
+constexpr auto too_cold =
+    "the nozzle is too cold, so the printer refuses to push filament: check the heater before you resume, "
+    "and the part, since the last lines were not laid";
+constexpr auto too_long =
+    "the printer takes an extrusion for a mistake, since it is longer than it allows, so it moves without "
+    "laying anything: raise EXTRUDE_MAXLENGTH in its firmware or correct the job, and check the part before "
+    "you resume";
+
+/// Repetier takes a numbered line that has lost its checksum.
+constexpr auto unchecked_damage =
+    "the line to the printer is disturbed, and its firmware takes some damaged lines without a word, which "
+    "this program cannot notice: look at the part, and use a better cable";
+
 /// nullopt if the value is within its limits.
 Refusal outside(const char* what, double value, double least, double most, const char* unit) {
   if (std::isfinite(value) && value >= least && value <= most) return std::nullopt;
@@ -31,18 +45,32 @@ Refusal outside(const char* what, double value, double least, double most, const
 void Session::State::hear(const std::string& line) {
   const Remark remark = printer.hear(line);
   if (remark.kind == Remark::Kind::temperatures) {
+    watch_heat();
+    holding.look_for_person();
     wake.notify();
     return announcer.event(SessionEvent::Kind::heat);
   }
-  announcer.event(SessionEvent::Kind::printer, line);
+  announcer.quote(line);
+  if (link.identity().family == gcode::Family::repetier && link.statistics().resends > 0)
+    announcer.warn(unchecked_damage);
   switch (remark.kind) {
     case Remark::Kind::unknown_m85:
       return announcer.warn(
           "this firmware does not know M85: if this computer fails in mid-print, nothing cools the printer");
     case Remark::Kind::too_cold:
-      return holding.pause_because_cold();
+      return holding.pause_for_fault(too_cold);
+    case Remark::Kind::too_long:
+      return holding.pause_for_fault(too_long);
     case Remark::Kind::action:
       return obey(remark.text);
+    case Remark::Kind::waits:
+      return holding.printer_waits();
+    case Remark::Kind::unknown:
+      // Later ones may be lines that noise has changed.
+      if (announcer.state() != SessionState::heating) break;
+      return announcer.warn("the printer does not know one of the lines that prepare it (" + remark.text +
+                            "): correct `start` in the profile's [gcode]");
+    case Remark::Kind::no_such_tool:
     case Remark::Kind::no_mixing:
     case Remark::Kind::halted:
       return wake.notify();
@@ -50,6 +78,14 @@ void Session::State::hear(const std::string& line) {
     case Remark::Kind::other:
       break;
   }
+}
+
+/// Only while it prints: waits for heat, pauses and the end have heat of their own.
+void Session::State::watch_heat() {
+  if (announcer.state() != SessionState::printing || printer.may_wait_for_heat) return heat_watch.rest();
+  const auto trouble =
+      heat_watch.note(clock->now(), printer.temperatures, printer.expected.nozzle, printer.expected.bed);
+  if (trouble) holding.pause_for_fault(trouble->why, trouble->what == HeatTrouble::hot);
 }
 
 /// Does what a firmware asks for by `//action:`.
@@ -60,7 +96,12 @@ void Session::State::obey(const std::string& action) {
   if (is("pause")) {
     holding.pause_for_printer("the printer has asked for a pause (" + action + ")", PausedBy::session);
   } else if (is("paused")) {
-    holding.pause_for_printer("the printer has paused itself", PausedBy::firmware);
+    holding.pause_for_printer(action == "paused" ? "the printer has paused itself"
+                                                 : "the printer has paused itself (" + action + ")",
+                              PausedBy::firmware);
+  } else if (printer.prompt.take(action)) {
+    if (printer.prompt.shown() && link.waits_for_user()) holding.printer_waits();
+    if (printer.prompt.buttons().size() > 1) announcer.notice(printer.prompt.sentence());
   } else if (is("resume") || is("resumed")) {
     holding.resume_for_printer();
   } else if (is("cancel") && !intent.ends() && !announcer.is_ending()) {
@@ -76,11 +117,14 @@ void Session::State::obey(const std::string& action) {
 void Session::State::stop(const std::string& reason) {
   intent.stop(reason);
   source.cancel();
+  if (link.waits_for_user()) holding.printer_waits();
   if (printer.may_wait_for_heat || link.waits_for_user()) link.cool_down();
   announcer.notice(
       printer.may_wait_for_heat
-          ? "stopping: heating ends; a second Ctrl-C or `stop` stops the printer at once"
-          : "stopping: the printer is parked and cooled; a second Ctrl-C or `stop` stops it at once");
+          ? "stopping, since " + reason +
+                ": heating ends; a second Ctrl-C or `stop` stops the printer at once"
+          : "stopping, since " + reason +
+                ": the printer is parked and cooled; a second Ctrl-C or `stop` stops it at once");
   wake.notify();
 }
 
@@ -112,6 +156,12 @@ asio::awaitable<StreamResult> Session::run() {
     error = std::current_exception();
   }
   if (state_->intent.aborted()) co_await state_->confirm_stop();
+  if (error && state_->intent.stopped() && state_->printer.may_wait_for_heat) {
+    // Nothing is laid while it heats, so a printer that has been stopped at once is stopped well.
+    co_await state_->confirm_stop();
+    state_->announcer.notice("the printer did not end its heating: it was " + state_->announcer.reason());
+    error = nullptr;
+  }
   co_return state_->conclude(error);
 }
 
@@ -154,8 +204,20 @@ Refusal Session::emergency_stop() {
   return std::nullopt;
 }
 
+/// What the nozzle would have to push with these factors, against the profile's max_flow.
+Refusal Session::State::too_much(double speed, double flow) const {
+  constexpr double rounding = 1.001;
+  const double pushed = source.flow() * speed * flow / 1e4, most = source.printer().max_flow;
+  if (pushed <= std::max(most, source.flow()) * rounding) return std::nullopt;
+  return fmt::format(
+      "a speed of {:g} % with a flow of {:g} % would push {:.3g} mm³/s through a nozzle whose max_flow is "
+      "{:g}; lower one of them",
+      speed, flow, pushed, most);
+}
+
 Refusal Session::set_speed(double percent) {
   if (const Refusal no = outside("a speed of", percent, least_speed, most_speed, "%")) return no;
+  if (const Refusal no = state_->too_much(percent, state_->printer.flow_percent)) return no;
   if (const Refusal no = state_->holding.change(fmt::format("M220 S{:.0f}", percent))) return no;
   state_->printer.speed_percent = std::round(percent);
   return std::nullopt;
@@ -163,6 +225,7 @@ Refusal Session::set_speed(double percent) {
 
 Refusal Session::set_flow(double percent) {
   if (const Refusal no = outside("a flow of", percent, least_flow, most_flow, "%")) return no;
+  if (const Refusal no = state_->too_much(state_->printer.speed_percent, percent)) return no;
   if (const Refusal no = state_->holding.change(fmt::format("M221 S{:.0f}", percent))) return no;
   state_->printer.flow_percent = std::round(percent);
   return std::nullopt;

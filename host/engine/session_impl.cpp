@@ -9,6 +9,7 @@
 #include <asio/post.hpp>
 #include <exception>
 
+#include "host/engine/kept_layers.hpp"
 #include "host/engine/printer_check.hpp"
 #include "host/engine/rejoining.hpp"
 #include "host/engine/seconds.hpp"
@@ -112,26 +113,43 @@ asio::awaitable<void> Session::State::begin() {
   if (continuation) spool->journal().begin_leg(*continuation->leg);
   co_await link.connect();
   check_firmware();
-  co_await check_mixing();
+  co_await check_abilities();
   if (spool) spool->supersede_others();
 }
 
 void Session::State::check_firmware() {
   const gcode::Identity& identity = link.identity();
   if (const auto why = mismatch(identity, source.printer().firmware)) {
-    result.unfit = true;
     const std::string remedy = settings.continuation
                                    ? "resume on the printer on which the print began, or print the job again"
                                    : correction(identity, settings.profile);
-    throw LinkError(fmt::format("this printer cannot be used: {}; {}", *why, remedy));
+    refuse(fmt::format("{}; {}", *why, remedy));
   }
+  if (const auto why = lacks_feeders(identity)) refuse(*why);
   if (const auto strange = strangeness(identity)) announcer.warn(*strange);
 }
 
-/// Some firmwares say ok when a line has come, and answer when they run it. What they answer to the second
-/// question comes behind what they say to the first.
-asio::awaitable<void> Session::State::check_mixing() {
-  std::vector<std::string> questions{mixing_question, "M105"};
+/// Nothing has heated or moved.
+void Session::State::refuse(const std::string& why) {
+  result.unfit = true;
+  throw LinkError("this printer cannot be used: " + why);
+}
+
+/// The lines that define the tools. A print that goes on has defined them already.
+std::vector<std::string> Session::State::first_lines() const {
+  return settings.continuation ? settings.continuation->leg->lead_in : source.start().lines;
+}
+
+/// Some firmwares say ok when a line has come, and answer when they run it. What they answer to the last
+/// question comes behind what they say to the others.
+asio::awaitable<void> Session::State::check_abilities() {
+  std::vector<std::string> questions{mixing_question};
+  const auto highest = highest_tool(first_lines());
+  if (highest && source.printer().firmware == "marlin") {
+    questions.push_back(fmt::format("T{}", *highest));
+    questions.emplace_back("T0");
+  }
+  questions.emplace_back("M105");
   printer.temperatures = {};
   co_await places.interpose(std::move(questions));
   co_await link.drain();
@@ -139,9 +157,8 @@ asio::awaitable<void> Session::State::check_mixing() {
     return !printer.mixes || printer.temperatures.nozzle || printer.temperatures.bed;
   };
   co_await wake.wait(clock->now() + late_answer, answered);
-  if (printer.mixes) co_return;
-  result.unfit = true;
-  throw LinkError(fmt::format("this printer cannot be used: {}", does_not_mix));
+  if (!printer.mixes) refuse(does_not_mix);
+  if (!printer.has_tools) refuse(lacks_tools(*highest));
 }
 
 asio::awaitable<void> Session::State::rejoin() {
@@ -185,6 +202,7 @@ asio::awaitable<void> Session::State::send_spooled() {
   const Leg& leg = settings.continuation->leg ? *settings.continuation->leg : spool->before().leg;
   const std::uint64_t hot = leg.lead_in.empty() ? spool->extent().start_lines : heat_lines(leg.lead_in);
   LegReader reader(spool->chunks(), leg, places.begin());
+  const KeptLayers layers(spool->chunks());
   printer.expected = state_at(spool->chunks(), leg, places.begin());
   bool& heating = printer.may_wait_for_heat;
   heating = places.begin() < hot;
@@ -197,7 +215,8 @@ asio::awaitable<void> Session::State::send_spooled() {
     std::vector<std::string> lines =
         reader.next(heating ? std::min<std::uint64_t>(batch, hot - places.next()) : batch);
     if (lines.empty()) break;
-    progress.replay(reader.layers_begun(), reader.fraction());
+    const std::uint64_t line = leg.line(places.next());
+    progress.replay(layers.before(line), layers.fraction(line));
     printer.mixture = reader.mixture();
     co_await send_batch(std::move(lines));
     if (heating && places.next() >= hot) co_await get_hot();
@@ -278,7 +297,8 @@ void Session::State::report_position() {
 asio::awaitable<void> Session::State::finish() {
   if (settings.continuation && spool->extent().finished) {
     result.parked = true;
-    co_return co_await link.drain();
+    co_await link.drain();
+    co_return co_await end_reports();
   }
   gcode::Chunk chunk;
   try {
@@ -298,6 +318,15 @@ asio::awaitable<void> Session::State::finish() {
   co_await send(chunk);
   co_await link.drain();
   places.record_progress();
+  co_await end_reports();
+}
+
+/// The next program that opens the port may not expect temperatures that it has not asked for.
+asio::awaitable<void> Session::State::end_reports() {
+  if (settings.link.temperatures.count() == 0 || !link.identity().can("AUTOREPORT_TEMP")) co_return;
+  std::vector<std::string> lines(1, "M155 S0");
+  co_await places.interpose(std::move(lines));
+  co_await link.drain();
 }
 
 /// Ends the print before its last layer: these lines do not belong to the print.
@@ -322,6 +351,7 @@ asio::awaitable<void> Session::State::send_end(gcode::Chunk chunk) {
   result.parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
   co_await send(chunk);
   co_await link.drain();
+  co_await end_reports();
 }
 
 asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
@@ -347,6 +377,7 @@ asio::awaitable<void> Session::State::send_batch(std::vector<std::string> lines)
 }
 
 StreamResult Session::State::conclude(const std::exception_ptr& error) {
+  announcer.end_quotes();
   result.statistics = link.statistics();
   result.firmware = link.firmware();
   result.pauses = holding.pauses();

@@ -5,6 +5,7 @@
 //   Intent       whether the print goes on, is held, or ends
 //   Progress     layers, seconds and per cent
 //   PrinterView  what is known about the printer
+//   HeatWatch    whether nozzle and bed keep their heat
 //   PlaceKeeper  hands lines to the link, and keeps the journal
 //   Holding      pauses, waits and changes
 //   Announcer    state, warnings and events
@@ -21,6 +22,7 @@
 #include <vector>
 
 #include "host/engine/announcer.hpp"
+#include "host/engine/heat_watch.hpp"
 #include "host/engine/holding.hpp"
 #include "host/engine/intent.hpp"
 #include "host/engine/place_keeper.hpp"
@@ -41,7 +43,8 @@ struct Session::State {
   asio::awaitable<void> begin();
   asio::awaitable<void> rejoin();
   void check_firmware();
-  asio::awaitable<void> check_mixing();
+  asio::awaitable<void> check_abilities();
+  std::vector<std::string> first_lines() const;
   asio::awaitable<void> send_spooled();
   void begin_to_catch_up();
   asio::awaitable<void> catch_up();
@@ -53,6 +56,8 @@ struct Session::State {
   asio::awaitable<void> wait_until(TimePoint ready);
   asio::awaitable<void> finish();
   asio::awaitable<void> park();
+  asio::awaitable<void> end_reports();
+  [[noreturn]] void refuse(const std::string& why);
   asio::awaitable<void> send_end(gcode::Chunk chunk);
   asio::awaitable<void> send(const gcode::Chunk& chunk);
   asio::awaitable<void> send_batch(std::vector<std::string> lines);
@@ -66,9 +71,11 @@ struct Session::State {
 
   // What comes from outside (session_commands.cpp)
   void hear(const std::string& line);
+  void watch_heat();
   void obey(const std::string& action);
   void stop(const std::string& reason);
   asio::awaitable<void> confirm_stop();
+  Refusal too_much(double speed, double flow) const;
 
   // What is reported (session_status.cpp)
   SessionStatus status() const;
@@ -90,6 +97,7 @@ struct Session::State {
   Intent intent;
   Progress progress;
   PrinterView printer;
+  HeatWatch heat_watch;
   PlaceKeeper places;
   Holding holding;
 

@@ -12,6 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr auto answer_slack = 400ms;  ///< Beyond the estimated end of all moves; they brake at corners.
 constexpr auto boot_chatter = 500ms;  ///< Silence after which the firmware has finished booting.
 constexpr int most_losses = 8;        ///< Within `losses_within` lines; more halve the window.
 constexpr std::uint64_t losses_within = 200;
@@ -93,7 +94,7 @@ asio::awaitable<void> LinkState::greet() {
   if (numbering) numbering(ledger.next_to_number(), 0);
 }
 
-/// Tries twice; the print does not depend on the reports.
+/// Tries twice; then the link asks itself.
 asio::awaitable<void> LinkState::begin_reports() {
   if (options.temperatures.count() == 0) co_return;
   if (!identity.can("AUTOREPORT_TEMP")) {
@@ -106,6 +107,7 @@ asio::awaitable<void> LinkState::begin_reports() {
     write(fmt::format("M155 S{}\n", options.temperatures.count()));
     if (co_await until(answered, now() + std::min<Duration>(ask_again, options.silence))) co_return;
   }
+  ask_at = now() + options.temperatures;
 }
 
 // ---- rejoining
@@ -218,14 +220,14 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
   // Numbering restarts only after lines that are proven to be done.
   const auto used_up = [this] { return !holding && ledger.exhausted(); };
   const auto idle = [this] { return idle_words > 1; };
-  Duration expected{};  // a firmware that turns out to report that it is busy shortens the wait
+  TimePoint deadline;  // may become earlier, since lines were sent or the firmware reports that it is busy
   const std::function<bool()> due = [&] {
-    return asked || stranger || unproven() || used_up() || idle() || patience() != expected;
+    return asked || stranger || unproven() || used_up() || idle() || stall_deadline() < deadline;
   };
   try {
     for (;;) {
-      expected = patience();
-      co_await until(due, std::min(stall_deadline(), ask_at));
+      deadline = stall_deadline();
+      co_await until(due, std::min(deadline, ask_at));
       if (asked)
         co_await answer_resend();
       else if (stranger || unproven() || idle() || now() >= stall_deadline() || (used_up() && doubt))
@@ -240,6 +242,16 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
   }
 }
 
+/// A firmware without an emergency parser reads nothing while it waits for heat, and so does not see M108.
+asio::awaitable<void> LinkState::limit_wait([[maybe_unused]] std::shared_ptr<LinkState> self, TimePoint end) {
+  const std::function<bool()> over = [this] { return failure || !ledger.slow_in_flight(); };
+  if (co_await signal.wait(end, over)) co_return;
+  fail(
+      "the printer does not end its wait, since its firmware reads nothing meanwhile; it was stopped at "
+      "once");
+  emergency_stop();
+}
+
 Duration LinkState::patience() const {
   const bool reports =
       identity.can("BUSY_PROTOCOL") || (heard_busy && identity.family == gcode::Family::marlin);
@@ -248,7 +260,14 @@ Duration LinkState::patience() const {
 
 TimePoint LinkState::stall_deadline() const {
   if (!ledger.in_flight()) return now() + patience();
-  return std::min(last_life + patience(), ok_deadline());
+  return std::min({last_life + patience(), ok_deadline(), answer_deadline()});
+}
+
+/// Other firmwares say ok when a line has come, and report when they are idle.
+TimePoint LinkState::answer_deadline() const {
+  const bool timed = identity.family == gcode::Family::marlin && !waits_for_user;
+  if (!timed || !ledger.all_timed()) return TimePoint::max();
+  return std::max(last_life, moves_until) + answer_slack;
 }
 
 void LinkState::ask_temperatures() {
@@ -344,7 +363,7 @@ asio::awaitable<void> LinkState::resynchronise() {
     co_await quiet(options.quiet);
     probing = false;
     resume_from(*asked, true);
-    last_ok = waiting_since;  // the answer to a probe is not progress
+    last_ok = std::max(waiting_since, last_person);  // the answer to a probe is not progress
     co_return;
   }
   if (now() >= ok_deadline()) give_up(finishes_nothing);

@@ -40,7 +40,10 @@ std::string framed(std::uint32_t number, std::string_view command) {
 }
 
 void Ledger::number(std::string_view command, bool fence) {
-  lines_.push_back({framed(end(), command), is_query(command), is_slow(command), fence});
+  has_moved_ =
+      has_moved_ || command.starts_with("G0") || command.starts_with("G1") || command.starts_with("G28");
+  lines_.push_back({framed(end(), command), is_query(command), is_slow(command), fence,
+                    fence ? 0 : move_clock_.seconds(command)});
   if (!fence) ++numbered_;
 }
 
@@ -65,7 +68,27 @@ void Ledger::advance(std::uint32_t front) {
   leave_buffer(std::min(front, next_));
   for (; front_ < front; ++front_) {
     if (!line(front_).fence) ++acknowledged_;
+    fresh_seconds_ += line(front_).seconds.value_or(0);
   }
+}
+
+bool Ledger::all_timed() const {
+  for (std::uint32_t n = front_; n < next_; ++n) {
+    if (!line(n).seconds) return false;
+  }
+  return true;
+}
+
+double Ledger::queued_seconds() const {
+  constexpr int most_moves = 16;  // Marlin's BLOCK_BUFFER_SIZE
+  double sum = 0;
+  int moves = 0;
+  for (std::uint32_t n = front_; n > base_ && moves < most_moves; --n) {
+    const double seconds = line(n - 1).seconds.value_or(0);
+    sum += seconds;
+    if (seconds > 0) ++moves;
+  }
+  return sum;
 }
 
 void Ledger::leave_buffer(std::uint32_t front) {

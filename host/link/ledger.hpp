@@ -15,6 +15,8 @@
 #include <string_view>
 #include <utility>
 
+#include "host/link/move_clock.hpp"
+
 namespace unicursal::host {
 
 /// Returns "N5 G28*…\n" with the checksum of Marlin and Repetier: the XOR of all bytes before the '*'.
@@ -76,6 +78,14 @@ class Ledger {
   bool slow() const;
   /// The same without the acknowledged lines.
   bool slow_in_flight() const;
+  /// Whether a line has moved the printer.
+  bool has_moved() const { return has_moved_; }
+  /// Whether every line in flight takes a time that is known.
+  bool all_timed() const;
+  /// s of motion of the lines that were acknowledged since the last call.
+  double take_acknowledged_seconds() { return std::exchange(fresh_seconds_, 0); }
+  /// s of motion that the last acknowledged lines may still have left in the printer's queue of moves.
+  double queued_seconds() const;
   /// Drops the lines without a number; returns how many.
   std::size_t forget_waiting() { return std::exchange(waiting_, {}).size(); }
   /// Whether the oldest line in flight is a fence: plain oks are then late ones of earlier lines.
@@ -90,9 +100,10 @@ class Ledger {
  private:
   struct Line {
     std::string frame;
-    bool query = false;  ///< Whether it is an M105.
-    bool slow = false;   ///< Whether it can take long: M109, G28 and the like.
-    bool fence = false;  ///< Whether the link inserted it.
+    bool query = false;             ///< Whether it is an M105.
+    bool slow = false;              ///< Whether it can take long: M109, G28 and the like.
+    bool fence = false;             ///< Whether the link inserted it.
+    std::optional<double> seconds;  ///< How long it takes; absent if that is not known.
   };
 
   std::uint32_t end() const { return base_ + static_cast<std::uint32_t>(lines_.size()); }
@@ -113,6 +124,9 @@ class Ledger {
   std::uint32_t next_;     ///< The next line to write; before end() after a rewind.
   std::uint32_t counted_;  ///< The oldest line that may still be in the receive buffer.
   std::size_t bytes_in_buffer_ = 0;
+  MoveClock move_clock_;
+  bool has_moved_ = false;
+  double fresh_seconds_ = 0;
   std::uint64_t numbered_ = 0;
   std::uint64_t acknowledged_ = 0;
 };

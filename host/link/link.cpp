@@ -64,6 +64,7 @@ asio::awaitable<void> Link::send(std::vector<std::string> lines) {
   state->statistics.lines += lines.size();
   for (std::string& line : lines) state->ledger.push(std::move(line));
   state->pump();
+  state->signal.notify();  // the time by which an answer is due has changed
   const std::function<bool()> written = [state] { return state->ledger.all_written(); };
   co_await state->until(written);
 }

@@ -44,6 +44,11 @@ std::string_view consequence(std::string_view line) {
   return {};
 }
 
+Duration in_clock(double seconds) {
+  constexpr double longest = 1e6;  // s; no move takes longer
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(std::min(seconds, longest)));
+}
+
 bool is_plain_ok(const Reply& reply) {
   const auto* ok = std::get_if<reply::Ok>(&reply);
   return ok != nullptr && ok->temperatures.empty();
@@ -59,7 +64,9 @@ void LinkState::hear(std::string_view line) {
   std::visit([this](const auto& what) { take(what); }, reply);
   if (ends_in_ok(reply, line)) about_heat = false, take(reply::Ok{});
   if (probing && std::holds_alternative<reply::Error>(reply)) return;  // the expected answer to a probe
-  if (const auto why = consequence(line); !why.empty() && phase == Phase::streaming) {
+  // A printer is asked for its tools before anything moves.
+  const bool tolerated = !ledger.has_moved() && meaning_of(line) == Meaning::no_such_tool;
+  if (const auto why = consequence(line); !why.empty() && !tolerated && phase == Phase::streaming) {
     cool_down();
     fail(std::string(why) + " (" + core::printable(line) + ")");
   }
@@ -88,6 +95,8 @@ void LinkState::take(const reply::Ok& ok) {
     expected = ledger.acknowledge() || ledger.at_fence();
   if (!expected) doubt = true;
   statistics.acknowledged = ledger.acknowledged();
+  moves_until = std::max(moves_until, now()) + in_clock(ledger.take_acknowledged_seconds());
+  moves_until = std::min(moves_until, now() + in_clock(ledger.queued_seconds()));
 }
 
 void LinkState::note(const Temperatures& reported) {
@@ -159,7 +168,7 @@ void LinkState::take(const reply::Busy& busy) {
   last_life = now();
   heard_busy = true;
   waits_for_user = busy.for_user;
-  if (busy.for_user) last_ok = now();
+  if (busy.for_user) last_ok = last_person = now();
 }
 
 /// Repetier says "wait" every second in which it is idle. The first one may have crossed with lines in

@@ -23,6 +23,8 @@
 // - A Marlin that reports that it is busy is never silent for more than 2 s while it works, and an idle
 //   Repetier says "wait": both reveal a lost ok long before the deadline for other printers. A stock Marlin
 //   does not list Cap:BUSY_PROTOCOL; the link learns it from the first such report, which homing brings.
+// - A Marlin without that capability may be silent for as long as a move takes. The link knows how long the
+//   moves take that it has sent (host/link/move_clock.hpp), and probes soon after they must have ended.
 // - During a slow command (heating, probing the bed) a printer may be silent for minutes, or say only things
 //   like "Bed X: 10 Y: 10 Z: 0.1". It reads nothing meanwhile. The link probes, too, since the ok may be
 //   lost, but goes on waiting: the answer comes when the command is done.
@@ -41,6 +43,7 @@
 
 #include "firmware_gcode/reply/identity.hpp"
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/link/host_prompt.hpp"
 #include "host/link/ledger.hpp"
 #include "host/link/line_splitter.hpp"
 #include "host/link/link_types.hpp"
@@ -76,6 +79,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   void take(const gcode::reply::Firmware& firmware);
   void take(const gcode::reply::Capability& capability);
   void take(const gcode::reply::Echo& echo);
+  void take(const gcode::reply::Action& action) { prompt.take(action.text); }
   void take(const gcode::reply::Position& position);
   void take(const gcode::reply::Unknown& unknown);
   template <class Other>
@@ -93,6 +97,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   asio::awaitable<void> ask(std::string_view query, const std::function<bool()>& answered);
   void go_on(std::uint32_t next);
   asio::awaitable<void> supervise(std::shared_ptr<LinkState> self);
+  asio::awaitable<void> limit_wait(std::shared_ptr<LinkState> self, TimePoint end);
   asio::awaitable<void> ask_firmware();
   asio::awaitable<void> reset_numbers();
   asio::awaitable<void> begin_reports();
@@ -111,6 +116,8 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   /// Longest silence of a working printer; after it, the link probes.
   Duration patience() const;
   TimePoint stall_deadline() const;
+  /// Time by which a printer whose moves are all known must have answered.
+  TimePoint answer_deadline() const;
   TimePoint ok_deadline() const;  ///< Time by which an ok must have arrived, however busy the printer is.
   TimePoint now() const { return options.clock->now(); }
   bool settled() const { return ledger.settled() && !doubt && !holding; }
@@ -171,9 +178,12 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   bool about_heat = false;      ///< Whether the line that is being handled reports a temperature.
   bool heard_busy = false;      ///< Whether it has ever reported that it is busy.
   bool waits_for_user = false;  ///< According to the printer's last message.
+  HostPrompt prompt;            ///< What it asks a person.
   TimePoint last_ok = now();
-  TimePoint last_life = now();  ///< Time of the last ok or busy.
-  TimePoint last_line = now();  ///< Time of the last line of any kind.
+  TimePoint last_person = now();  ///< Time at which it last said that it waits for a person.
+  TimePoint last_life = now();    ///< Time of the last ok or busy.
+  TimePoint moves_until = now();  ///< Estimated end of the moves that were acknowledged.
+  TimePoint last_line = now();    ///< Time of the last line of any kind.
 };
 
 }  // namespace unicursal::host

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <asio/buffer.hpp>
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
 #include <asio/redirect_error.hpp>
 #include <asio/use_awaitable.hpp>
 
@@ -16,6 +18,7 @@ namespace {
 
 /// Number of waits for heat that a cool-down ends, one for each report of a wait: bed, nozzle, and those in
 /// the user's own lines. It is limited, since a firmware without M108 would only queue them.
+constexpr auto cooling_patience = std::chrono::seconds(30);  ///< Within which a slow command must end.
 constexpr int most_interruptions = 4;
 
 std::string lost(const asio::error_code& error) {
@@ -99,6 +102,7 @@ void LinkState::cool_down() noexcept {
     doubt = out_of_band = true;
     interruptions = most_interruptions;
     write("M108\nM104 S0\nM140 S0\n");
+    asio::co_spawn(executor, limit_wait(shared_from_this(), now() + cooling_patience), asio::detached);
     signal.notify();
   } catch (...) {
     // The numbered lines that end the print switch the heaters off as well.
@@ -111,7 +115,10 @@ void LinkState::end_wait_for_user() noexcept {
     waits_for_user = false;
     doubt = out_of_band = true;
     interruptions = most_interruptions;
-    write("M108\n");
+    // M108 does not end the wait for a choice.
+    const auto button = prompt.shown() ? prompt.going_on() : std::nullopt;
+    prompt.answered();
+    write(button ? "M876 S" + std::to_string(*button) + "\n" : "M108\n");
     signal.notify();
   } catch (...) {
     // The printer's own button can still end it.

@@ -546,7 +546,7 @@ std::string describe(const fs::path& folder) {
   const JournalState state = read_journal(journal_file(folder));
   std::string how = "interrupted";
   if (state.ended) {
-    constexpr std::array words{"completed", "stopped by the user", "failed"};
+    constexpr std::array words{"completed", "stopped", "failed"};
     how = words.at(static_cast<std::size_t>(state.ended->outcome));
   }
   return fmt::format("{}, {} layers, {} lines taken: {}", order.job_name, order.layer_count,

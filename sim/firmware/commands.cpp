@@ -12,7 +12,6 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double cold = 170;                                        // °C: below, nothing is extruded
 constexpr double longest_extrusion = 200;                           // mm of E in one move
 constexpr double homing_speed = 50, homing_speed_z = 4;             // mm/s
 constexpr double homing_way_back = 10, homing_touch_seconds = 1.5;  // least way, mm; second touch, s
@@ -47,6 +46,8 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
   static const std::map<std::pair<char, int>, Handler> table{
       {{'G', 0}, &F::move},
       {{'G', 1}, &F::move},
+      {{'G', 2}, &F::arc},
+      {{'G', 3}, &F::arc},
       {{'G', 4}, &F::dwell},
       {{'G', 20}, &F::inches},
       {{'G', 21}, &F::inches},
@@ -54,9 +55,15 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'G', 90}, &F::absolute},
       {{'G', 91}, &F::absolute},
       {{'G', 92}, &F::set_origin},
+      {{'M', 0}, &F::stop_for_person},
+      {{'M', 1}, &F::stop_for_person},
       {{'M', 17}, &F::nothing},
       {{'M', 18}, &F::motors_off},
+      {{'M', 31}, &F::print_time},
       {{'M', 73}, &F::nothing},
+      {{'M', 75}, &F::nothing},
+      {{'M', 76}, &F::nothing},
+      {{'M', 77}, &F::nothing},
       {{'M', 82}, &F::extruder_mode},
       {{'M', 83}, &F::extruder_mode},
       {{'M', 84}, &F::motors_off},
@@ -64,15 +71,18 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'M', 92}, &F::steps_per_mm},
       {{'M', 104}, &F::nozzle_target},
       {{'M', 105}, &F::report_temperatures},
-      {{'M', 106}, &F::nothing},
-      {{'M', 107}, &F::nothing},
+      {{'M', 106}, &F::fan},
+      {{'M', 107}, &F::fan},
       {{'M', 108}, &F::nothing},
       {{'M', 109}, &F::wait_nozzle},
       {{'M', 110}, &F::line_number},
       {{'M', 112}, &F::emergency_stop},
+      {{'M', 113}, &F::keepalive},
       {{'M', 114}, &F::report_position},
       {{'M', 115}, &F::report_firmware},
       {{'M', 117}, &F::nothing},
+      {{'M', 118}, &F::echo_text},
+      {{'M', 119}, &F::endstops},
       {{'M', 140}, &F::bed_target},
       {{'M', 155}, &F::auto_report},
       {{'M', 163}, &F::collect_share},
@@ -83,10 +93,19 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'M', 203}, &F::max_speeds},
       {{'M', 204}, &F::set_accelerations},
       {{'M', 205}, &F::jerks},
+      {{'M', 211}, &F::soft_endstops},
       {{'M', 220}, &F::feed_percent},
       {{'M', 221}, &F::flow_percent},
+      {{'M', 301}, &F::pid},
+      {{'M', 302}, &F::cold_extrusion},
       {{'M', 400}, &F::finish_moves},
       {{'M', 410}, &F::stop_moves},
+      {{'M', 500}, &F::store_settings},
+      {{'M', 501}, &F::load_settings},
+      {{'M', 502}, &F::load_settings},
+      {{'M', 503}, &F::report_settings},
+      {{'M', 600}, &F::change_filament},
+      {{'M', 876}, &F::nothing},
       {{'M', 999}, &F::go_on},
   };
   return table;
@@ -108,6 +127,7 @@ void Firmware::say_unknown(const std::string& body) {
 }
 
 bool Firmware::knows(const Command& command) const {
+  if (command.is('M', 155) && !personality_.capabilities) return false;
   return personality_.direct_mixing || !command.is('M', 165);
 }
 
@@ -118,12 +138,71 @@ void Firmware::move(const Command& command) {
     warn("a move was refused, since the firmware had stopped itself");
     return say_still_stopped();
   }
+  if (personality_.homes_first && refused_unhomed(command)) return;
   const MoveTarget target = coordinates_.target(command);
   if (target.held_at_edge) warn("a move beyond the bed was held at its edge");
   const double before = coordinates_.e();
   coordinates_.arrive(target);
   if (planner_.has_room()) return plan(target, target.e - before);
   wait_for_room([this, target, before] { plan(target, target.e - before); });
+}
+
+/// NO_MOTION_BEFORE_HOMING: the whole move is left out.
+bool Firmware::refused_unhomed(const Command& command) {
+  std::string missing;
+  constexpr std::array<Axis, 3> all{axis_x, axis_y, axis_z};
+  for (const Axis axis : all) {
+    if (command.has(axis_letters[axis]) && !coordinates_.homed(axis)) missing += axis_letters[axis];
+  }
+  if (missing.empty()) return false;
+  warn("a move was refused, since an axis had not been homed");
+  say(fmt::format("echo:Home {} First", missing));
+  return true;
+}
+
+/// G2 and G3 in the plane of the bed, by centre (I J) or radius (R), as chords of about 1 mm
+/// (MM_PER_ARC_SEGMENT). Without a centre Marlin reports an error.
+void Firmware::arc(const Command& command) {
+  const MoveTarget end = coordinates_.target(command);
+  const std::array<double, 3> from = coordinates_.place();
+  const double way_x = end.place[0] - from[0], way_y = end.place[1] - from[1];
+  const double side = command.code() == 2 ? -1 : 1;
+  double to_x = command.value_or('I', 0), to_y = command.value_or('J', 0);
+  if (const auto radius = command.value('R')) {
+    const double half = std::hypot(way_x, way_y) / 2;
+    const double height = std::sqrt(std::max(*radius * *radius - half * half, 0.0));
+    const double turn = side * (*radius > 0 ? 1 : -1) * height / std::max(2 * half, 1e-9);
+    to_x = way_x / 2 - turn * way_y;
+    to_y = way_y / 2 + turn * way_x;
+  }
+  const double radius = std::hypot(to_x, to_y);
+  if (stopped_ || radius < 1e-6) return say("Error:G2/G3 bad parameters");
+  const double begin = std::atan2(-to_y, -to_x);
+  double sweep = std::atan2(way_y - to_y, way_x - to_x) - begin;
+  constexpr double whole = 2 * 3.14159265358979323846;
+  while (side * sweep <= 1e-9) sweep += side * whole;
+  while (side * sweep > whole + 1e-9) sweep -= side * whole;
+  const double pieces = std::clamp(std::floor(radius * std::abs(sweep)), 1.0, 10000.0);
+  const double e = coordinates_.e();
+  std::vector<MoveTarget> targets;
+  for (double i = 1; i < pieces; ++i) {
+    const double share = i / pieces, angle = begin + share * sweep;
+    MoveTarget target = end;
+    target.place = {from[0] + to_x + radius * std::cos(angle), from[1] + to_y + radius * std::sin(angle),
+                    from[2] + share * (end.place[2] - from[2])};
+    target.e = e + share * (end.e - e);
+    targets.push_back(target);
+  }
+  targets.push_back(end);
+  run_arc(std::move(targets));
+}
+
+void Firmware::run_arc(std::vector<MoveTarget> pieces) {
+  for (const MoveTarget& piece : pieces) {
+    const double before = coordinates_.e();
+    coordinates_.arrive(piece);
+    wait_for_room([this, piece, before] { plan(piece, piece.e - before); });
+  }
 }
 
 void Firmware::plan(const MoveTarget& target, double e) {
@@ -140,7 +219,7 @@ void Firmware::plan(const MoveTarget& target, double e) {
 /// Returns the part of a move's E that is really fed: all, or 0 if extrusion is refused; x and y move anyway.
 double Firmware::filament_to_feed(double e) {
   if (e == 0) return 0;
-  if (nozzle_.temperature(now_) < cold) {
+  if (nozzle_.temperature(now_) < cold_) {
     warn("cold extrusion prevented");
     say_refused("cold extrusion prevented");
     return 0;
@@ -221,24 +300,31 @@ void Firmware::extruder_mode(const Command& command) {
 }
 void Firmware::set_origin(const Command& command) {
   coordinates_.shift_origin(command);
+  if (personality_.family == Personality::Family::marlin) say_position();
 }
 void Firmware::feed_percent(const Command& command) {
-  if (const auto percent = command.value('S')) coordinates_.set_feed_percent(*percent);
+  if (const auto percent = command.value('S')) return coordinates_.set_feed_percent(*percent);
+  say(fmt::format("FR:{:.0f}%", 100 * coordinates_.feed()));
 }
 void Firmware::flow_percent(const Command& command) {
-  if (const auto percent = command.value('S')) coordinates_.set_flow_percent(*percent);
+  if (const auto percent = command.value('S')) return coordinates_.set_flow_percent(*percent);
+  say(fmt::format("echo:E0 Flow: {:.0f}%", 100 * coordinates_.flow()));
 }
 void Firmware::accelerations(const Command& command) {
+  if (only_asks(command)) return;
   read_axes(command, least_acceleration, planner_.limits().max_acceleration);
 }
 void Firmware::max_speeds(const Command& command) {
+  if (only_asks(command)) return;
   read_axes(command, least_speed, planner_.limits().max_speed);
 }
 void Firmware::jerks(const Command& command) {
+  if (only_asks(command)) return;
   read_axes(command, least_jerk, planner_.limits().jerk);
 }
 
 void Firmware::set_accelerations(const Command& command) {
+  if (only_asks(command)) return;
   MotionLimits& limits = planner_.limits();
   read(command, 'S', least_acceleration, limits.print_acceleration);
   read(command, 'S', least_acceleration, limits.travel_acceleration);
@@ -249,6 +335,7 @@ void Firmware::set_accelerations(const Command& command) {
 
 /// Waits for motion to end (Marlin does not), so that no queued block changes its meaning.
 void Firmware::steps_per_mm(const Command& command) {
+  if (only_asks(command)) return;
   wait_until_still([this, command] {
     PerAxis<double>& ratios = planner_.limits().steps_per_mm;
     const PerAxis<double> before = ratios;
@@ -353,8 +440,17 @@ void Firmware::set_inactivity(const Command& command) {
   inactivity_ = std::max(0.0, command.value_or('S', 0));
 }
 
+/// It waits for all moves to end.
 void Firmware::report_position(const Command&) {
-  say_position();
+  wait_until_still([this] { say_position(); });
+}
+
+/// It also throws away what it has received and not read, and asks for it again.
+void Firmware::go_on(const Command&) {
+  stopped_ = false;
+  buffer_.flush();
+  say(fmt::format("Resend: {}", check_.last() + 1));
+  say("ok");
 }
 
 void Firmware::say_position() {
@@ -369,7 +465,9 @@ void Firmware::report_firmware(const Command&) {
   say("FIRMWARE_NAME:Marlin 2.1.2 (simulated) SOURCE_CODE_URL:none PROTOCOL_VERSION:1.0 "
       "MACHINE_TYPE:unicursal simulator EXTRUDER_COUNT:1 UUID:00000000-0000-0000-0000-000000000000");
   // As a stock Marlin 2.1.2 lists them. BUSY_PROTOCOL is not among them.
-  constexpr std::array can{"AUTOREPORT_TEMP", "PRINT_JOB", "HOST_ACTION_COMMANDS", "THERMAL_PROTECTION"};
+  std::vector<std::string_view> can{"AUTOREPORT_TEMP", "PRINT_JOB", "THERMAL_PROTECTION", "ARCS"};
+  if (personality_.emergency_parser) can.emplace_back("EMERGENCY_PARSER");
+  if (personality_.host_prompts) can.insert(can.end(), {"HOST_ACTION_COMMANDS", "PROMPT_SUPPORT"});
   for (const char* name : {"SERIAL_XON_XOFF",
                            "BINARY_FILE_TRANSFER",
                            "EEPROM",

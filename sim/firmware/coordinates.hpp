@@ -34,6 +34,9 @@ class Coordinates {
   void set_feed_percent(double percent) { feed_ = limited(percent); }
   void set_flow_percent(double percent) { flow_ = limited(percent); }
 
+  bool homed(Axis axis) const { return homed_[axis]; }
+  /// Factor of the speed (M220).
+  double feed() const { return feed_; }
   /// Factor of the filament (M221).
   double flow() const { return flow_; }
   const std::array<double, 3>& place() const { return place_; }

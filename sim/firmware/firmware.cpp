@@ -9,10 +9,10 @@ namespace unicursal::sim {
 
 namespace {
 
-constexpr double busy_interval = 2;  // s between busy lines
-constexpr double heat_interval = 1;  // s between the lines of M109 and M190
-constexpr double heat_look = 0.25;   // s between checks of the temperature while M109 or M190 waits
-constexpr double residency = 10;     // s for which a heater must have been hot before M109 or M190 ends
+constexpr double longest_run_down = 7200;  // s; a heater that has failed never becomes hot
+constexpr double heat_interval = 1;        // s between the lines of M109 and M190
+constexpr double heat_look = 0.25;         // s between checks of the temperature while M109 or M190 waits
+constexpr double residency = 10;           // s for which a heater must have been hot before M109 or M190 ends
 
 LineCheck::Rules rules_of(const Personality& personality) {
   return personality.family == Personality::Family::repetier ? LineCheck::Rules::repetier
@@ -31,12 +31,18 @@ Firmware::Firmware(const Machine& machine, const Personality& personality, MoveS
     : machine_(machine),
       personality_(personality),
       reply_(std::move(reply)),
+      assembler_(personality.family == Personality::Family::repetier),
       check_(rules_of(personality)),
       planner_(limits_of(machine, personality), sink),
       coordinates_(machine.bed),
-      mixer_(machine.feeders, personality.mix_scale),
+      mixer_(machine.feeders, personality.mix_scale, personality.virtual_tools),
       nozzle_(machine.nozzle),
-      bed_(machine.bed_heater) {}
+      bed_(machine.bed_heater),
+      cold_(personality.cold) {}
+
+MotionLimits Firmware::original_limits() const {
+  return limits_of(machine_, personality_);
+}
 
 // ---- power and reset
 
@@ -58,7 +64,11 @@ void Firmware::reset() {
   origin_ = planner_.executed_position();
   origin_[axis_e] = 0;
   coordinates_ = Coordinates(machine_.bed);
-  mixer_ = Mixer(machine_.feeders, personality_.mix_scale);
+  mixer_ = Mixer(machine_.feeders, personality_.mix_scale, personality_.virtual_tools);
+  cold_ = personality_.cold;
+  busy_interval_ = 2;
+  awaited_ = Awaited::nothing;
+  emergency_line_.clear();
   check_.set_last(0);
   last_executed_ = 0;
   buffer_.flush();
@@ -125,7 +135,7 @@ std::optional<double> Firmware::next_event() const {
     if (!silent()) consider(stalled_until_);
     return next;
   }
-  if (running_) consider(busy_at_);
+  if (running_ && busy_interval_ > 0) consider(busy_at_);
   if (report_interval_ > 0) consider(report_at_);
   if (inactivity_ > 0 && !running_ && planner_.still()) consider(active_at_ + inactivity_);
   if (!waits_.empty() && waits_.front().until > 0) consider(waits_.front().until);
@@ -138,7 +148,10 @@ void Firmware::run_down() {
   if (booting_) advance(boot_at_);
   if (frozen() && !silent()) advance(stalled_until_);
   settle();
-  while (!dead() && !frozen() && (running_ || !planner_.still())) advance(*next_event());
+  const double end = now_ + longest_run_down;
+  while (!dead() && !frozen() && awaited_ == Awaited::nothing && now_ < end &&
+         (running_ || !planner_.still()))
+    advance(*next_event());
 }
 
 void Firmware::tick() {
@@ -152,8 +165,8 @@ void Firmware::tick() {
     heat_report_at_ = now_ + heat_interval;
     say_heating(*waits_.front().heat);
   }
-  if (running_ && now_ >= busy_at_) {
-    busy_at_ = now_ + busy_interval;
+  if (running_ && busy_interval_ > 0 && now_ >= busy_at_) {
+    busy_at_ = now_ + busy_interval_;
     say_busy();
   }
   follow_habits();
@@ -166,11 +179,15 @@ void Firmware::tick() {
 void Firmware::tick_heaters() {
   for (Heater* heater : {&nozzle_, &bed_}) {
     if (dead()) return;
-    const auto alarm = heater->tick(now_);
-    if (!alarm) continue;
-    warn(sentence(*alarm));
-    die(fmt::format("{}, system stopped! Heater_ID: {}", sentence(*alarm), heater == &bed_ ? "bed" : "0"));
+    const auto trouble = heater->tick(now_);
+    if (!trouble) continue;
+    warn(sentence(*trouble));
+    alarm(*trouble, heater == &bed_);
   }
+}
+
+void Firmware::alarm(Heater::Alarm what, bool bed) {
+  die(fmt::format("{}, system stopped! Heater_ID: {}", sentence(what), bed ? "bed" : "0"));
 }
 
 void Firmware::say_heating(const HeatWait& wait) {
@@ -191,6 +208,7 @@ void Firmware::receive(const std::vector<WireByte>& bytes) {
   if (booting_) return;
   for (const WireByte& byte : bytes) {
     if (buffer_.room() == 0) settle();
+    if (personality_.emergency_parser && !dead()) look_for_emergency(byte.value);
     if (booting_) return;
     buffer_.push(byte);
   }
@@ -214,7 +232,7 @@ void Firmware::read_lines() {
     line_damaged_ = line_damaged_ || byte->damaged;
     const auto line = assembler_.push(byte->value);
     if (line) take(*line, line_damaged_);
-    if (byte->value == '\n' || byte->value == '\r') line_damaged_ = false;
+    if (byte->value == '\n' || byte->value == '\r' || byte->value == '\0') line_damaged_ = false;
   }
 }
 
@@ -255,11 +273,19 @@ void Firmware::refuse(LineVerdict::Kind kind) {
 /// Three unnumbered commands act as soon as they are received, ahead of the queue. M112 ends there; M108 and
 /// M410 are queued as well, and answered in their turn.
 bool Firmware::handled_at_once(std::string_view line) {
+  if (personality_.emergency_parser) return false;  // they have acted already, and are answered in their turn
   if (line.starts_with("M112")) {
     emergency_stop({'M', 112});
     return true;
   }
-  if (line.starts_with("M108") && waits_for_heat()) waits_.pop_front();
+  if (line.starts_with("M108")) {
+    person_came();
+    if (waits_for_heat()) waits_.pop_front();
+  }
+  if (line.starts_with("M876")) {
+    const auto command = parse_command(line);
+    answer_prompt(static_cast<int>(command->value_or('S', 0)));
+  }
   if (line.starts_with("M410")) quick_stop();
   return false;
 }
@@ -269,7 +295,7 @@ bool Firmware::handled_at_once(std::string_view line) {
 void Firmware::start_next() {
   running_ = true;
   answers_ok_ = true;
-  busy_at_ = now_ + busy_interval;
+  busy_at_ = now_ + busy_interval_;
   active_at_ = now_;
   if (command_watch_) command_watch_(queue_.front().body);
   execute(queue_.front().body);
@@ -295,6 +321,8 @@ bool Firmware::over(Wait& wait) {
       return now_ >= wait.until;
     case Wait::For::heat:
       return hot_for_long(wait);
+    case Wait::For::person:
+      return awaited_ == Awaited::nothing;
   }
   return true;
 }
@@ -320,13 +348,14 @@ void Firmware::finish() {
 }
 
 void Firmware::done(const Line& line) {
-  if (!answers_ok_) return;
+  if (!answers_ok_ || line.injected) return;
   if (!personality_.advanced_ok) return say("ok");
   const std::string number = line.number ? fmt::format(" N{}", *line.number) : "";
   say(fmt::format("ok{} P{} B{}", number, planner_.free_slots(), personality_.queue_size - queue_.size()));
 }
 
 void Firmware::note_order(const Line& line) {
+  if (line.injected) return;
   if (line.body.starts_with("M110")) {
     last_executed_ = check_.last();
   } else if (line.number) {

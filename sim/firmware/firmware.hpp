@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
@@ -88,8 +89,10 @@ class Firmware {
   double now() const { return now_; }
   /// The time of the next event that happens by itself; nullopt if the printer is idle or dead.
   std::optional<double> next_event() const;
-  /// Whether the running command waits for time to pass, or the firmware boots.
-  bool blocked() const { return booting_ || (running_ && !dead() && !silent()); }
+  /// Whether the running command waits for time to pass (not for a person), or the firmware boots.
+  bool blocked() const {
+    return booting_ || (running_ && !dead() && !silent() && awaited_ == Awaited::nothing);
+  }
   bool booting() const { return booting_; }
   /// Advances time until every received command has been executed and all motion has ended.
   void run_down();
@@ -101,6 +104,10 @@ class Firmware {
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
   /// Stops for good, with `reason` as an error message.
   virtual void die(const std::string& reason);
+  /// A feeder runs out of filament: it announces that and gives itself the command `script`.
+  void run_out(std::string script);
+  /// What it does when it has noticed that a heater or its sensor has failed.
+  virtual void alarm(Heater::Alarm what, bool bed);
   /// Switches its heaters off; from now on it acknowledges moves and does none, until M999 or a reset.
   void stop_moving();
 
@@ -125,6 +132,7 @@ class Firmware {
   struct Line {
     std::optional<std::int64_t> number;
     std::string body;
+    bool injected = false;  ///< The firmware gave it to itself, so nobody waits for an ok.
   };
   /// A wait for a heater to stay at its target for a while.
   struct HeatWait {
@@ -134,7 +142,7 @@ class Firmware {
   };
   /// A condition that the running command waits for, and the action that follows.
   struct Wait {
-    enum class For { room, stillness, time, heat } what;
+    enum class For { room, stillness, time, heat, person } what;
     double until = 0;            ///< Printer time; for heat the time of the next check.
     std::function<void()> then;  ///< May add further waits.
     std::optional<HeatWait> heat;
@@ -149,7 +157,7 @@ class Firmware {
   virtual void taken(const Line&) {}
   /// Called when the running command is done, while it is still in the queue.
   virtual void done(const Line& line);
-  virtual void say_busy() { say("echo:busy: processing"); }
+  virtual void say_busy();
   virtual void say_heating(const HeatWait& wait);
   virtual void say_unknown(const std::string& body);
   virtual void say_refused(const char* what);
@@ -195,13 +203,43 @@ class Firmware {
 
   // commands.cpp: the commands
   static const std::map<std::pair<char, int>, Handler>& handlers();
-  void execute(const std::string& body);
+  virtual void execute(const std::string& body);
   bool extruder_exists(const Command& command);
   virtual std::string temperatures() const;
   void nothing(const Command&) {}
-  void go_on(const Command&) { stopped_ = false; }
+  virtual void go_on(const Command& command);
+  // person.cpp: waits for a person
+  void show_prompt(std::string_view text, std::initializer_list<std::string_view> buttons);
+  void wait_for_person(std::function<void()> then);
+  void wait_for_choice(std::function<void()> then);
+  void person_came();
+  void answer_prompt(int button);
+  void stop_for_person(const Command& command);
+  void change_filament(const Command& command);
+  void offer_purging();
+  void look_for_emergency(char byte);
+
+  // settings.cpp: reports of settings
+  MotionLimits original_limits() const;
+  std::string setting(int code) const;
+  bool only_asks(const Command& command);
+  virtual void report_settings(const Command& command);
+  virtual void load_settings(const Command& command);
+  virtual void store_settings(const Command& command);
+  void keepalive(const Command& command);
+  void pid(const Command& command);
+  void cold_extrusion(const Command& command);
+  void soft_endstops(const Command& command);
+  void echo_text(const Command& command);
+  void print_time(const Command& command);
+  void endstops(const Command& command);
+
   void move(const Command& command);
+  void arc(const Command& command);
+  void run_arc(std::vector<MoveTarget> pieces);
+  bool refused_unhomed(const Command& command);
   void dwell(const Command& command);
+  virtual void fan(const Command&) {}
   void inches(const Command& command);
   void home(const Command& command);
   void absolute(const Command& command);
@@ -210,25 +248,25 @@ class Firmware {
   void motors_off(const Command& command);
   void set_inactivity(const Command& command);
   void steps_per_mm(const Command& command);
-  void nozzle_target(const Command& command);
+  virtual void nozzle_target(const Command& command);
   virtual void report_temperatures(const Command& command);
-  void wait_nozzle(const Command& command);
+  virtual void wait_nozzle(const Command& command);
   virtual void line_number(const Command& command);
   virtual void emergency_stop(const Command& command);
-  void report_position(const Command& command);
+  virtual void report_position(const Command& command);
   virtual void report_firmware(const Command& command);
-  void bed_target(const Command& command);
+  virtual void bed_target(const Command& command);
   void auto_report(const Command& command);
   virtual void collect_share(const Command& command);
   virtual void store_mixture(const Command& command);
   void mix_directly(const Command& command);
-  void wait_bed(const Command& command);
+  virtual void wait_bed(const Command& command);
   void accelerations(const Command& command);
   void max_speeds(const Command& command);
   void set_accelerations(const Command& command);
   void jerks(const Command& command);
-  void feed_percent(const Command& command);
-  void flow_percent(const Command& command);
+  virtual void feed_percent(const Command& command);
+  virtual void flow_percent(const Command& command);
   void finish_moves(const Command& command);
   void stop_moves(const Command& command);
   virtual void select_tool(const Command& command);
@@ -259,8 +297,13 @@ class Firmware {
   double filament_ = 0;             ///< Filament that the feeders were asked for since power-up, mm.
   PerAxis<std::int64_t> origin_{};  ///< Position of the machine when the firmware last booted, steps.
   bool booting_ = false, running_ = false, answers_ok_ = true, killed_ = false;
-  bool stopped_ = false;  ///< Whether it does not move until M999.
-  double boot_at_ = 0;    ///< End of the boot.
+  enum class Awaited { nothing, anything, choice } awaited_ = Awaited::nothing;
+  bool purge_more_ = false;
+  std::string emergency_line_;
+  double cold_ = 0;           ///< Below, nothing is extruded, °C.
+  double busy_interval_ = 2;  ///< M113, s; 0 = off.
+  bool stopped_ = false;      ///< Whether it does not move until M999.
+  double boot_at_ = 0;        ///< End of the boot.
   double stalled_until_ = 0;
   std::int64_t last_executed_ = 0;  ///< Number of the last executed line.
   double busy_at_ = 0;              ///< Time of the next busy message.

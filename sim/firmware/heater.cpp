@@ -93,7 +93,7 @@ std::optional<Heater::Alarm> Heater::tick(double now) {
   tick_at_ = now + period;
   const double reading = temperature(now);
   set_power(now, wanted(reading));
-  return protect(now, reading);
+  return guarded_ ? protect(now, reading) : std::nullopt;
 }
 
 int Heater::wanted(double reading) {

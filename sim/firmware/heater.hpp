@@ -63,6 +63,8 @@ class Heater {
 
   void break_down(double now, Defect defect);
   void pull_thermistor(double now);
+  /// From now on no alarm is raised, as in a firmware that was built without protection.
+  void leave_unguarded() { guarded_ = false; }
   /// Board reset: clears target and protection state; keeps temperature and defects.
   void reset(double now);
 
@@ -80,6 +82,7 @@ class Heater {
   HeaterModel model_;
   Defect defect_ = Defect::none;
   bool pulled_ = false;
+  bool guarded_ = true;
   double target_ = 0;
   int power_ = 0;
   double integral_ = 0;                              ///< Share of full power.

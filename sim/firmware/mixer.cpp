@@ -5,7 +5,8 @@
 
 namespace unicursal::sim {
 
-Mixer::Mixer(std::size_t feeders, std::int32_t full_scale) : feeders_(feeders), full_scale_(full_scale) {
+Mixer::Mixer(std::size_t feeders, std::int32_t full_scale, int tools)
+    : feeders_(feeders), full_scale_(full_scale), tools_(tools) {
   assert(feeders >= 1 && feeders <= max_feeders);
   for (std::size_t tool = 0; tool < factors_.size(); ++tool) {
     factors_[tool][tool < feeders ? tool : 0] = full_scale;
@@ -28,7 +29,7 @@ Factors Mixer::factors_for(const PerFeeder<double>& shares) const {
 }
 
 void Mixer::store(double tool) {
-  if (tool < 0 || tool >= tools) return;
+  if (tool < 0 || tool >= tools_) return;
   factors_[static_cast<std::size_t>(tool)] = factors_for(collector_);
 }
 
@@ -37,7 +38,7 @@ void Mixer::set_current(const PerFeeder<double>& shares) {
 }
 
 bool Mixer::select(double tool) {
-  if (tool < 0 || tool >= tools) return false;
+  if (tool < 0 || tool >= tools_) return false;
   selected_ = static_cast<int>(tool);
   return true;
 }

@@ -12,11 +12,12 @@ namespace unicursal::sim {
 
 class Mixer {
  public:
-  static constexpr int tools = 16;
+  static constexpr int most_tools = 16;
 
   /// `full_scale` is the factor of the largest share: 32768 on 32-bit boards, 128 on 8-bit boards. The first
   /// tools are the pure feeders; all others are feeder 1. Precondition: 1 ≤ feeders ≤ max_feeders.
-  Mixer(std::size_t feeders, std::int32_t full_scale);
+  /// `tools`: MIXING_VIRTUAL_TOOLS, 1 to `most_tools`.
+  Mixer(std::size_t feeders, std::int32_t full_scale, int tools = most_tools);
 
   /// M163. A negative share counts as zero; a feeder that does not exist is ignored.
   void collect(double feeder, double share);
@@ -36,7 +37,8 @@ class Mixer {
   std::size_t feeders_;
   std::int32_t full_scale_;
   PerFeeder<double> collector_{};
-  std::array<Factors, tools> factors_{};
+  int tools_;
+  std::array<Factors, most_tools> factors_{};
   int selected_ = 0;
 };
 

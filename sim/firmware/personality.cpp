@@ -41,9 +41,25 @@ Personality marlin_advanced_ok() {
   return one;
 }
 
+/// With everything that serves a host.
+Personality marlin_host() {
+  Personality one = marlin();
+  one.name = "marlin-host";
+  one.emergency_parser = one.host_prompts = one.homes_first = true;
+  return one;
+}
+
+Personality marlin_few_tools() {
+  Personality one = marlin();
+  one.name = "marlin-few-tools";
+  one.virtual_tools = 2;
+  return one;
+}
+
 Personality repetier() {
   Personality one;
   one.name = "repetier";
+  one.cold = 150;
   one.family = Personality::Family::repetier;
   one.direct_mixing = false;
   one.step_rate = eight_bit_step_rate;
@@ -53,10 +69,18 @@ Personality repetier() {
   return one;
 }
 
+Personality repetier_092() {
+  Personality one = repetier();
+  one.name = "repetier-0.92";
+  one.capabilities = false;
+  return one;
+}
+
 }  // namespace
 
 const Personality& personality(std::string_view name) {
-  static const std::array<Personality, 4> all{marlin(), marlin_8bit(), marlin_advanced_ok(), repetier()};
+  static const std::array all{marlin(),           marlin_8bit(), marlin_advanced_ok(), marlin_host(),
+                              marlin_few_tools(), repetier(),    repetier_092()};
   std::string names;
   for (const Personality& one : all) {
     if (one.name == name) return one;

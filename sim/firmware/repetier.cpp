@@ -1,6 +1,8 @@
 #include "sim/firmware/repetier.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,6 +42,16 @@ void Repetier::die(const std::string& reason) {
   kill();
 }
 
+/// It does not halt: it switches all heaters off and acknowledges moves that it does not make.
+void Repetier::alarm(Heater::Alarm what, bool bed) {
+  if (what == Heater::Alarm::min_temp || what == Heater::Alarm::max_temp)
+    say(bed ? "heated bed: temp sensor defect marked defect"
+            : "extruder 0: temp sensor defect marked defect");
+  else
+    say("Error:One heater seems decoupled from thermistor - disabling all for safety!");
+  stop_moving();
+}
+
 // ---- lines
 
 void Repetier::repeated(std::int64_t number) {
@@ -54,6 +66,7 @@ void Repetier::refuse(LineVerdict::Kind kind) {
   ++(kind == LineVerdict::Kind::wrong_number ? counts_.number_errors : counts_.checksum_errors);
   buffer_.flush();
   if (std::exchange(waits_for_line_, true)) return;
+  if (kind == LineVerdict::Kind::wrong_checksum) say("Error:Wrong checksum");
   ask_for_line();
 }
 
@@ -73,7 +86,7 @@ bool Repetier::handled_at_once(std::string_view line) {
 
 void Repetier::taken(const Line& line) {
   if (line.number) waits_for_line_ = false;
-  say(fmt::format("ok {}", check_.last()));
+  say(line.body.starts_with("M110") ? "ok" : fmt::format("ok {}", check_.last()));
 }
 
 void Repetier::done(const Line&) {
@@ -94,17 +107,71 @@ void Repetier::follow_habits() {
 
 // ---- commands
 
+/// A line of a number only is used up. What others keep in an EEPROM, this build does not.
+void Repetier::execute(const std::string& body) {
+  if (body.empty()) return;
+  const auto command = parse_command(body);
+  const auto is = [&](int code) { return command && command->is('M', code); };
+  if (is(205) || is(500) || is(501) || is(502)) return say("Error:No EEPROM support compiled.");
+  Firmware::execute(body);
+}
+
+/// It repeats the command as it has understood it, each word with a space behind it.
 void Repetier::say_unknown(const std::string& body) {
-  say("Unknown command:" + body);
+  const auto& number = queue_.front().number;
+  say(fmt::format("Unknown command:{}{} ", number ? fmt::format("N{} ", *number) : "", body));
 }
 
 bool Repetier::knows(const Command& command) const {
-  return !command.is('M', 108) && !command.is('M', 165) && !command.is('M', 410);
+  constexpr std::array unknown{0, 1, 31, 75, 76, 77, 108, 113, 118, 165, 211, 410, 503, 600, 876};
+  if (command.is('M', 155) && !personality_.capabilities) return false;
+  return command.letter() != 'M' ||
+         std::find(unknown.begin(), unknown.end(), command.code()) == unknown.end();
 }
 
 std::string Repetier::temperatures() const {
   return fmt::format("T:{:.2f} /{:.0f} B:{:.2f} /{:.0f}", nozzle_.temperature(now_), nozzle_.target(),
                      bed_.temperature(now_), bed_.target());
+}
+
+void Repetier::nozzle_target(const Command& command) {
+  Firmware::nozzle_target(command);
+  say(fmt::format("TargetExtr0:{:.0f}", nozzle_.target()));
+}
+
+void Repetier::wait_nozzle(const Command& command) {
+  Firmware::wait_nozzle(command);
+  say(fmt::format("TargetExtr0:{:.0f}", nozzle_.target()));
+}
+
+void Repetier::bed_target(const Command& command) {
+  Firmware::bed_target(command);
+  say(fmt::format("TargetBed:{:.0f}", bed_.target()));
+}
+
+void Repetier::wait_bed(const Command& command) {
+  Firmware::wait_bed(command);
+  say(fmt::format("TargetBed:{:.0f}", bed_.target()));
+}
+
+void Repetier::feed_percent(const Command& command) {
+  if (const auto percent = command.value('S')) coordinates_.set_feed_percent(*percent);
+  say(fmt::format("SpeedMultiply:{:.0f}", 100 * coordinates_.feed()));
+}
+
+void Repetier::flow_percent(const Command& command) {
+  if (const auto percent = command.value('S')) coordinates_.set_flow_percent(*percent);
+  say(fmt::format("FlowMultiply:{:.0f}", 100 * coordinates_.flow()));
+}
+
+void Repetier::fan(const Command& command) {
+  say(fmt::format("Fanspeed:{:.0f}", command.code() == 107 ? 0 : command.value_or('S', 255)));
+}
+
+/// It does not wait: it reports the end of the last move that it has taken.
+void Repetier::report_position(const Command&) {
+  say(fmt::format("X:{:.2f} Y:{:.2f} Z:{:.3f} E:{:.4f}", coordinates_.logical(axis_x),
+                  coordinates_.logical(axis_y), coordinates_.logical(axis_z), coordinates_.e()));
 }
 
 void Repetier::report_temperatures(const Command&) {
@@ -118,7 +185,13 @@ void Repetier::emergency_stop(const Command&) {
 
 void Repetier::report_firmware(const Command&) {
   say("FIRMWARE_NAME:Repetier_1.0.4 (simulated) COMPILED:none MACHINE_TYPE:unicursal simulator "
-      "EXTRUDER_COUNT:1");
+      "EXTRUDER_COUNT:" +
+      std::to_string(machine_.feeders) + " REPETIER_PROTOCOL:3");
+  if (!personality_.capabilities) return;
+  for (const char* one :
+       {"PROGRESS:0", "AUTOREPORT_TEMP:1", "EEPROM:0", "AUTOLEVEL:0", "Z_PROBE:0", "LEVELING_DATA:0",
+        "SOFTWARE_POWER:0", "TOGGLE_LIGHTS:0", "CASE_LIGHT_BRIGHTNESS:0", "PAUSESTOP:1", "PREHEAT:1"})
+    say(std::string("Cap:") + one);
 }
 
 /// P is read as an integer, and acts at once on everything that is still to be fed.
@@ -147,6 +220,7 @@ void Repetier::select_tool(const Command& command) {
   wait_until_still([this, tool] {
     selected_ = tool;
     mix_live(tools_[static_cast<std::size_t>(tool)]);
+    say("SelectExtruder:0");
   });
 }
 

@@ -1,7 +1,8 @@
 // Repetier 1.0.4, as far as it differs from Marlin (sim/README.md, "Repetier"): it says ok when a line is
 // received; it repeats its requests for a line; it answers repeated lines with `skip`; the mixture belongs to
 // the extruder and not to a move, so a change affects moves that already run; and it reports that it is idle.
-// Departures: it discards any number of lines while it waits for a resend; M112 boots as at power-up.
+// Departures: it discards any number of lines while it waits for a resend; M112 boots as at power-up; bytes
+// from 0x80, which begin a binary packet, and the rest of too long a line are read as in Marlin.
 #pragma once
 
 #include <memory>
@@ -17,6 +18,7 @@ class Repetier final : public Firmware {
   Repetier(const Machine& machine, const Personality& personality, MoveSink& sink, Reply reply);
 
   void die(const std::string& reason) override;
+  void alarm(Heater::Alarm what, bool bed) override;
 
  private:
   void repeated(std::int64_t number) override;
@@ -26,7 +28,9 @@ class Repetier final : public Firmware {
   void done(const Line& line) override;
   void say_busy() override { say("busy:processing"); }
   void say_heating(const HeatWait&) override { say(temperatures()); }
+  void execute(const std::string& body) override;
   void say_unknown(const std::string& body) override;
+  void go_on(const Command&) override { stopped_ = false; }
   void say_refused(const char*) override {}
   void say_stopped() override { say("Error:Printer set into dry run mode until restart!"); }
   void say_still_stopped() override {}
@@ -37,6 +41,14 @@ class Repetier final : public Firmware {
   void forget() override;
 
   std::string temperatures() const override;
+  void nozzle_target(const Command& command) override;
+  void wait_nozzle(const Command& command) override;
+  void bed_target(const Command& command) override;
+  void wait_bed(const Command& command) override;
+  void feed_percent(const Command& command) override;
+  void flow_percent(const Command& command) override;
+  void fan(const Command& command) override;
+  void report_position(const Command& command) override;
   void report_temperatures(const Command& command) override;
   void emergency_stop(const Command& command) override;
   void report_firmware(const Command& command) override;

@@ -5,9 +5,9 @@
 namespace unicursal::sim {
 
 std::optional<std::string> LineAssembler::push(char byte) {
-  if (byte == '\n' || byte == '\r') return finish();
+  if (byte == '\n' || byte == '\r' || byte == '\0') return finish();
   if (comment_ || cut_) return std::nullopt;
-  if (!escaped_ && byte == ';') {
+  if (!escaped_ && (byte == ';' || (brackets_ && byte == '('))) {
     comment_ = true;
   } else if (!escaped_ && byte == '\\') {
     escaped_ = true;

@@ -1,6 +1,6 @@
-// Splits bytes into lines as Marlin's input stage does: a line ends with CR or LF; `;` starts a comment that
-// extends to the end of the line (and swallows a checksum behind it), unless a backslash precedes it; the
-// first 95 characters are kept, and the rest of a longer line is dropped, its checksum included.
+// Splits bytes into lines as Marlin's input stage does: a line ends with CR, LF or NUL; `;` starts a comment
+// that extends to the end of the line (and swallows a checksum behind it), unless a backslash precedes it;
+// the first 95 characters are kept, and the rest of a longer line is dropped, its checksum included.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,9 @@ namespace unicursal::sim {
 
 class LineAssembler {
  public:
+  /// `brackets`: `(` starts a comment as well, as in Repetier.
+  explicit LineAssembler(bool brackets = false) : brackets_(brackets) {}
+
   static constexpr std::size_t longest = 95;  ///< Characters of a line that are kept.
 
   /// Returns the finished line if `byte` ends a line that is not blank.
@@ -24,6 +27,7 @@ class LineAssembler {
  private:
   std::optional<std::string> finish();
 
+  bool brackets_;
   std::string line_;
   bool comment_ = false, escaped_ = false, cut_ = false;
   std::uint64_t too_long_ = 0;

@@ -1,6 +1,6 @@
 // Checks the line number and checksum of a received line in Marlin 2.1's order: number first, then checksum.
 // The checksum is the exclusive or of all bytes before the last `*`. Repetier compares numbers modulo 65536,
-// and treats the last forty as repeated.
+// treats the last forty as repeated, and takes a number without a checksum.
 //
 // This code shares nothing with the framing in host/link/ledger.hpp, on purpose: a mistake on one side must
 // not hide in the other. (firmware_gcode/review/line_check.hpp checks what lines do, not how they are

@@ -1,7 +1,10 @@
 // What `unicursal doctor` finds: the program itself, and printers that answer as real ones do.
+#include <poll.h>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "firmware_gcode/reply/identity.hpp"
 #include "host/doctor/examine.hpp"
 #include "host/doctor/findings.hpp"
 #include "tests/host/link/fake_printer.hpp"
@@ -73,7 +76,7 @@ TEST_CASE("doctor: a printer's defects are reported, and nothing moves or heats"
       test::run({"doctor", "--port", printer.path(), "--profile", profile, "--json"});
   printer.stop();
   INFO(outcome.out << outcome.err);
-  CHECK(outcome.code == 1);
+  CHECK(outcome.code == 2);
   const json found = json::parse(outcome.out);
   CHECK(found["family"] == "Marlin");
   CHECK(found["version"] == "2.1.2");
@@ -116,6 +119,32 @@ TEST_CASE("doctor: a profile with higher limits than the printer is reported") {
   for (const Finding& finding : findings(found, 250000, &profile)) text += finding.text + "\n";
   CHECK(text.find("max_acceleration for x is 1000 mm/s², the profile says 1500") != std::string::npos);
   CHECK(text.find("its max_speed is not below that of the profile") != std::string::npos);
+}
+
+TEST_CASE("doctor: the virtual tools of a printer are counted, and its settings read") {
+  const auto [who, tools] = GENERATE(table<std::string, int>({{"marlin", 16}, {"marlin-few-tools", 2}}));
+  const test::TempFolder folder;
+  const std::string port = folder / "port";
+  test::Child simulator({"simulate", "--once", "--personality", who, "--link", port});
+  while (!std::filesystem::exists(port)) {
+    REQUIRE(simulator.running());
+    poll(nullptr, 0, 5);
+  }
+  const test::Outcome outcome = test::run({"doctor", "--port", port, "--json"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+  const json found = json::parse(outcome.out);
+  CHECK(found["virtual_tools"] == tools);
+  CHECK(weight_of(found, "virtual tools") == (tools == 16 ? "good" : "warning"));
+  CHECK(found["steps_per_mm"][2] == 400);
+}
+
+TEST_CASE("doctor: a Repetier with too few feeders is refused") {
+  Examination found;
+  found.mixes = true;
+  found.identity = gcode::identify("FIRMWARE_NAME:Repetier_1.0.4 EXTRUDER_COUNT:2");
+  const std::vector<Finding> list = findings(found, 250000, nullptr);
+  CHECK(has_trouble(list));
 }
 
 TEST_CASE("doctor: without a printer it says so in a sentence") {

@@ -268,15 +268,6 @@ TEST_CASE("The session obeys the firmware as it obeys the user") {
     CHECK(bench.print().ending == Ending::stopped);
     CHECK(bench.cold());
   }
-  SECTION("filament runs out: the firmware parks by itself, and gets nothing meanwhile") {
-    SessionBench bench({"--fault", "runout@line=200"});
-    bench.settings.longest_pause = 300;
-    const StreamResult result = bench.print();
-    CHECK(result.ending == Ending::completed);
-    CHECK(result.pauses == 1);
-    CHECK(bench.executed() == plain);
-    CHECK(bench.seen()["printer_seconds"].get<double>() > 300);
-  }
   SECTION("cancel") {
     SessionBench bench({"--fault", "say://action:cancel@line=200"});
     const StreamResult result = bench.print();
@@ -469,4 +460,122 @@ TEST_CASE("A user's start lines cannot switch M85 off, and a warning says so") {
   const auto& told = bench.last().warnings;
   CHECK(std::any_of(told.begin(), told.end(),
                     [](const auto& w) { return w.find("M85") != std::string::npos; }));
+}
+
+TEST_CASE("A firmware that takes an extrusion for a mistake holds the print, too") {
+  SessionBench bench({"--fault", "say:echo: too long extrusion prevented@line=200"});
+  std::string why;
+  const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
+    if (event.kind != Kind::state || session.status().state != SessionState::paused) return;
+    why = session.status().reason;
+    CHECK_FALSE(session.resume());
+  });
+  CHECK(result.ending == Ending::completed);
+  CHECK(why.find("EXTRUDE_MAXLENGTH") != std::string::npos);
+}
+
+TEST_CASE("What the printer repeats is shown once with a count") {
+  std::vector<std::string> options;
+  for (int line = 200; line < 223; ++line)
+    options.insert(options.end(), {"--fault", "say:echo:again@line=" + std::to_string(line)});
+  SessionBench bench(options);
+  std::vector<std::string> shown;
+  bench.print([&](Session&, const SessionEvent& event) {
+    if (event.kind == Kind::printer && event.text.find("again") != std::string::npos)
+      shown.push_back(event.text);
+  });
+  CHECK(shown ==
+        std::vector<std::string>{"echo:again", "echo:again (10 times so far)", "echo:again (23 times)"});
+}
+
+TEST_CASE("A printer with fewer virtual tools than the print needs is refused before it heats") {
+  SessionBench bench({"--personality", "marlin-few-tools"});
+  const StreamResult result = bench.print();
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.unfit);
+  CHECK_FALSE(result.begun);
+  CHECK(result.reason.find("fewer virtual tools than the ") != std::string::npos);
+  for (const std::string& line : bench.executed()) CHECK_FALSE(line.starts_with("M109"));
+}
+
+TEST_CASE("Speed and flow together do not push more than the nozzle can melt") {
+  SessionBench bench;  // 3 of 5 mm³/s
+  bool tried = false;
+  bench.print(at(40, [&](Session& session) {
+    tried = true;
+    CHECK(session.set_speed(170).value().find("max_flow is 5") != std::string::npos);
+    CHECK_FALSE(session.set_speed(160));
+    CHECK(session.set_flow(110).value().find("5.28 mm³/s") != std::string::npos);
+    CHECK_FALSE(session.set_flow(104));
+  }));
+  CHECK(tried);
+}
+
+TEST_CASE("A change of flow waits until the filament is not drawn back") {
+  SessionBench bench;
+  bool asked = false;
+  const StreamResult result = bench.print(
+      [&, hold = at(40, [](Session& s) { s.pause(); })](Session& session, const SessionEvent& event) mutable {
+        hold(session, event);
+        if (event.kind != Kind::state || session.status().state != SessionState::paused || asked) return;
+        asked = true;
+        CHECK_FALSE(session.set_flow(90));
+        CHECK_FALSE(session.set_bed(40));
+        CHECK_FALSE(session.resume());
+      });
+  CHECK(result.ending == Ending::completed);
+  const Lines lines = bench.executed();
+  const std::size_t back = index_of(lines, "G1 E-4 F1500"), change = index_of(lines, "M221 S90");
+  REQUIRE(change < lines.size());
+  CHECK(back < change);
+  double drawn = 0;  // at the change
+  for (std::size_t i = 0; i < change; ++i) {
+    if (lines[i].starts_with("G1 E")) drawn += std::stod(lines[i].substr(4));
+  }
+  CHECK(std::count_if(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(change),
+                      [](const auto& l) { return l.starts_with("G1 E-"); }) > 0);
+  CHECK(drawn >= 0);
+}
+
+TEST_CASE("Reports of temperatures end with the print") {
+  SessionBench bench;
+  bench.settings.link.temperatures = std::chrono::seconds(2);
+  REQUIRE(bench.print().ending == Ending::completed);
+  CHECK(bench.executed().back() == "M155 S0");
+}
+
+TEST_CASE("An unknown command in the start lines is mentioned") {
+  SessionBench bench({}, "\n[gcode]\nstart = \"M9999 S1\"\n");
+  REQUIRE(bench.print().ending == Ending::completed);
+  const auto& told = bench.last().warnings;
+  CHECK(std::any_of(told.begin(), told.end(),
+                    [](const auto& w) { return w.find("M9999 S1") != std::string::npos; }));
+}
+
+TEST_CASE("A disturbed line to a firmware that takes damaged lines is mentioned") {
+  const std::string firmware = GENERATE("marlin", "repetier");
+  unicursal::test::SampleFiles sample;
+  sample.profile = unicursal::test::replaced(sample.profile, "\"marlin\"", "\"" + firmware + "\"");
+  SessionBench bench({"--personality", firmware, "--fault", "falsealarm@line=200"}, "", sample);
+  REQUIRE(bench.print().ending == Ending::completed);
+  const auto& told = bench.last().warnings;
+  CHECK((firmware == "repetier") == std::any_of(told.begin(), told.end(), [](const auto& w) {
+          return w.find("without a word") != std::string::npos;
+        }));
+}
+
+TEST_CASE("A stop while a firmware without emergency parser heats ends within a minute") {
+  SessionBench bench({}, "\n[gcode]\nstart = \"M140 S110\\nM190 S110\\nG4 S1\\nG4 S1\\nG4 S1\\nG4 S1\"\n");
+  double asked = -1;
+  const StreamResult result = bench.print([&](Session& session, const SessionEvent& event) {
+    const SessionStatus status = session.status();
+    if (asked < 0 && status.state == SessionState::heating && status.elapsed > 20 &&
+        event.kind != Kind::state) {
+      asked = status.elapsed;
+      CHECK_FALSE(session.cancel());
+    }
+  });
+  CHECK(asked > 0);
+  CHECK(result.ending == Ending::stopped);
+  CHECK(bench.last().elapsed - asked < 60);
 }

@@ -23,7 +23,7 @@
 namespace unicursal::test {
 
 struct SampleFiles {
-  std::string job = sample_job;
+  std::string job = sample_job, profile = sample_profile;
   std::string part_name = "plate.svg", part = sample_drawing;
 };
 
@@ -98,7 +98,7 @@ class SessionBench {
 
  private:
   std::string write_job(const std::string& profile_more, const SampleFiles& sample) {
-    folder_.write("bench.toml", sample_profile + profile_more);
+    folder_.write("bench.toml", sample.profile + profile_more);
     folder_.write(sample.part_name, sample.part);
     return folder_.write("job.toml", sample.job).string();
   }

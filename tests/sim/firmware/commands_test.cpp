@@ -151,6 +151,7 @@ TEST_CASE("M220 scales speed; M221 scales filament, but not the E of M114") {
   bench.finish("M220 S50");
   bench.finish("M221 S150");
   bench.finish("G1 X0 E4 F1200");
+  bench.finish("M400");
   CHECK(bench.finish("M114").front().find("E:8.00") != std::string::npos);
   bench.firmware.run_down();
   REQUIRE(bench.sink.moves.size() == 2);
@@ -169,6 +170,7 @@ TEST_CASE("homing takes time and reports the position; afterwards the bed has ed
   CHECK(replies.back() == "ok");
   CHECK(bench.firmware.now() > 1);
   bench.finish("G1 X250 Y-3");
+  bench.finish("M400");
   CHECK(bench.finish("M114").front().starts_with("X:200.00 Y:0.00"));
   CHECK(bench.firmware.warnings().size() == 1);
 }

@@ -1,0 +1,143 @@
+// A heater that fails in mid-print, as a session sees it.
+#include "host/engine/heat_watch.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "host/engine/seconds.hpp"
+#include "tests/host/support/session_bench.hpp"
+
+using namespace unicursal::host;
+using unicursal::test::replaced;
+using unicursal::test::SampleFiles;
+using unicursal::test::SessionBench;
+
+namespace {
+
+constexpr HeaterWatch::Rules rules{15, 8, 0.8, 15};
+
+/// s after which the watch has an objection to a course of the temperature, reported every 2 s; −1: never.
+double objects_at(const std::function<double(double)>& reading, double wanted = 210,
+                  std::optional<double> reported = std::nullopt,
+                  std::optional<HeatTrouble> what = std::nullopt) {
+  HeaterWatch watch(rules);
+  for (double t = 0; t < 300; t += 2) {
+    const auto trouble = watch.note(TimePoint(duration(t)), reading(t), reported, wanted);
+    if (!trouble) continue;
+    if (what) CHECK(*trouble == *what);
+    return t;
+  }
+  return -1;
+}
+
+/// Long enough for a fault in its middle.
+SampleFiles tall(const std::string& firmware) {
+  SampleFiles sample;
+  if (firmware == "repetier") sample.profile = replaced(sample.profile, "\"marlin\"", "\"repetier\"");
+  sample.job = replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2");
+  return sample;
+}
+
+struct Watched {
+  StreamResult result;
+  double paused_after = -1;  ///< s from the fault to the pause; −1: never paused
+  std::string why;
+  std::vector<std::string> lines;
+  bool killed = false, cold = false;
+};
+
+constexpr double fault_at = 180;  ///< s; it prints by then
+
+Watched print_with(const std::string& firmware, const std::vector<std::string>& faults,
+                   const std::function<void(Session&)>& when_paused) {
+  std::vector<std::string> options{"--personality", firmware};
+  for (const std::string& fault : faults) options.insert(options.end(), {"--fault", fault + "@t=180"});
+  SessionBench bench(options, "", tall(firmware));
+  bench.settings.link.temperatures = std::chrono::seconds(2);
+  Watched seen;
+  seen.result = bench.print([&](Session& session, const SessionEvent& event) {
+    const SessionStatus status = session.status();
+    if (event.kind != SessionEvent::Kind::state || status.state != SessionState::paused) return;
+    if (seen.why.empty()) seen.why = status.reason, seen.paused_after = status.elapsed - fault_at;
+    when_paused(session);
+  });
+  seen.lines = bench.executed();
+  seen.killed = bench.seen()["killed"];
+  seen.cold = bench.cold();
+  return seen;
+}
+
+}  // namespace
+
+TEST_CASE("A heater that gives no more heat is noticed within 10 s, and one that only dips is left alone") {
+  // A block of 120 s, as a common hot end's.
+  CHECK(objects_at([](double t) { return 25 + 185 * std::exp(-t / 120); }, 210, 210, HeatTrouble::cold) ==
+        Approx(6).margin(4));
+  // The part's fan has been switched on: 10 °C in half a minute, then back.
+  CHECK(objects_at([](double t) { return 210 - 10 * std::sin(std::min(t, 60.0) / 60 * 3.14159); }) == -1);
+  // It has not been as hot as it should be since the beginning.
+  CHECK(objects_at([](double) { return 150.0; }) == -1);
+  // It stays a little too cold, and far too cold.
+  CHECK(objects_at([](double t) { return t < 10 ? 210.0 : 196.0; }) == -1);
+  CHECK(objects_at([](double t) { return t < 10 ? 210.0 : 194.0; }, 210, 210, HeatTrouble::cold) == 20);
+  // One report is damaged.
+  CHECK(objects_at([](double t) { return t == 20 ? 5.0 : 210.0; }) == -1);
+  CHECK(objects_at([](double t) { return t == 20 ? 999.0 : 210.0; }) == -1);
+}
+
+TEST_CASE("A heater that becomes hotter and hotter is noticed, and one that cools to a new target is not") {
+  CHECK(objects_at([](double t) { return 210 + t; }, 210, 210, HeatTrouble::hot) == 26);
+  CHECK(objects_at([](double t) { return std::max(195.0, 240 - t / 2); }, 195) == -1);
+}
+
+TEST_CASE(
+    "A target that the firmware has lost is noticed at once, one that was set at its display is respected") {
+  HeaterWatch watch(rules);
+  const auto at = [](double t) { return TimePoint(duration(t)); };
+  CHECK_FALSE(watch.note(at(0), 25, 0, 210));  // the line that sets it is still on its way
+  CHECK_FALSE(watch.note(at(2), 25, 0, 210));
+  CHECK_FALSE(watch.note(at(4), 30, 210, 210));
+  CHECK_FALSE(watch.note(at(6), 30, 0, 210));
+  CHECK(watch.note(at(8), 30, 0, 210) == HeatTrouble::off);
+  watch.rest();
+  CHECK_FALSE(watch.note(at(0), 210, 210, 210));
+  for (double t = 2; t < 100; t += 2) CHECK_FALSE(watch.note(at(t), std::max(180.0, 210 - t), 180, 210));
+}
+
+TEST_CASE(
+    "A nozzle that dies in mid-print is taken off the part, and the print fails or goes on when it is hot") {
+  const std::string firmware = GENERATE("marlin", "marlin-8bit", "repetier");
+  const bool noticed = GENERATE(true, false);
+  CAPTURE(firmware, noticed);
+  std::vector<std::string> faults{"heaterfail"};
+  if (!noticed) faults.emplace_back("unguarded");
+  const Watched seen = print_with(firmware, faults, [&](Session& session) {
+    if (!noticed) CHECK_FALSE(session.cancel());
+  });
+  CHECK(seen.paused_after > 0);
+  CHECK(seen.paused_after <= 15);
+  CHECK(seen.why.find("nozzle has fallen to") != std::string::npos);
+  CHECK(seen.result.ending == (noticed ? Ending::failed : Ending::stopped));
+  CHECK((seen.killed || seen.cold));
+  const auto aside = std::find_if(seen.lines.begin(), seen.lines.end(),
+                                  [](const auto& line) { return line.starts_with("G0 X5 Y5"); });
+  CHECK(aside != seen.lines.end());
+}
+
+TEST_CASE("A bed that dies in mid-print holds the print, too") {
+  const Watched seen = print_with("marlin", {"bedfail", "unguarded"}, [](Session& s) { s.cancel(); });
+  CHECK(seen.why.find("bed has fallen to") != std::string::npos);
+  CHECK(seen.result.ending == Ending::stopped);
+}
+
+TEST_CASE("A nozzle that cannot be switched off holds the print, and the firmware ends it") {
+  const Watched noticed = print_with("marlin", {"runaway"}, [](Session&) {});
+  CHECK(noticed.why.find("becomes hotter") != std::string::npos);
+  CHECK(noticed.result.ending == Ending::failed);
+  CHECK(noticed.result.reason.find("MAXTEMP") != std::string::npos);
+  const Watched unnoticed = print_with("marlin", {"runaway", "unguarded"}, [](Session& s) { s.cancel(); });
+  CHECK(unnoticed.why.find("becomes hotter") != std::string::npos);
+  CHECK(unnoticed.result.ending == Ending::stopped);
+}
