@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "core/model/closed_mesh.hpp"
@@ -18,9 +19,15 @@ namespace {
 ClosedMesh only(const ClosedMesh& mesh, std::vector<std::uint32_t> facets) {
   std::sort(facets.begin(), facets.end());
   ClosedMesh result;
-  result.vertices = mesh.vertices;
+  std::unordered_map<std::uint32_t, std::uint32_t> renamed;
   for (const auto f : facets) {
-    result.facets.push_back(mesh.facets[f]);
+    auto& facet = result.facets.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.facets[f][k];
+      const auto [known, added] = renamed.try_emplace(v, std::uint32_t(result.vertices.size()));
+      if (added) result.vertices.push_back(mesh.vertices[v]);
+      facet[k] = known->second;
+    }
     result.sources.push_back(mesh.sources[f]);
   }
   pair_edges(result);
@@ -31,7 +38,7 @@ ClosedMesh only(const ClosedMesh& mesh, std::vector<std::uint32_t> facets) {
 std::vector<ClosedMesh> solids_of(ClosedMesh mesh) {
   std::vector<std::vector<std::uint32_t>> solids = facets_of_solids(mesh);
   std::vector<ClosedMesh> result;
-  if (solids.size() == 1) {
+  if (solids.size() == 1 || solids.size() > most_shell_bodies) {
     result.push_back(std::move(mesh));
   } else {
     for (auto& facets : solids) result.push_back(only(mesh, std::move(facets)));

@@ -23,9 +23,12 @@ struct MendedBody {
 /// mm: about two beads of a usual nozzle.
 inline constexpr double usual_paint_depth = 1.2;
 
+inline constexpr std::size_t most_shell_bodies = 100;
+
 struct BodyOptions {
   double paint_depth = usual_paint_depth;  ///< mm
-  /// Whether the shells of a file that names no bodies, such as an STL file, are bodies of their own.
+  /// Whether the shells of a file that names no bodies, such as an STL file, are bodies of their own. A file
+  /// with more than `most_shell_bodies` of them is one body.
   bool shells_are_bodies = false;
 };
 

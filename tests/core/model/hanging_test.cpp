@@ -81,6 +81,20 @@ TEST_CASE("what a model holds is listed with areas or volumes") {
   CHECK(flat.zones[1].amount == Approx(100).epsilon(1e-3));
 }
 
+TEST_CASE("a file of very many solids is one body, and takes no more memory than its facets") {
+  const TempFolder folder;
+  Mesh crowd;
+  for (int i = 0; i < 5000; ++i) {
+    const double x = 2.0 * (i % 100), y = 2.0 * (i / 100);
+    const Mesh one = box_mesh({x, y, 0}, {x + 1, y + 1, 1});
+    crowd.insert(crowd.end(), one.begin(), one.end());
+  }
+  const ModelContents contents = inspect_model({folder.write("crowd.stl", binary_stl(crowd))});
+  REQUIRE(contents.zones.size() == 1);
+  CHECK(contents.zones[0].select == "crowd.stl");
+  CHECK(contents.zones[0].amount == Approx(5000));
+}
+
 TEST_CASE("bodies of an STL file are zones by number, voids with the solid around them") {
   const TempFolder folder;
   Mesh cavity = box_mesh({5, 5, 1}, {15, 15, 2});
