@@ -36,7 +36,7 @@ double objects_at(const std::function<double(double)>& reading, double wanted = 
 SampleFiles tall(const std::string& firmware) {
   SampleFiles sample;
   if (firmware == "repetier") sample.profile = replaced(sample.profile, "\"marlin\"", "\"repetier\"");
-  sample.job = replaced(unicursal::test::sample_job, "height = 0.4", "height = 1.2");
+  sample.job = replaced(unicursal::test::sample_job, "height = 0.4", "height = 2.4");
   return sample;
 }
 

@@ -193,7 +193,7 @@ TEST_CASE("doctor compares a profile's firmware with the printer's") {
   const Bench bench;
   const Outcome outcome =
       test::run({"doctor", "--port", printer.path(), "--profile", bench.path("bench.toml")});
-  CHECK(outcome.code == 1);
+  CHECK(outcome.code == 2);
   CHECK(says(outcome.out, "set firmware = \"repetier\""));
 }
 
