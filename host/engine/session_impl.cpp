@@ -136,8 +136,10 @@ void Session::State::refuse(const std::string& why) {
 }
 
 /// The lines that define the tools. A print that goes on has defined them already.
-std::vector<std::string> Session::State::first_lines() const {
-  return settings.continuation ? settings.continuation->leg->lead_in : source.start().lines;
+const std::vector<std::string>& Session::State::first_lines() {
+  if (settings.continuation) return settings.continuation->leg->lead_in;
+  if (!first) first = source.start();
+  return first->lines;
 }
 
 /// Some firmwares say ok when a line has come, and answer when they run it. What they answer to the last
@@ -231,7 +233,7 @@ asio::awaitable<void> Session::State::send_spooled() {
 
 asio::awaitable<void> Session::State::start() {
   if (intent.ends()) co_return;
-  gcode::Chunk chunk = source.start();
+  gcode::Chunk chunk = first ? std::move(*first) : source.start();
   if (!co_await spool_chunk({}, chunk)) co_return;
   printer.may_wait_for_heat = true;
   announcer.enter(SessionState::heating);

@@ -44,7 +44,7 @@ struct Session::State {
   asio::awaitable<void> rejoin();
   void check_firmware();
   asio::awaitable<void> check_abilities();
-  std::vector<std::string> first_lines() const;
+  const std::vector<std::string>& first_lines();
   asio::awaitable<void> send_spooled();
   void begin_to_catch_up();
   asio::awaitable<void> catch_up();
@@ -101,7 +101,8 @@ struct Session::State {
   PlaceKeeper places;
   Holding holding;
 
-  bool caught_up = true;  ///< false while the source belongs to the thread of `disk`
+  std::optional<gcode::Chunk> first;  ///< the source's start, until it is sent
+  bool caught_up = true;              ///< false while the source belongs to the thread of `disk`
   std::exception_ptr catching_up_failed;
   StreamResult result;  ///< as far as it is known
 };
