@@ -8,7 +8,10 @@
 #include <numeric>
 #include <string_view>
 
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/dialect/share_writing.hpp"
+#include "firmware_gcode/mixing/calibration.hpp"
 
 namespace unicursal::gcode {
 namespace {
@@ -41,10 +44,19 @@ bool feeds_equal_shares(const ModalState::Lines& definition, const Printer& prin
          });
 }
 
-/// The virtual tool of equal shares, which draws filament back from all inlets alike.
-std::optional<int> tool_of_equal_shares(const ModalState& state, const Printer& printer) {
+std::string selecting(int tool) {
+  return fmt::format("T{}", tool);
+}
+
+/// The line that selects equal shares, which draw filament back from all inlets alike; nullopt if the print
+/// has no virtual tool for them.
+std::optional<std::string> line_of_equal_shares(const ModalState& state, const Printer& printer) {
+  const Dialect& dialect = dialect_named(printer.firmware);
+  if (const ShareWriting* writing = share_writing(dialect))
+    return writing->write_shares(calibrated(Mixture({1, 1, 1}), printer.flow_factors, dialect).written,
+                                 printer);
   for (const auto& [tool, definition] : state.tools) {
-    if (feeds_equal_shares(definition, printer)) return tool;
+    if (feeds_equal_shares(definition, printer)) return selecting(tool);
   }
   return std::nullopt;
 }
@@ -69,14 +81,21 @@ double rise_aside(const Printer& printer, double height) {
 }
 
 AsideWriter::AsideWriter(const Printer& printer, const ModalState& state, double drawn)
-    : printer_(printer), state_(state), equal_(tool_of_equal_shares(state, printer)), drawn_(drawn) {}
+    : printer_(printer), state_(state), equal_shares_(line_of_equal_shares(state, printer)), drawn_(drawn) {}
 
 void AsideWriter::lines(const std::vector<std::string>& more) {
   chunk_.lines.insert(chunk_.lines.end(), more.begin(), more.end());
 }
 
-void AsideWriter::select(std::optional<int> tool) {
-  if (tool && *tool >= 0) line("T{}", *tool);
+void AsideWriter::choose_extruder() {
+  lines(gcode::choose_extruder(dialect_named(printer_.firmware)));
+}
+
+void AsideWriter::select_mixture() {
+  if (!state_.tool || *state_.tool < 0) return;
+  if (!share_writing(dialect_named(printer_.firmware))) return line("{}", selecting(*state_.tool));
+  const auto shares = state_.tools.find(*state_.tool);
+  if (shares != state_.tools.end()) lines(shares->second);
 }
 
 void AsideWriter::heat() {
@@ -102,7 +121,7 @@ void AsideWriter::draw_back() {
 
 void AsideWriter::squeeze(double volume, double flow) {
   draw(drawn_);
-  select(state_.tool);
+  select_mixture();
   filament(volume / filament_area(), flow / filament_area());
   chunk_.volume += volume;
   chunk_.prime_volume += volume;
@@ -114,14 +133,14 @@ void AsideWriter::approach() {
   height(*state_.position[2]);
   draw(drawn_ - state_.drawn_back);
   drawn_ = state_.drawn_back;
-  select(state_.tool);  // draw() may have selected another one
+  select_mixture();  // draw() may have selected another one
   if (state_.fan > 0) line("M106 S{}", short_number(state_.fan, 0));
   if (state_.feed) line("G1 F{}", short_number(*state_.feed, 0));
 }
 
 void AsideWriter::draw(double length) {
   if (length == 0) return;
-  select(equal_);
+  if (equal_shares_) line("{}", *equal_shares_);
   filament(length, printer_.retraction_speed);
 }
 

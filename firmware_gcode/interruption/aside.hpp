@@ -36,12 +36,15 @@ class AsideWriter {
   }
   void lines(const std::vector<std::string>& more);
 
-  void select(std::optional<int> tool);
+  /// Chooses the extruder that mixes, for which most firmwares need no line.
+  void choose_extruder();
+  /// Selects the mixture that the print's next line expects.
+  void select_mixture();
   /// Sets the heaters to the print's targets and waits for them.
   void heat();
   void travel(const core::Vec2& to);
   void height(double z);
-  /// Completes the retraction with the tool of equal shares.
+  /// Completes the retraction in equal shares.
   void draw_back();
   /// Undoes the retraction and squeezes `volume` of plastic out with the tool in use. Precondition: the
   /// nozzle is at a place where the plastic may lie.
@@ -59,8 +62,8 @@ class AsideWriter {
 
   const Printer& printer_;
   const ModalState& state_;
-  std::optional<int> equal_;  ///< the tool of equal shares
-  double drawn_;              ///< present retraction, mm of filament
+  std::optional<std::string> equal_shares_;  ///< the line that selects them
+  double drawn_;                             ///< present retraction, mm of filament
   Chunk chunk_;
 };
 

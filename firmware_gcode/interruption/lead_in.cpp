@@ -13,6 +13,7 @@ constexpr double transitions =
     2;  ///< of plastic that is squeezed out, like the prime line at the start of a print
 
 void heat(AsideWriter& writer, const ModalState& state) {
+  writer.choose_extruder();
   writer.lines({stay_watchful(), "M220 S" + short_number(state.speed_factor, 1),
                 "M221 S" + short_number(state.flow_factor, 1)});
   writer.heat();
@@ -20,9 +21,9 @@ void heat(AsideWriter& writer, const ModalState& state) {
 
 void find_position(AsideWriter& writer, const Printer& printer, double height) {
   const double up = rise_aside(printer, height);
-  writer.lines({"G21", "G91"});
-  writer.height(up);
-  writer.lines({"G90", "G92 Z" + short_number(height + up, 3), "G28 X Y"});
+  writer.lines({"G21", "G90", "G92 Z" + short_number(height, 3)});
+  writer.height(height + up);
+  writer.line("G28 X Y");
   writer.lines(modes());
   writer.lines(calibration(printer));
 }
@@ -30,7 +31,7 @@ void find_position(AsideWriter& writer, const Printer& printer, double height) {
 void mixtures(AsideWriter& writer, const ModalState& state) {
   for (const auto& [tool, definition] : state.tools) writer.lines(definition);
   writer.lines(state.collected());
-  writer.select(state.tool);
+  writer.select_mixture();
 }
 
 void squeeze_out(AsideWriter& writer, const Printer& printer, const LeadIn& to) {

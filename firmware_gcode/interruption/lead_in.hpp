@@ -1,9 +1,9 @@
 // Brings a printer that has lost its position and its heat back to a place in a print. mm, mm³.
 //
 // The nozzle stands on the part and may be frozen into it. Only the print knows its height: z cannot be homed
-// above the part. So the printer heats first, rises by a relative move, receives its height, and homes only x
-// and y, whose way leads above the part. The user's own start lines are not run again, since their homing,
-// probing or priming would hit the part.
+// above the part. So the printer heats first, receives its height (RepRapFirmware refuses to move an axis
+// whose position it does not know), rises, and homes only x and y, whose way leads above the part. The user's
+// own start lines are not run again, since their homing, probing or priming would hit the part.
 #pragma once
 
 #include "core/geometry/polygon.hpp"

@@ -51,6 +51,8 @@ std::optional<double> value(const Command& command, char letter) {
 
 constexpr double most_tools = 255;  ///< of any firmware; greater numbers are ignored
 
+constexpr int mixing_tool = 0;  ///< RepRapFirmware's tool, whose shares M567 rewrites
+
 constexpr std::array<char, 3> axes{'X', 'Y', 'Z'};
 
 void move(ModalState& state, const Command& command) {
@@ -147,6 +149,7 @@ void ModalState::run(std::string_view line) {
   if (command.letter == 'G') run_g(*this, command);
   if (command.letter != 'M') return;
   run_m(*this, command);
+  if (command.code == 567 && word(command.words, 'E')) tools[mixing_tool] = {std::string(line)};
   if (command.code == 163) collected_.emplace_back(line);
   if (command.code != 164) return;
   Lines lines = std::exchange(collected_, {});

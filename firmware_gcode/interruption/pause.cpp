@@ -37,6 +37,7 @@ std::string cool_aside(const ModalState& state) {
 Chunk come_back(const Printer& printer, const Pause& pause) {
   assert(known(pause.state));
   AsideWriter writer(printer, pause.state, std::max(pause.state.drawn_back, printer.retraction_length));
+  writer.choose_extruder();
   writer.heat();
   if (place_beside(printer, pause.extent)) {
     writer.squeeze(printer.dead_volume + printer.mixing_volume, pause.flow);

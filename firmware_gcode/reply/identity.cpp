@@ -31,7 +31,7 @@ std::map<std::string, std::string> fields_of(std::string_view text) {
       value = &fields[std::string(word.substr(0, colon))];
       *value = word.substr(colon + 1);
     } else if (value != nullptr) {
-      value->append(" ").append(word);
+      value->append(value->empty() ? "" : " ").append(word);
     }
   }
   return fields;

@@ -41,6 +41,25 @@ constexpr std::array all{
            "Marlin 1.1 to 2.1, STR_ERR_COLD_EXTRUDE_STOP; with \"Error:\" in some versions of 2.0"},
     Phrase{M::too_long, "", "too long extrusion prevented", "echo: too long extrusion prevented",
            "Marlin 1.1 to 2.1, STR_ERR_LONG_EXTRUDE_STOP"},
+    Phrase{M::stopped, "emergency stop! reset the controller", "",
+           "Emergency Stop! Reset the controller to continue.",
+           "RepRapFirmware 2 and 3, DoEmergencyStop() in GCodes.cpp"},
+    Phrase{M::stopped, "", ": machine is halted", "Error: G1: Machine is halted",
+           "RepRapFirmware 3, HandleResult() in GCodes2.cpp, at every command until M999"},
+    Phrase{M::refuses_to_move, "", "insufficient axes homed", "Error: G1: insufficient axes homed",
+           "RepRapFirmware 2 and 3, DoStraightMove() in GCodes.cpp; with \"G0/G1\" before 3.4"},
+    Phrase{M::too_cold, "tool ", "was not driven because its heater temperatures were not high enough",
+           "Warning: Tool 0 was not driven because its heater temperatures were not high enough or it has a "
+           "heater fault",
+           "RepRapFirmware 2 and 3, Tool.cpp; the axes move on without it"},
+    Phrase{M::too_cold, "heater ", " fault: ",
+           "Error: Heater 1 fault: exceeded allowed temperature excursion: target 210.0C actual 180.0C",
+           "RepRapFirmware 3.4 and later, Event.cpp; the heater stays off until M562"},
+    Phrase{M::too_cold, "heating fault on heater ", "",
+           "Error: Heating fault on heater 1, temperature excursion exceeded 15.0C",
+           "RepRapFirmware 2 to 3.3, Pid.cpp and LocalHeater.cpp"},
+    Phrase{M::no_such_tool, "attempting to extrude with no tool selected", "",
+           "Error: Attempting to extrude with no tool selected.", "RepRapFirmware 2 and 3, GCodes.cpp"},
     Phrase{M::no_such_tool, "t", " invalid extruder", "echo:T2 Invalid extruder",
            "Marlin 1.1 to 2.1, STR_INVALID_EXTRUDER after a T command"}};
 
@@ -55,7 +74,7 @@ std::string lower(std::string_view text) {
 std::string_view without_prefix(std::string_view text) {
   const auto skip_spaces = [&] { text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size())); };
   skip_spaces();
-  for (const std::string_view prefix : {"error:", "echo:", "!!"}) {
+  for (const std::string_view prefix : {"error:", "warning:", "echo:", "!!"}) {
     if (!text.starts_with(prefix)) continue;
     text.remove_prefix(prefix.size());
     skip_spaces();

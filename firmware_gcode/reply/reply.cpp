@@ -62,6 +62,8 @@ Temperatures temperatures_in(std::string_view text) {
     if (now && take(rest = trimmed(rest), "/")) target = take_decimal(rest);
   };
   read("T:", result.nozzle, result.nozzle_target);
+  if (!result.nozzle)
+    read("T0:", result.nozzle, result.nozzle_target);  // RepRapFirmware without a chosen tool
   read("B:", result.bed, result.bed_target);
   return result;
 }
@@ -120,6 +122,11 @@ Reply capability_with(std::string_view rest, std::string_view whole) {
   return reply::Capability{core::printable(rest.substr(0, colon)), value == "1"};
 }
 
+/// "Warning: M155: Command is not supported" and other words of RepRapFirmware that do not stop it.
+Reply warning_with(std::string_view rest) {
+  return reply::Echo{std::string(trimmed(rest)), rest.ends_with(": Command is not supported")};
+}
+
 bool ends_word(std::string_view rest) {
   return rest.empty() || is_space(rest.front());
 }
@@ -139,7 +146,11 @@ Reply parse_reply(std::string_view line) {
   const bool error = take(rest, "Error:");
   if (meaning_of(whole) == Meaning::stopped)
     return reply::Error{std::string(trimmed(rest)), std::nullopt, true};
+  // RepRapFirmware's words for commands that it does not know.
+  if (error && rest.starts_with(" Bad command:")) return reply::Echo{std::string(trimmed(rest)), true};
   if (error) return error_with(rest);
+  if (take(rest, "Warning:")) return warning_with(rest);
+  if (whole.starts_with("RepRapFirmware ") && whole.ends_with("is up and running.")) return reply::Start{};
   if (take(rest, "fatal:")) return reply::Error{std::string(trimmed(rest)), std::nullopt, true};
   if (whole == "start") return reply::Start{};
   if (whole == "wait") return reply::Wait{};
@@ -160,7 +171,7 @@ Reply parse_reply(std::string_view line) {
   if (take(rest, "RequestStop:")) return reply::Action{"cancel"};
   if (rest.starts_with("FIRMWARE_NAME:")) return reply::Firmware{std::string(rest)};
   if (rest.starts_with("X:") && !after_label(rest, "Y:").empty()) return position_with(rest);
-  if (rest.starts_with("T:") || rest.starts_with("B:")) {
+  if (rest.starts_with("T:") || rest.starts_with("T0:") || rest.starts_with("B:")) {
     if (const Temperatures t = temperatures_in(rest); !t.empty()) {
       return reply::TemperatureReport{t, !after_label(rest, "W:").empty()};
     }

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "firmware_gcode/dialect/common_lines.hpp"
+#include "firmware_gcode/dialect/share_writing.hpp"
 #include "firmware_gcode/print/bounds.hpp"
 
 namespace unicursal::gcode {
@@ -22,6 +23,7 @@ constexpr double feed_rounding = 0.02;        ///< mm/s; feed rates are whole mm
 constexpr double flow_tolerance_here = 0.05;  ///< relative; feed rates, positions and E are rounded
 constexpr double flow_span = 0.5;             ///< mm over which the flow is averaged
 constexpr double rounding = 1e-3;  ///< mm of filament that rounding may carry over to the next bead
+constexpr double share_tolerance = 1e-6;
 constexpr const char* axes = "XYZ";
 
 /// The problem of a line; becomes a core::DataError when its place is known.
@@ -120,6 +122,7 @@ void LineCheck::forget() {
   state_.at = {};
   state_.feed = 0;
   state_.tool.reset();
+  state_.extruder_chosen = false;
   state_.relative_filament = false;
   state_.shares = {};
 }
@@ -128,6 +131,7 @@ void LineCheck::command(const std::string& line, const MoveListener& listener) {
   require(line.size() + numbering <= dialect_.limits().line_length, "it is too long");
   require(std::all_of(line.begin(), line.end(), [](char c) { return c >= ' ' && c <= '~' && c != '*'; }),
           "it contains a character that is not allowed");
+  if (line.starts_with("M567 ")) return mix(line);
   const Words words(line);
   const std::string_view name = words.command;
   require(!name.empty(), "it begins with a space");
@@ -176,11 +180,40 @@ void LineCheck::define(const Words& words) {
   state_.defined.insert(static_cast<std::size_t>(tool));
 }
 
+/// M567 P0 E.5:.25:.25: the firmware multiplies E by each share.
+void LineCheck::mix(std::string_view line) {
+  constexpr std::string_view begin = "M567 P0 E";
+  require(share_writing(dialect_) != nullptr, "this firmware does not know the command");
+  require(line.starts_with(begin), "it is not the tool that mixes");
+  require(state_.extruder_chosen, "the tool that mixes is not chosen");
+  line.remove_prefix(begin.size());
+  double sum = 0;
+  int count = 0;
+  for (bool more = true; more; ++count) {
+    double share = 0;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), share);
+    require(error == std::errc() && share >= 0, "a share is not a number, or negative");
+    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+    sum += share;
+    more = line.starts_with(':');
+    if (more) line.remove_prefix(1);
+  }
+  require(line.empty() && count == printer_.feeders, "it does not have one share for each feeder");
+  require(std::abs(sum - 1) < share_tolerance,
+          "its shares do not add up to one, so that too much or too little is fed");
+  state_.tool = 0;
+}
+
 void LineCheck::set_tool(const Words& words, const MoveListener& listener) {
   std::size_t tool = 0;
   const char* const end = words.command.data() + words.command.size();
   const auto result = std::from_chars(words.command.data() + 1, end, tool);
   require(result.ec == std::errc() && result.ptr == end, "the tool has no number");
+  if (share_writing(dialect_)) {
+    require(tool == 0, "it is not the tool that mixes");
+    state_.extruder_chosen = true;
+    return listener.stop();
+  }
   require(state_.defined.contains(tool), "the tool was never defined");
   state_.tool = tool;
   if (dialect_.limits().tool_change_stops) listener.stop();

@@ -6,7 +6,8 @@
 // speeds within the limits of all axes; no more flow than the extruder melts, over any half millimetre; no
 // more filament in one move than the firmware accepts; retractions no longer than the profile's, and undone
 // before the next bead; beads that start from a known place, warm, with a defined tool whose shares are not
-// all zero; heater targets within their limits. It skips the user's own lines (dialect/common_lines.hpp).
+// all zero, and add up to one where the firmware does not normalise them; heater targets within their limits.
+// It skips the user's own lines (dialect/common_lines.hpp).
 //
 // The simulator parses G-code on its own (sim/firmware, sim/line/line_check.hpp) on purpose: it is
 // independent, so that a mistake in one of them cannot hide in the other.
@@ -51,6 +52,7 @@ class LineCheck {
     bool relative_filament = false;
     std::optional<std::size_t> tool;
     std::set<std::size_t> defined;
+    bool extruder_chosen = false;                              ///< only where the firmware needs it
     std::array<std::optional<double>, 3> shares;               ///< from M163, not stored yet
     double nozzle = 0;                                         ///< target, °C
     double drawn = 0;                                          ///< retraction of the filament, mm
@@ -64,6 +66,7 @@ class LineCheck {
   void feed_filament(double filament, double length);
   void check_flow();
   void define(const Words& words);
+  void mix(std::string_view line);
   void set_tool(const Words& words, const MoveListener& listener);
   void forget();
   void heat(const Words& words, double greatest, double* target);

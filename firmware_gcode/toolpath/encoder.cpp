@@ -233,7 +233,7 @@ std::string Encoder::State::name_of(const Mixture& delivered) const {
 
 void Encoder::State::define_tool(std::size_t which) {
   const CalibratedMixture& mixture = tools.mixture(which);
-  writer.define_tool(which, name_of(mixture.delivered), mixture.scale);
+  writer.define_tool(which, name_of(mixture.delivered), mixture);
 }
 
 std::size_t Encoder::State::material_at(const core::BeadPath& path, std::size_t bead) const {
@@ -532,7 +532,7 @@ Chunk Encoder::start() {
   append(chunk.lines, job_comments(s.printer, s.settings, s.dialect));
   append(chunk.lines, warm_up(s.printer, s.settings));
   append(chunk.lines, framed(s.start_lines));
-  append(chunk.lines, after_user_start());
+  append(chunk.lines, after_user_start(s.printer));
   append(chunk.lines, calibration(s.printer));
   append(chunk.lines, s.tools.define());
   s.writer.select_tool(chunk, 0);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/dialect/share_writing.hpp"
 #include "firmware_gcode/print/heat_targets.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
@@ -46,13 +48,16 @@ std::vector<std::string> job_comments(const Printer& printer, const PrintSetting
 std::vector<std::string> warm_up(const Printer& printer, const PrintSettings& settings) {
   const HeatTargets first = first_temperatures(printer, settings);
   const std::string nozzle = degrees(first.nozzle), bed = degrees(first.bed);
-  return {stay_watchful(),   "M220 S100", "M221 S100",    "M140 S" + bed,
-          "M104 S" + nozzle, "G28",       "M190 S" + bed, "M109 S" + nozzle};
+  std::vector<std::string> lines = choose_extruder(dialect_named(printer.firmware));
+  lines.insert(lines.end(), {stay_watchful(), "M220 S100", "M221 S100", "M140 S" + bed, "M104 S" + nozzle,
+                             "G28", "M190 S" + bed, "M109 S" + nozzle});
+  return lines;
 }
 
-std::vector<std::string> after_user_start() {
-  std::vector<std::string> lines = modes();
-  lines.insert(lines.begin(), stay_watchful());
+std::vector<std::string> after_user_start(const Printer& printer) {
+  std::vector<std::string> lines = choose_extruder(dialect_named(printer.firmware));
+  lines.push_back(stay_watchful());
+  for (std::string& line : modes()) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -15,9 +15,9 @@ namespace unicursal::gcode {
 std::vector<std::string> job_comments(const Printer& printer, const PrintSettings& settings,
                                       const Dialect& dialect);
 
-/// Sets the inactivity shutdown, resets speed and flow factors, heats and homes. Bed and nozzle heat up while
-/// the axes home, which saves a minute. The waits follow, so that plastic that oozes meanwhile stays away
-/// from the bed.
+/// Chooses the extruder, sets the inactivity shutdown, resets speed and flow factors, heats and homes. Bed
+/// and nozzle heat up while the axes home, which saves a minute. The waits follow, so that plastic that oozes
+/// meanwhile stays away from the bed.
 std::vector<std::string> warm_up(const Printer& printer, const PrintSettings& settings);
 
 /// The commands of a user's script, with the job's numbers inserted. `key` names it in messages. Throws
@@ -31,8 +31,8 @@ std::vector<std::string> framed(const std::vector<std::string>& user_lines);
 /// The changes of fan and heaters at the beginning of a layer. The print does not wait for them.
 std::vector<std::string> layer_events(std::size_t layer, const PrintSettings& settings);
 
-/// Sets the inactivity shutdown and the modes again, in case the user's own lines have changed them.
-std::vector<std::string> after_user_start();
+/// Sets extruder, inactivity shutdown and modes again, in case the user's own lines have changed them.
+std::vector<std::string> after_user_start(const Printer& printer);
 
 /// Heaters and fan off, the user's end lines, heaters and fan off again in case these lines turned them on,
 /// motors off. The inactivity shutdown ends last; it would halt an idle printer half an hour after every

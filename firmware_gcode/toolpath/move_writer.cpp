@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware_gcode/dialect/number.hpp"
+#include "firmware_gcode/dialect/share_writing.hpp"
 #include "firmware_gcode/motion/speeds.hpp"
 #include "firmware_gcode/print/bounds.hpp"
 
@@ -62,20 +63,20 @@ void MoveWriter::forget() {
   owed_ = 0;
 }
 
-void MoveWriter::define_tool(std::size_t tool, std::string name, double scale) {
-  if (tools_.size() <= tool) tools_.resize(tool + 1);
-  tools_[tool] = {std::move(name), scale};
+void MoveWriter::define_tool(std::size_t tool, std::string name, const CalibratedMixture& mixture) {
+  tools_.insert_or_assign(tool, Tool{std::move(name), mixture});
 }
 
 double MoveWriter::scale() const {
-  return tool_ && *tool_ < tools_.size() ? tools_[*tool_].scale : 1.0;
+  return tool_ ? tools_.at(*tool_).mixture.scale : 1.0;
 }
 
 void MoveWriter::select_tool(Chunk& chunk, std::size_t tool) {
   if (tool_ == tool) return;
   tool_ = tool;
-  if (tool < tools_.size()) chunk.mixtures.push_back({chunk.lines.size(), tools_[tool].name});
-  chunk.lines.push_back(dialect_.select_tool(tool));
+  const Tool& chosen = tools_.at(tool);
+  chunk.mixtures.push_back({chunk.lines.size(), chosen.name});
+  chunk.lines.push_back(begin_mixture(dialect_, tool, chosen.mixture.written, printer_));
 }
 
 void MoveWriter::rise(Chunk& chunk, double z) {

@@ -8,12 +8,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/dialect/dialect.hpp"
+#include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/print/chunk.hpp"
 #include "firmware_gcode/print/printer.hpp"
 
@@ -33,11 +34,10 @@ class MoveWriter {
   /// stopped anywhere in the written lines.
   void forget();
 
-  /// Sets the content of a tool: the mixture's `name`, and E ÷ mm of filament to be fed
-  /// (mixing/calibration.hpp).
-  void define_tool(std::size_t tool, std::string name, double scale);
+  /// Sets the content of a tool, and the name of its mixture.
+  void define_tool(std::size_t tool, std::string name, const CalibratedMixture& mixture);
 
-  /// Selects the tool and records the start of its mixture in the chunk.
+  /// Selects the tool and records the start of its mixture in the chunk. Precondition: the tool is defined.
   void select_tool(Chunk& chunk, std::size_t tool);
   void rise(Chunk& chunk, double z);
   void travel(Chunk& chunk, const core::Vec2& to);
@@ -65,9 +65,9 @@ class MoveWriter {
   std::optional<std::size_t> tool_;
   struct Tool {
     std::string name;
-    double scale = 1;
+    CalibratedMixture mixture;
   };
-  std::vector<Tool> tools_;
+  std::map<std::size_t, Tool> tools_;
   double feed_ = 0;  ///< mm/min in force, 0: unknown
   double owed_ = 0;  ///< mm of filament that rounding has withheld
 };

@@ -122,7 +122,7 @@ void SimulatedPrinter::declare(CLI::App& app) {
   constexpr auto group = "Simulated printer";
   add_value(app, "--personality", personality, "NAME",
             "Firmware to simulate: marlin, marlin-8bit, marlin-advanced-ok, marlin-host, marlin-few-tools, "
-            "repetier or repetier-0.92. Default: the firmware of the profile.")
+            "repetier, repetier-0.92 or reprapfirmware. Default: the firmware of the profile.")
       .group(group);
   add_value(app, "--usb", options.usb, "CHIP",
             "USB chip of the cable: none, cdc (1 ms of delay) or ftdi (16 ms). Default: cdc.")

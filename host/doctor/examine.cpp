@@ -120,6 +120,38 @@ class Interview {
   std::vector<std::string> heard_;
 };
 
+/// "Steps/mm: X: 80.000, Y: 80.000, Z: 400.000, E: 420.000:420.000", divided by `unit`.
+std::optional<std::array<double, 4>> spoken_axes(std::string_view line, double unit) {
+  std::array<double, 4> values{};
+  constexpr std::array<std::string_view, 4> labels{" X: ", " Y: ", " Z: ", " E: "};
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const auto at = line.find(labels[i]);
+    if (at == std::string_view::npos) return std::nullopt;
+    const std::string_view rest = line.substr(at + labels[i].size());
+    if (std::from_chars(rest.data(), rest.data() + rest.size(), values[i]).ec != std::errc())
+      return std::nullopt;
+    values[i] /= unit;
+  }
+  return values;
+}
+
+/// It accepts M85 and ignores it. M503 shows the text of its configuration, which is not what is in force.
+asio::awaitable<void> ask_reprapfirmware(Interview& interview, Examination& found) {
+  const std::vector<std::string> mix = co_await interview.ask(mixing_question("reprapfirmware"));
+  for (const std::string& line : mix) {
+    if (const auto count = mixing_feeders(line)) found.feeders = count;
+  }
+  found.mixes = found.feeders.has_value();
+  std::vector<std::string> answers;
+  std::vector<std::string> limits{"M92", "M203", "M201", "M200"};
+  for (std::string& question : limits) {
+    const std::vector<std::string> lines = co_await interview.ask(std::move(question));
+    answers.insert(answers.end(), lines.begin(), lines.end());
+  }
+  found.settings = spoken_settings(answers);
+  found.tells_settings = found.settings.max_speed.has_value();
+}
+
 }  // namespace
 
 MachineSettings settings_in(const std::vector<std::string>& lines) {
@@ -137,20 +169,37 @@ MachineSettings settings_in(const std::vector<std::string>& lines) {
   return settings;
 }
 
+MachineSettings spoken_settings(const std::vector<std::string>& lines) {
+  constexpr double seconds_per_minute = 60;
+  MachineSettings settings;
+  for (const std::string& line : lines) {
+    if (line.starts_with("Steps/mm:")) settings.steps_per_mm = spoken_axes(line, 1);
+    if (line.starts_with("Max speeds (mm/min):")) settings.max_speed = spoken_axes(line, seconds_per_minute);
+    if (line.starts_with("Accelerations (mm/sec^2):")) settings.max_acceleration = spoken_axes(line, 1);
+    if (line.starts_with("Volumetric extrusion is "))
+      settings.volumetric = line.starts_with("Volumetric extrusion is enabled");
+  }
+  return settings;
+}
+
 asio::awaitable<Examination> examine(Link& link, asio::any_io_executor executor,
                                      std::shared_ptr<Clock> clock) {
   Interview interview(link, executor, clock);
   Examination found;
   co_await interview.connect();
   found.reset_by_opening = interview.heard("start");
-  found.mixes = co_await interview.knows(mixing_question);
-  if (found.mixes && link.identity().family == gcode::Family::marlin)
-    found.tools = co_await interview.tools(most_tools);
-  found.shuts_down = co_await interview.knows("M85 S0");
-  found.tells_settings = co_await interview.knows("M503 S0");
-  if (found.tells_settings) {
-    const std::vector<std::string> lines = co_await interview.ask("M503 S0");
-    found.settings = settings_in(lines);
+  if (link.identity().family == gcode::Family::reprapfirmware) {
+    co_await ask_reprapfirmware(interview, found);
+  } else {
+    found.mixes = co_await interview.knows(mixing_question("marlin"));
+    if (found.mixes && link.identity().family == gcode::Family::marlin)
+      found.tools = co_await interview.tools(most_tools);
+    found.shuts_down = co_await interview.knows("M85 S0");
+    found.tells_settings = co_await interview.knows("M503 S0");
+    if (found.tells_settings) {
+      const std::vector<std::string> lines = co_await interview.ask("M503 S0");
+      found.settings = settings_in(lines);
+    }
   }
   found.answer_seconds = co_await interview.answer_seconds();
   found.identity = link.identity();

@@ -23,16 +23,20 @@ struct MachineSettings {
 
 /// Parses the lines of M503 of any Marlin: "echo:  M92 X80.00 Y80.00 Z400.00 E93.00".
 MachineSettings settings_in(const std::vector<std::string>& lines);
+/// Parses RepRapFirmware's answers to M92, M203 and M201 (GCodes2.cpp of 3.5.3): "Steps/mm: X: 80.000, …",
+/// "Max speeds (mm/min): X: 9000.0, …", "Accelerations (mm/sec^2): X: 1500.0, …".
+MachineSettings spoken_settings(const std::vector<std::string>& lines);
 
 struct Examination {
   gcode::Identity identity;
   gcode::Temperatures temperatures;
   std::optional<PrinterQueues> queues;  ///< nullopt without ADVANCED_OK.
   bool reset_by_opening = false;        ///< Whether the board has said "start".
-  bool mixes = false;                   ///< Whether it knows M163.
+  bool mixes = false;                   ///< Whether its feeders mix.
+  std::optional<int> feeders;           ///< How many meet in the tool, if it has said so.
   std::optional<unsigned> tools;        ///< Its virtual tools, up to 16; nullopt if it cannot be asked.
-  bool shuts_down = false;              ///< Whether it knows M85.
-  bool tells_settings = false;          ///< Whether it knows M503.
+  bool shuts_down = false;              ///< Whether M85 makes it cool down by itself.
+  bool tells_settings = false;          ///< Whether it reports its settings.
   MachineSettings settings;
   double answer_seconds = 0;  ///< Time from a question to its answer, the median of several.
 };

@@ -63,9 +63,10 @@ class Doctor {
   }
 
   void mixing() {
+    if (speaks_of_tools()) return tool();
     add_if(found_.mixes, Weight::trouble,
            "its feeders mix (it knows M163); it does not report how many there are, so check the profile",
-           does_not_mix);
+           does_not_mix("marlin"));
     if (const auto few = lacks_feeders(found_.identity)) add(Weight::trouble, *few);
     constexpr unsigned enough = 16;
     if (found_.tools)
@@ -78,6 +79,19 @@ class Doctor {
     const auto extruders = found_.identity.extruders.value_or(1);
     if (!found_.mixes && extruders > 1)
       add(Weight::note, fmt::format("it treats its feeders as {} separate extruders", extruders));
+  }
+
+  bool speaks_of_tools() const { return found_.identity.family == Family::reprapfirmware; }
+
+  void tool() {
+    if (!found_.feeders) return add(Weight::trouble, does_not_mix("reprapfirmware"));
+    const int wanted = profile_ != nullptr ? profile_->printer.feeders : *found_.feeders;
+    add_if(*found_.feeders == wanted, Weight::trouble,
+           fmt::format("its tool 0 mixes the filament of its {} feeders", *found_.feeders),
+           mixes_other_feeders(*found_.feeders, wanted));
+    add(Weight::note,
+        "it drops a damaged line without a word: the print goes line by line, and ends if a line is lost "
+        "whose effect cannot be seen");
   }
 
   void settings() {
@@ -112,13 +126,17 @@ class Doctor {
   }
 
   void safety() {
-    add_if(found_.shuts_down, Weight::warning,
-           "if this computer fails in mid-print, the printer switches its heaters off by itself (M85)",
-           "it does not know M85: if this computer fails in mid-print, the heaters stay on; do not leave the "
-           "printer unattended");
+    add_if(
+        found_.shuts_down, Weight::warning,
+        "if this computer fails in mid-print, the printer switches its heaters off by itself (M85)",
+        "M85 has no effect on it: if this computer fails in mid-print, the heaters stay on; do not leave the "
+        "printer unattended");
     add_if(found_.identity.can("EMERGENCY_PARSER"), Weight::warning, "an emergency stop takes effect at once",
-           "an emergency stop waits until there is room in its queue; keep its power switch within reach, or "
-           "build its firmware with EMERGENCY_PARSER");
+           speaks_of_tools()
+               ? "an emergency stop waits until the running command is done, which takes minutes "
+                 "while it heats; keep its power switch within reach"
+               : "an emergency stop waits until there is room in its queue; keep its power switch "
+                 "within reach, or build its firmware with EMERGENCY_PARSER");
   }
 
   void line() {
@@ -128,7 +146,9 @@ class Doctor {
            fmt::format("it reports how full its queues are (up to {} moves and {} commands)",
                        found_.queues ? found_.queues->planner_size : 0,
                        found_.queues ? found_.queues->commands_size : 0),
-           "it does not report how full its queues are; build its firmware with ADVANCED_OK");
+           speaks_of_tools()
+               ? "it does not report how full its queues are"
+               : "it does not report how full its queues are; build its firmware with ADVANCED_OK");
     const double lines = baud_ / (line_bytes * bits_per_byte);
     add_if(baud_ >= plenty_of_baud, Weight::warning,
            fmt::format("{} baud carry {:.0f} lines a second", baud_, lines),

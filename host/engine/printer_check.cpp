@@ -10,15 +10,53 @@
 #include "core/error.hpp"
 #include "core/text/wording.hpp"
 #include "firmware_gcode/dialect/dialect_named.hpp"
+#include "firmware_gcode/dialect/share_writing.hpp"
 #include "firmware_gcode/print/mixture.hpp"
 #include "firmware_gcode/reply/reply.hpp"
 
 namespace unicursal::host {
 
+namespace {
+
+constexpr auto marlins_question = "M163 S99 P1";
+
+bool asks_tools(const std::string& firmware) {
+  return gcode::share_writing(gcode::dialect_named(firmware)) != nullptr;
+}
+
+}  // namespace
+
+std::string mixing_question(const std::string& firmware) {
+  return asks_tools(firmware) ? "M567 P0" : marlins_question;
+}
+
 bool denies_mixing(const std::string& line) {
   const gcode::Reply reply = gcode::parse_reply(line);
+  if (const auto* error = std::get_if<gcode::reply::Error>(&reply)) return error->text.starts_with("M567: ");
   const auto* echo = std::get_if<gcode::reply::Echo>(&reply);
-  return echo && echo->unknown_command && echo->text.find(mixing_question) != std::string::npos;
+  return echo && echo->unknown_command &&
+         (echo->text.find(marlins_question) != std::string::npos || echo->text.starts_with("M567: "));
+}
+
+std::optional<int> mixing_feeders(const std::string& line) {
+  constexpr std::string_view words = " mix ratios: ";
+  const auto at = line.find(words);
+  if (!line.starts_with("Tool ") || at == std::string::npos) return std::nullopt;
+  return 1 + static_cast<int>(
+                 std::count(line.begin() + static_cast<std::ptrdiff_t>(at + words.size()), line.end(), ':'));
+}
+
+std::string does_not_mix(const std::string& firmware) {
+  if (!asks_tools(firmware))
+    return "its feeders do not mix: it does not know M163; build its firmware with MIXING_EXTRUDER";
+  return "it has no tool 0; define one with all feeders in its config.g, for example M563 P0 D0:1:2 H1";
+}
+
+std::string mixes_other_feeders(int has, int wanted) {
+  return fmt::format(
+      "{} {} in its tool 0, but the profile says {}; correct the drives in its config.g (M563 P0 D0:1:2), or "
+      "extruder.feeders in the profile",
+      has, has == 1 ? "feeder meets" : "feeders meet", wanted);
 }
 
 std::optional<unsigned> highest_tool(const std::vector<std::string>& lines) {

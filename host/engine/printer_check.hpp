@@ -11,13 +11,17 @@
 
 namespace unicursal::host {
 
-/// A command that changes nothing, since no printer has a feeder of that number. A firmware that does not
-/// know it has no mixing extruder.
-inline constexpr auto mixing_question = "M163 S99 P1";
+/// A command that changes nothing and shows whether feeders mix: shares for a feeder that no printer has, or
+/// the question for the shares of RepRapFirmware's tool.
+std::string mixing_question(const std::string& firmware);
+/// Whether a line says that the printer cannot carry out what mixing_question() asks.
 bool denies_mixing(const std::string& line);
-/// A sentence with its remedy.
-inline constexpr auto does_not_mix =
-    "its feeders do not mix: it does not know M163; build its firmware with MIXING_EXTRUDER";
+/// The number of feeders that meet in RepRapFirmware's tool, from "Tool 0 mix ratios: 1.000:0.000:0.000"
+/// (GCodes2.cpp of RepRapFirmware 3.5.3, M567); nullopt for any other line.
+std::optional<int> mixing_feeders(const std::string& line);
+/// Sentences with their remedies.
+std::string does_not_mix(const std::string& firmware);
+std::string mixes_other_feeders(int has, int wanted);
 
 /// The highest virtual tool that lines define, by "M164 S5"; absent if they define none.
 std::optional<unsigned> highest_tool(const std::vector<std::string>& lines);

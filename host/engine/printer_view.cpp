@@ -20,8 +20,7 @@ void update(gcode::Temperatures& known, const gcode::Temperatures& reported) {
   take(known.bed_target, reported.bed_target);
 }
 
-Remark::Kind kind_of(const reply::Echo& echo, const std::string& line) {
-  if (echo.unknown_command && denies_mixing(line)) return Remark::Kind::no_mixing;
+Remark::Kind kind_of(const reply::Echo& echo) {
   if (echo.unknown_command && echo.text.find("M85") != std::string::npos) return Remark::Kind::unknown_m85;
   return echo.unknown_command ? Remark::Kind::unknown : Remark::Kind::other;
 }
@@ -52,11 +51,12 @@ Remark PrinterView::hear(const std::string& line) {
   if (const auto* busy = std::get_if<reply::Busy>(&reply); busy && busy->for_user)
     return {Remark::Kind::waits, line};
   if (const auto* action = std::get_if<reply::Action>(&reply)) return {Remark::Kind::action, action->text};
-  if (const auto* echo = std::get_if<reply::Echo>(&reply)) {
-    const Remark::Kind kind = kind_of(*echo, line);
-    mixes = mixes && kind != Remark::Kind::no_mixing;
-    return {kind, echo->text};
+  if (denies_mixing(line)) {
+    mixes = false;
+    return {Remark::Kind::no_mixing, line};
   }
+  if (const auto count = mixing_feeders(line)) feeders = count;
+  if (const auto* echo = std::get_if<reply::Echo>(&reply)) return {kind_of(*echo), echo->text};
   return {Remark::Kind::other, line};
 }
 

@@ -3,6 +3,7 @@
 // thread.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "firmware_gcode/interruption/modal_state.hpp"
@@ -16,7 +17,7 @@ struct Remark {
   enum class Kind {
     temperatures,  ///< it only reports temperatures
     unknown_m85,   ///< the firmware does not know M85: nothing cools it when this computer fails
-    no_mixing,     ///< the firmware does not know M163
+    no_mixing,     ///< its feeders do not mix
     no_such_tool,  ///< it has fewer virtual tools
     unknown,       ///< it does not know a command; `text`: its words
     too_cold,      ///< it drives on without extruding, since the nozzle is too cold
@@ -40,6 +41,7 @@ struct PrinterView {
   gcode::Temperatures temperatures;  ///< as the printer last reported them, °C
   bool mixes = true;                 ///< false once the printer has denied it
   bool has_tools = true;             ///< false once the printer has denied one
+  std::optional<int> feeders;        ///< feeders that meet in the nozzle, if the printer has said so
   bool halted = false;               ///< the firmware has said that it has stopped itself
   gcode::ModalState expected;        ///< its state after all lines of the print that were handed to the link
   HostPrompt prompt;                 ///< what it asks a person

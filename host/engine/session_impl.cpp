@@ -145,9 +145,10 @@ const std::vector<std::string>& Session::State::first_lines() {
 /// Some firmwares say ok when a line has come, and answer when they run it. What they answer to the last
 /// question comes behind what they say to the others.
 asio::awaitable<void> Session::State::check_abilities() {
-  std::vector<std::string> questions{mixing_question};
+  const gcode::Printer& wanted = source.printer();
+  std::vector<std::string> questions{mixing_question(wanted.firmware)};
   const auto highest = highest_tool(first_lines());
-  if (highest && source.printer().firmware == "marlin") {
+  if (highest && wanted.firmware == "marlin") {
     questions.push_back(fmt::format("T{}", *highest));
     questions.emplace_back("T0");
   }
@@ -159,7 +160,11 @@ asio::awaitable<void> Session::State::check_abilities() {
     return !printer.mixes || printer.temperatures.nozzle || printer.temperatures.bed;
   };
   co_await wake.wait(clock->now() + late_answer, answered);
-  if (!printer.mixes) refuse(does_not_mix);
+  // An old RepRapFirmware says only ok if it has no such tool.
+  const bool silent = wanted.firmware == "reprapfirmware" && !printer.feeders;
+  if (!printer.mixes || silent) refuse(does_not_mix(wanted.firmware));
+  if (printer.feeders && *printer.feeders != wanted.feeders)
+    refuse(mixes_other_feeders(*printer.feeders, wanted.feeders));
   if (!printer.has_tools) refuse(lacks_tools(*highest));
 }
 
@@ -175,8 +180,9 @@ asio::awaitable<void> Session::State::rejoin() {
   check_firmware();
   result.lost = lost_since(before, found, spool->chunks(), spool->extent());
   if (result.lost) co_return;
-  places.rejoin({found.next, *before.place_of(found.next)});
-  link.go_on(found.next);
+  const std::uint32_t next = std::max<std::uint32_t>(found.next, 1);  // without counting, any number will do
+  places.rejoin({next, *place_found(before, found, spool->chunks())});
+  link.go_on(next);
 }
 
 /// Until this is over the source belongs to another thread.

@@ -32,11 +32,6 @@ void read_machine(const Section& section, Profile& profile) {
   printer.name = section.text_or("name", profile.file.stem().string(), "write a name in quotes");
   if (const toml::node* firmware = section.find("firmware")) {
     printer.firmware = section.choice("firmware", *firmware, {"marlin", "repetier", "reprapfirmware"});
-    if (printer.firmware == "reprapfirmware") {
-      section.fail("firmware",
-                   fmt::format("is \"{}\", which this version does not speak yet", printer.firmware),
-                   "\"marlin\" and \"repetier\" work so far");
-    }
   }
   profile.port = section.text_or("port", profile.port, "write \"auto\" or a path such as \"/dev/ttyUSB0\"");
   profile.baud = read_whole(section, "baud", profile.baud, between(300, 4000000, "bits/s"));

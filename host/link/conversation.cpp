@@ -87,6 +87,7 @@ asio::awaitable<void> LinkState::greet() {
     co_await quiet(std::min<Duration>(boot_chatter, options.boot));
   }
   co_await ask_firmware();
+  if (one_by_one()) co_await begin_one_by_one();
   co_await begin_reports();
   co_await reset_numbers();
   doubt = false;
@@ -134,7 +135,7 @@ asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   found.temperatures = reported_temperatures.value_or(gcode::Temperatures{});
   const std::function<bool()> named = [this] { return !firmware.empty(); };
   co_await ask("M115\n", named);
-  found.next = co_await ask_for_number(beyond);
+  if (!one_by_one()) found.next = co_await ask_for_number(beyond);  // else 0: it does not count lines
   probing = false;
   co_return found;
 }
@@ -174,7 +175,7 @@ asio::awaitable<void> LinkState::ask(std::string_view query, const std::function
 }
 
 void LinkState::go_on(std::uint32_t next) {
-  ledger = Ledger(options.receive_buffer, next, options.last_number);
+  ledger = new_ledger(next);
   doubt = true;  // the next ok may belong to an earlier line
   if (options.temperatures.count() > 0 && !identity.can("AUTOREPORT_TEMP"))
     ask_at = now() + options.temperatures;
@@ -253,8 +254,9 @@ asio::awaitable<void> LinkState::limit_wait([[maybe_unused]] std::shared_ptr<Lin
 }
 
 Duration LinkState::patience() const {
-  const bool reports =
-      identity.can("BUSY_PROTOCOL") || (heard_busy && identity.family == gcode::Family::marlin);
+  const bool reports = identity.can("BUSY_PROTOCOL") ||
+                       (heard_busy && identity.family == gcode::Family::marlin) ||
+                       (one_by_one() && reported_temperatures);
   return reports ? std::min(options.keepalive, options.silence) : options.silence;
 }
 
@@ -355,6 +357,7 @@ asio::awaitable<void> LinkState::resynchronise() {
   if (ledger.in_flight() && now() >= ok_deadline()) {
     give_up(finishes_nothing);
   }
+  if (one_by_one()) co_return co_await find_out();
   const auto waiting_since = ledger.in_flight() ? last_ok : now();
   holding = true;
   co_await quiet(options.quiet);
@@ -376,8 +379,9 @@ asio::awaitable<void> LinkState::resynchronise() {
 
 /// A Marlin says ok when a slow command is done, others perhaps when it is queued.
 bool LinkState::still_at_work() const {
-  const bool slow = identity.family == gcode::Family::marlin ? ledger.slow_in_flight()
-                                                             : ledger.in_flight() && ledger.slow();
+  const bool slow = identity.family == gcode::Family::marlin || one_by_one()
+                        ? ledger.slow_in_flight()
+                        : ledger.in_flight() && ledger.slow();
   return slow && !stranger && now() < std::min(last_line + options.no_ok, ok_deadline());
 }
 

@@ -99,6 +99,12 @@ void Ledger::forget() {
   while (front_ - base_ > kept) lines_.pop_front(), ++base_;
 }
 
+std::string_view Ledger::oldest_command() const {
+  const std::string_view frame = line(front_).frame;
+  const auto begin = frame.find(' ') + 1;
+  return frame.substr(begin, frame.rfind('*') - begin);
+}
+
 bool Ledger::acknowledge() {
   if (!in_flight() || line(front_).fence) return false;
   advance(front_ + 1);

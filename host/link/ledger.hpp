@@ -92,6 +92,10 @@ class Ledger {
   bool at_fence() const { return in_flight() && line(front_).fence; }
   bool all_written() const { return waiting_.empty() && next_ == end(); }
   bool settled() const { return all_written() && !in_flight(); }
+  /// The oldest line in flight: its number, and its command without number and checksum. Precondition:
+  /// in_flight().
+  std::uint32_t oldest() const { return front_; }
+  std::string_view oldest_command() const;
   /// The number of the next line to be written.
   std::uint32_t next() const { return next_; }
   /// The number of the user's commands that are acknowledged.

@@ -24,7 +24,8 @@ int damaged_oks(std::string_view text) {
 
 /// Whether a line reports a temperature, even one that is not a number ("ok T:nan /0.0 B:23.9 /0.0").
 bool mentions_heat(std::string_view line) {
-  return line.find("T:") != std::string_view::npos || line.find("B:") != std::string_view::npos;
+  const auto mentions = [&](std::string_view label) { return line.find(label) != std::string_view::npos; };
+  return mentions("T:") || mentions("T0:") || mentions("B:");
 }
 
 /// Whether an ok has run together with the report before it. Reports hold only labels and numbers.
@@ -86,6 +87,8 @@ void LinkState::take(const reply::Ok& ok) {
   }
   const std::uint32_t queued = note_places(ok);
   if (phase == Phase::greeting || holding) return;
+  const std::string oldest(one_by_one() && ledger.in_flight() ? ledger.oldest_command() : "");
+  const std::uint64_t acknowledged = ledger.acknowledged();
   bool expected;
   if (ok.line)
     expected = ledger.acknowledge_number(*ok.line, queued);
@@ -94,6 +97,7 @@ void LinkState::take(const reply::Ok& ok) {
   else
     expected = ledger.acknowledge() || ledger.at_fence();
   if (!expected) doubt = true;
+  if (ledger.acknowledged() > acknowledged) whereabouts.done(oldest);
   statistics.acknowledged = ledger.acknowledged();
   moves_until = std::max(moves_until, now()) + in_clock(ledger.take_acknowledged_seconds());
   moves_until = std::min(moves_until, now() + in_clock(ledger.queued_seconds()));
@@ -180,6 +184,7 @@ void LinkState::take(const reply::Wait&) {
 
 void LinkState::take(const reply::TemperatureReport& report) {
   note(report.temperatures);
+  if (one_by_one()) last_life = now();
   if (!report.waiting) {
     reported_temperatures = report.temperatures;
     return;
@@ -210,6 +215,7 @@ void LinkState::take(const reply::Echo& echo) {
 
 void LinkState::take(const reply::Position& position) {
   reported_position = position.mm;
+  ++places_heard;
 }
 
 void LinkState::take(const reply::Unknown& unknown) {

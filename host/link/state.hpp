@@ -28,6 +28,10 @@
 // - During a slow command (heating, probing the bed) a printer may be silent for minutes, or say only things
 //   like "Bed X: 10 Y: 10 Z: 0.1". It reads nothing meanwhile. The link probes, too, since the ok may be
 //   lost, but goes on waiting: the answer comes when the command is done.
+// - RepRapFirmware drops a damaged line without a word, executes numbered lines in any order, and takes lines
+//   without a checksum. One line at a time is therefore in flight. If its ok does not come, M114 shows
+//   whether it was executed (host/link/whereabouts.hpp); if it does not show that, the print ends. From the
+//   first M105 on it reports temperatures every 2 s while a command runs, which is its sign of life.
 // - Temperatures: the link uses M155 if the firmware has it, since M105 waits behind every move; otherwise a
 //   numbered M105, which shifts the numbers of the lines after it.
 #pragma once
@@ -47,6 +51,7 @@
 #include "host/link/ledger.hpp"
 #include "host/link/line_splitter.hpp"
 #include "host/link/link_types.hpp"
+#include "host/link/whereabouts.hpp"
 #include "host/loop/signal.hpp"
 
 namespace unicursal::host {
@@ -122,6 +127,13 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   TimePoint now() const { return options.clock->now(); }
   bool settled() const { return ledger.settled() && !doubt && !holding; }
 
+  // One line at a time (one_by_one.cpp)
+  bool one_by_one() const;
+  Ledger new_ledger(std::uint32_t first) const;
+  asio::awaitable<void> begin_one_by_one();
+  asio::awaitable<void> find_out();
+  void judge_line_in_flight(bool late_ok);
+
   /// Waits until `ready`, without a deadline; throws LinkError if the link fails meanwhile.
   asio::awaitable<void> until(const std::function<bool()>& ready);
   /// Returns whether `ready` came true by the deadline; throws LinkError if the link fails meanwhile.
@@ -147,6 +159,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   Signal signal;
 
   Ledger ledger;
+  Whereabouts whereabouts;  ///< only kept when lines go one by one
   LineSplitter splitter;
   std::string unsent;             ///< Bytes that the port has not taken yet.
   bool waiting_for_port = false;  ///< Whether the link waits for the port to take them.
@@ -174,7 +187,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   std::string last_error;
 
   std::uint64_t bytes_heard = 0;
-  std::uint64_t oks = 0, refusals = 0, lines_heard = 0, waits_heard = 0;
+  std::uint64_t oks = 0, refusals = 0, lines_heard = 0, waits_heard = 0, places_heard = 0;
   bool about_heat = false;      ///< Whether the line that is being handled reports a temperature.
   bool heard_busy = false;      ///< Whether it has ever reported that it is busy.
   bool waits_for_user = false;  ///< According to the printer's last message.

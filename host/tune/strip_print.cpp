@@ -71,7 +71,7 @@ class StripWriter {
     append(chunk, gcode::warm_up(printer_, settings()));
     append(chunk,
            gcode::framed(gcode::script_lines(printer_.start_gcode, "gcode.start", printer_, settings())));
-    append(chunk, gcode::after_user_start());
+    append(chunk, gcode::after_user_start(printer_));
     append(chunk, gcode::calibration(printer_));
     const auto mixtures = strip_mixtures(printer_, feeders_);
     for (std::size_t i = 0; i < mixtures.size(); ++i) define(chunk, i, mixtures[i]);
@@ -91,7 +91,7 @@ class StripWriter {
 
   void define(Chunk& chunk, std::size_t tool, const Mixture& mixture) {
     const gcode::CalibratedMixture written = gcode::calibrated(mixture, printer_.flow_factors, dialect_);
-    writer_.define_tool(tool, gcode::shares_text(written.delivered), written.scale);
+    writer_.define_tool(tool, gcode::shares_text(written.delivered), written);
     append(chunk, dialect_.define_tool(tool, written.written));
   }
 

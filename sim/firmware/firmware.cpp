@@ -12,11 +12,17 @@ namespace {
 constexpr double longest_run_down = 7200;  // s; a heater that has failed never becomes hot
 constexpr double heat_interval = 1;        // s between the lines of M109 and M190
 constexpr double heat_look = 0.25;         // s between checks of the temperature while M109 or M190 waits
-constexpr double residency = 10;           // s for which a heater must have been hot before M109 or M190 ends
 
 LineCheck::Rules rules_of(const Personality& personality) {
-  return personality.family == Personality::Family::repetier ? LineCheck::Rules::repetier
-                                                             : LineCheck::Rules::marlin;
+  switch (personality.family) {
+    case Personality::Family::repetier:
+      return LineCheck::Rules::repetier;
+    case Personality::Family::reprapfirmware:
+      return LineCheck::Rules::reprapfirmware;
+    case Personality::Family::marlin:
+      break;
+  }
+  return LineCheck::Rules::marlin;
 }
 
 MotionLimits limits_of(const Machine& machine, const Personality& personality) {
@@ -191,7 +197,7 @@ void Firmware::alarm(Heater::Alarm what, bool bed) {
 }
 
 void Firmware::say_heating(const HeatWait& wait) {
-  const std::string rest = wait.since ? fmt::format("{:.0f}", *wait.since + residency - now_) : "?";
+  const std::string rest = wait.since ? fmt::format("{:.0f}", *wait.since + residency() - now_) : "?";
   say(fmt::format(" {} W:{}", temperatures(), rest));
 }
 
@@ -254,10 +260,15 @@ void Firmware::take(const std::string& line, bool damaged) {
 }
 
 void Firmware::accept(LineVerdict verdict, bool damaged) {
-  if (verdict.number) ++counts_.accepted;
+  // A print has no line 0: hosts set the number and ask questions with it.
+  const bool asks = verdict.number == 0 && !verdict.body.starts_with("M110");
+  if (verdict.number && !asks) ++counts_.accepted;
   if (damaged) ++(verdict.number ? counts_.unseen_damage : counts_.disguised);
   if (!verdict.number && handled_at_once(verdict.body)) return;
-  queue_.push_back({verdict.number, std::move(verdict.body)});
+  std::vector<std::string> commands = commands_in(verdict.body);
+  for (std::string& command : commands) queue_.push_back({std::nullopt, std::move(command), false, true});
+  queue_.back().number = verdict.number;
+  queue_.back().more = false;
   taken(queue_.back());
 }
 
@@ -334,8 +345,8 @@ bool Firmware::hot_for_long(Wait& wait) {
   if (heat.since && !heat.heating_only && heat.heater->strayed(now_)) heat.since.reset();
   wait.until = now_ + heat_look;
   if (!heat.since) return false;
-  wait.until = std::min(wait.until, *heat.since + residency);
-  return now_ >= *heat.since + residency;
+  wait.until = std::min(wait.until, *heat.since + residency());
+  return now_ >= *heat.since + residency();
 }
 
 void Firmware::finish() {
@@ -358,7 +369,7 @@ void Firmware::note_order(const Line& line) {
   if (line.injected) return;
   if (line.body.starts_with("M110")) {
     last_executed_ = check_.last();
-  } else if (line.number) {
+  } else if (line.number && *line.number != 0) {
     counts_.executed_in_order = counts_.executed_in_order && *line.number == last_executed_ + 1;
     last_executed_ = *line.number;
   }

@@ -133,6 +133,7 @@ class Firmware {
     std::optional<std::int64_t> number;
     std::string body;
     bool injected = false;  ///< The firmware gave it to itself, so nobody waits for an ok.
+    bool more = false;      ///< Whether another command of the same line follows.
   };
   /// A wait for a heater to stay at its target for a while.
   struct HeatWait {
@@ -153,6 +154,8 @@ class Firmware {
   virtual void repeated(std::int64_t) { ++counts_.repeated; }
   virtual void refuse(LineVerdict::Kind kind);
   virtual bool handled_at_once(std::string_view line);
+  /// The commands that a line holds; at least one.
+  virtual std::vector<std::string> commands_in(const std::string& body) const { return {body}; }
   /// Called when a line has been queued.
   virtual void taken(const Line&) {}
   /// Called when the running command is done, while it is still in the queue.
@@ -166,6 +169,8 @@ class Firmware {
   virtual void say_still_stopped();
   virtual bool knows(const Command& command) const;
   virtual Mix current_mix() const { return mixer_.current(); }
+  /// Time for which a heater must have been hot before M109 or M190 ends, s.
+  virtual double residency() const { return 10; }
   /// The time at which the family next does something by itself; nullopt if it will not.
   virtual std::optional<double> next_habit() const { return std::nullopt; }
   virtual void follow_habits() {}
@@ -271,7 +276,7 @@ class Firmware {
   void stop_moves(const Command& command);
   virtual void select_tool(const Command& command);
   void plan(const MoveTarget& target, double e);
-  double filament_to_feed(double e);
+  virtual double filament_to_feed(double e);
   void homed(bool x, bool y, bool z);
   void say_position();
 

@@ -76,11 +76,22 @@ Personality repetier_092() {
   return one;
 }
 
+Personality reprapfirmware() {
+  Personality one;
+  one.name = "reprapfirmware";
+  one.family = Personality::Family::reprapfirmware;
+  one.direct_mixing = false;
+  one.queue_size = 1;
+  one.boot_seconds = 4;
+  one.chatter = {"RepRapFirmware for Duet 2 WiFi/Ethernet is up and running."};
+  return one;
+}
+
 }  // namespace
 
 const Personality& personality(std::string_view name) {
   static const std::array all{marlin(),           marlin_8bit(), marlin_advanced_ok(), marlin_host(),
-                              marlin_few_tools(), repetier(),    repetier_092()};
+                              marlin_few_tools(), repetier(),    repetier_092(),       reprapfirmware()};
   std::string names;
   for (const Personality& one : all) {
     if (one.name == name) return one;

@@ -1,5 +1,5 @@
 // The numbers and switches in which firmwares of one family differ. The differences between families are in
-// sim/firmware/firmware.hpp (Marlin) and sim/firmware/repetier.hpp.
+// sim/firmware/firmware.hpp (Marlin), sim/firmware/repetier.hpp and sim/firmware/reprapfirmware.hpp.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace unicursal::sim {
 
 struct Personality {
-  enum class Family { marlin, repetier };
+  enum class Family { marlin, repetier, reprapfirmware };
 
   std::string_view name;
   Family family = Family::marlin;
@@ -32,7 +32,7 @@ struct Personality {
 };
 
 /// Returns the personality of this name: marlin, marlin-8bit, marlin-advanced-ok, marlin-host,
-/// marlin-few-tools, repetier or repetier-0.92.
+/// marlin-few-tools, repetier, repetier-0.92 or reprapfirmware.
 /// Throws std::invalid_argument, whose message lists them.
 const Personality& personality(std::string_view name);
 

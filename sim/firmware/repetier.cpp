@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/firmware/reprapfirmware.hpp"
+
 namespace unicursal::sim {
 
 namespace {
@@ -19,6 +21,9 @@ std::unique_ptr<Firmware> make_firmware(const Machine& machine, const Personalit
                                         MoveSink& sink, Firmware::Reply reply) {
   if (personality.family == Personality::Family::repetier) {
     return std::make_unique<Repetier>(machine, personality, sink, std::move(reply));
+  }
+  if (personality.family == Personality::Family::reprapfirmware) {
+    return std::make_unique<RepRapFirmware>(machine, personality, sink, std::move(reply));
   }
   return std::make_unique<Firmware>(machine, personality, sink, std::move(reply));
 }

@@ -1,6 +1,7 @@
 // Checks the line number and checksum of a received line in Marlin 2.1's order: number first, then checksum.
 // The checksum is the exclusive or of all bytes before the last `*`. Repetier compares numbers modulo 65536,
-// treats the last forty as repeated, and takes a number without a checksum.
+// treats the last forty as repeated, and takes a number without a checksum. RepRapFirmware compares no
+// numbers: a numbered line may have a checksum, and everything behind it is dropped.
 //
 // This code shares nothing with the framing in host/link/ledger.hpp, on purpose: a mistake on one side must
 // not hide in the other. (firmware_gcode/review/line_check.hpp checks what lines do, not how they are
@@ -38,7 +39,7 @@ enum class Misreading {
 
 class LineCheck {
  public:
-  enum class Rules { marlin, repetier };
+  enum class Rules { marlin, repetier, reprapfirmware };
 
   explicit LineCheck(Rules rules = Rules::marlin) : rules_(rules) {}
 
@@ -48,6 +49,7 @@ class LineCheck {
   void set_last(std::int64_t number) { last_ = number; }
 
  private:
+  LineVerdict check_checksum_only(std::string_view line);
   LineVerdict::Kind judge(std::string_view line, std::int64_t number, bool resets) const;
   bool follows(std::int64_t number) const;
   bool repeats(std::int64_t number) const;

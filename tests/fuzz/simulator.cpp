@@ -20,7 +20,8 @@ const std::string& kept(const fs::path& file, const std::string& bytes) {
 }
 
 const char* some_firmware(core::Random& random) {
-  static constexpr std::array names{"marlin", "marlin-8bit", "marlin-advanced-ok", "repetier"};
+  static constexpr std::array names{"marlin", "marlin-8bit", "marlin-advanced-ok", "repetier",
+                                    "reprapfirmware"};
   return names[random.below(names.size())];
 }
 

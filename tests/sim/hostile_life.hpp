@@ -129,7 +129,8 @@ inline void demand_sound(const Firmware& firmware) {
 inline void live(std::uint64_t seed) {
   constexpr std::uint64_t most_portions = 1'000'000;
   Writer writer(seed);
-  static constexpr std::array names{"marlin", "marlin-8bit", "marlin-advanced-ok", "repetier"};
+  static constexpr std::array names{"marlin", "marlin-8bit", "marlin-advanced-ok", "repetier",
+                                    "reprapfirmware"};
   const WireModel wire{writer.pick(2) == 0 ? 0.0 : 115200.0, static_cast<Usb>(writer.pick(3))};
   const FaultPlan faults = writer.pick(3) == 0 ? every_fault(writer) : FaultPlan{};
   Nothing nothing;

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "firmware_gcode/dialect/dialect_named.hpp"
+#include "firmware_gcode/dialect/share_writing.hpp"
 #include "firmware_gcode/mixing/calibration.hpp"
 #include "firmware_gcode/toolpath/placeholders.hpp"
 
@@ -12,11 +13,32 @@ using namespace unicursal::gcode;
 
 TEST_CASE("Repetier gets shares in whole hundredths, at standstill") {
   const Dialect& repetier = dialect_named("repetier");
+  CHECK(choose_extruder(repetier).empty());
+  CHECK(begin_mixture(repetier, 3, Mixture({1, 1, 0}), Printer{}) == "T3");
   CHECK(repetier.define_tool(3, repetier.as_written(Mixture({0.5, 0.333, 0.167}))) ==
         std::vector<std::string>{"M400", "M163 S0 P50", "M163 S1 P33", "M163 S2 P17", "M164 S3"});
   CHECK(repetier.limits().tool_change_stops);
   CHECK_FALSE(dialect_named("marlin").limits().tool_change_stops);
   CHECK_THROWS_WITH(dialect_named("klipper"), Catch::Contains("klipper") && Catch::Contains("repetier"));
+}
+
+TEST_CASE("RepRapFirmware gets its shares at each change; those of the feeders that exist add up to one") {
+  const Dialect& dialect = dialect_named("reprapfirmware");
+  Printer printer;
+  const auto line = [&](const std::array<double, 3>& shares) {
+    return begin_mixture(dialect, 9, dialect.as_written(Mixture(shares)), printer);
+  };
+  CHECK(choose_extruder(dialect) == std::vector<std::string>{"T0 P0"});
+  CHECK(dialect.define_tool(9, Mixture({1, 0, 0})).empty());
+  CHECK(line({2, 1, 1}) == "M567 P0 E.5:.25:.25");
+  CHECK(line({1, 1, 1}) == "M567 P0 E.3334:.3333:.3333");
+  CHECK(line({0, 0, 5}) == "M567 P0 E0:0:1");
+  printer.feeders = 2;
+  CHECK(line({0.49, 0.49, 0.02}) == "M567 P0 E.5:.5");
+  printer.feeders = 1;
+  CHECK(line({1, 1, 1}) == "M567 P0 E1");
+  CHECK_FALSE(dialect.limits().shares_act_at_once);
+  CHECK_FALSE(dialect.limits().tool_change_stops);
 }
 
 TEST_CASE("quantised shares add up, are off by less than a unit, and do not change when quantised again") {

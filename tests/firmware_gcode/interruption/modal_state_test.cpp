@@ -133,7 +133,7 @@ TEST_CASE("a lead-in moves only when hot, rises first, and never homes z") {
     const bool moves = line.rfind("G0", 0) == 0 || line.rfind("G1", 0) == 0 || line.rfind("G28", 0) == 0;
     if (!moves) continue;
     CHECK(hot);
-    if (!risen) CHECK(line == "G1 Z10 F600");
+    if (!risen) CHECK(line == "G1 Z10.2 F600");
     risen = true;
     if (line.rfind("G28", 0) == 0) CHECK(line == "G28 X Y");
   }
@@ -182,6 +182,29 @@ TEST_CASE("a lead-in undoes the whole retraction, and draws back in equal shares
     };
     CHECK(pushed(8) - pushed(0) == Approx(8));
   }
+}
+
+TEST_CASE(
+    "a RepRapFirmware gets its tool before the heat, its height before it rises, and its mixture at the "
+    "end") {
+  std::vector<std::string> lines = a_print;
+  lines.insert(lines.end(), {"T0 P0", "M567 P0 E.2:.3:.5"});
+  const LeadIn to{after(lines), 0.2, 2, core::Box{{90, 90}, {110, 110}}, 0};
+  Printer printer;
+  printer.firmware = "reprapfirmware";
+  const std::vector<std::string> led = lead_in(printer, to).lines;
+  const auto at = [&](const std::string& begin) {
+    return std::find_if(led.begin(), led.end(), [&](const auto& line) { return line.starts_with(begin); }) -
+           led.begin();
+  };
+  CHECK(led.front() == "T0 P0");
+  CHECK(at("G92 Z.2") < at("G1 Z10.2"));
+  CHECK(at("G1 Z10.2") < at("G28 X Y"));
+  CHECK(at("M567 P0 E.3334:.3333:.3333") < std::ssize(led));  // filament is drawn in equal shares
+  const auto last_mixture =
+      std::find_if(led.rbegin(), led.rend(), [](const auto& l) { return l.starts_with("M567"); });
+  REQUIRE(last_mixture != led.rend());
+  CHECK(*last_mixture == "M567 P0 E.2:.3:.5");
 }
 
 TEST_CASE("a lead-in keeps below the printer's height, and warns if nothing can be squeezed out") {

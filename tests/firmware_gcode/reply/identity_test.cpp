@@ -23,6 +23,7 @@ TEST_CASE("firmwares identify themselves, each in its own way") {
   const Identity duet = identify(
       "FIRMWARE_NAME: RepRapFirmware for Duet 2 WiFi/Ethernet FIRMWARE_VERSION: 3.4.5 ELECTRONICS: Duet");
   CHECK(duet.family == Family::reprapfirmware);
+  CHECK(duet.firmware == "RepRapFirmware for Duet 2 WiFi/Ethernet");
   CHECK(duet.version == Version{3, 4, 5});
   CHECK(duet.firmware.find("Duet 2") != std::string::npos);
   const Identity bugfix = identify("FIRMWARE_NAME:Marlin bugfix-2.1.x (Jan 1 2024)");

@@ -12,9 +12,9 @@ TEST_CASE("every phrase is found in its example, with any prefix, and has a sour
     CAPTURE(phrase.example);
     CHECK_FALSE(phrase.source.empty());
     std::string bare(phrase.example);
-    for (const std::string prefix : {"Error:", "echo:"})
+    for (const std::string prefix : {"Error: ", "Error:", "Warning: ", "echo:"})
       if (bare.starts_with(prefix)) bare.erase(0, prefix.size());
-    for (const std::string prefix : {"", "Error:", "Error: ", "echo:", "echo: "})
+    for (const std::string prefix : {"", "Error:", "Error: ", "Warning: ", "echo:", "echo: "})
       CHECK(meaning_of(prefix + bare) == phrase.meaning);
   }
 }

@@ -102,3 +102,21 @@ TEST_CASE("any bytes parse to some value and can be shown") {
     for (char c : unicursal::core::printable(line)) REQUIRE((c >= ' ' && c <= '~'));
   }
 }
+
+TEST_CASE("RepRapFirmware's replies are understood") {
+  const auto heat = parsed<reply::Ok>("ok T:24.7 /210.0 T0:24.7 /210.0 B:23.9 /60.0");
+  CHECK(heat.temperatures == Temperatures{24.7, 210.0, 23.9, 60.0});
+  CHECK(parsed<reply::Ok>("ok T0:24.7 /0.0 B:23.9 /0.0").temperatures == Temperatures{24.7, 0.0, 23.9, 0.0});
+  CHECK_FALSE(parsed<reply::TemperatureReport>("T:24.7 /0.0 T0:24.7 /0.0 B:23.9 /0.0").waiting);
+  const auto place = parsed<reply::Position>(
+      "X:1.000 Y:2.500 Z:0.200 E:0.000 E0:3.1 E1:0.2 E2:0.2 Count 80 200 80 Machine 1.000 2.500 0.200 Bed "
+      "comp 0.000");
+  CHECK(place.mm == std::array<double, 3>{1, 2.5, 0.2});
+  parsed<reply::Start>("RepRapFirmware for Duet 2 WiFi/Ethernet is up and running.");
+  CHECK(parsed<reply::Echo>("Warning: M155: Command is not supported").unknown_command);
+  CHECK(parsed<reply::Echo>("Error: Bad command: xyz").unknown_command);
+  CHECK_FALSE(parsed<reply::Echo>("Warning: the 12V rail is low").unknown_command);
+  CHECK_FALSE(parsed<reply::Error>("Error: M567: Invalid tool number").halted);
+  CHECK(parsed<reply::Error>("Error: G1: Machine is halted").halted);
+  CHECK(parsed<reply::Resend>("rs 12").line == 12);
+}

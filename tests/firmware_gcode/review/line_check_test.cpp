@@ -140,3 +140,35 @@ TEST_CASE("the time estimate stops at T if T waits for the end of motion") {
   CHECK(stops == 2);
   CHECK(complaint({"G1 X30 E161 F10"}, "repetier").find("more than the firmware") != std::string::npos);
 }
+
+TEST_CASE("RepRapFirmware's mixtures add up to one, and belong to the tool that is chosen") {
+  Printer printer;
+  printer.firmware = "reprapfirmware";
+  const auto complaint = [&](const std::vector<std::string>& lines) -> std::string {
+    LineCheck check(printer, dialect_named("reprapfirmware"));
+    Chunk chunk;
+    chunk.lines = lines;
+    try {
+      check.read(chunk, "layer 7", deaf());
+    } catch (const core::DataError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto with = [&](const std::string& mixture) {
+    return complaint({"T0 P0", "M109 S210", "G28", "G90", "M83", mixture, "G1 Z.2 F600", "G0 X10 Y10 F9000",
+                      "G1 E4 F1500", "G1 X20 E.4 F1200"});
+  };
+  CHECK(with("M567 P0 E.5:.25:.25").empty());
+  CHECK(with("M567 P0 E.5:.25:.24").find("do not add up") != std::string::npos);
+  CHECK(with("M567 P0 E.5:.5").find("one share for each feeder") != std::string::npos);
+  CHECK(with("M567 P0 E1.5:-.5:0").find("negative") != std::string::npos);
+  CHECK(with("M567 P1 E.5:.25:.25").find("not the tool that mixes") != std::string::npos);
+  CHECK(with("T1 P0").find("not the tool that mixes") != std::string::npos);
+  CHECK(with("M400").find("no tool is chosen") != std::string::npos);
+  CHECK(complaint({"M567 P0 E.5:.25:.25"}).find("not chosen") != std::string::npos);
+}
+
+TEST_CASE("Marlin does not know M567") {
+  CHECK(complaint({"M567 P0 E.5:.25:.25"}).find("does not know") != std::string::npos);
+}

@@ -174,6 +174,27 @@ TEST_CASE("the same beads in Repetier's dialect: other tools, the same E") {
   CHECK(count(start, "M400") == 2);
 }
 
+TEST_CASE("the same beads in RepRapFirmware's dialect: one tool, the same moves") {
+  Printer printer;
+  const auto moves = [&](const char* firmware) {
+    printer.firmware = firmware;
+    Encoder encoder(printer, plain());
+    encoder.start();
+    std::vector<std::string> lines = encoder.layer(ring(0)).lines;
+    std::erase_if(lines, [](const std::string& line) { return line[0] == 'T' || line.starts_with("M567"); });
+    return lines;
+  };
+  CHECK(moves("marlin") == moves("reprapfirmware"));
+  printer.firmware = "reprapfirmware";
+  printer.start_gcode = "T1";  // which the print must not keep
+  Encoder encoder(printer, plain());
+  const Chunk start = encoder.start();
+  CHECK(count(start, ";FLAVOR:RepRap") == 1);
+  CHECK(count(start, "T0 P0") == 2);  // before the heat, and behind the user's own lines
+  CHECK(count(start, "M163") == 0);
+  CHECK(start.lines.back() == "M567 P0 E.3334:.3333:.3333");
+}
+
 TEST_CASE("the user's own lines may contain placeholders, and forbidden lines are refused") {
   Printer printer;
   printer.start_gcode = "M117 {layer_count} layers\n";

@@ -36,10 +36,12 @@ class Bench {
   }
 
   std::string path(const std::string& name) const { return folder_ / name; }
-  void start_printer(const std::string& personality, const std::string& link = "port") {
-    printers_[link] = std::make_unique<Child>(
-        std::vector<std::string>{"simulate", "--personality", personality, "--link", path(link),
-                                 "--transcript", path(link + ".txt"), "--speed", "100"});
+  void start_printer(const std::string& personality, const std::string& link = "port",
+                     const std::string& profile = test::sample_profile) {
+    const auto file = folder_.write(link + "-profile.toml", profile);
+    printers_[link] = std::make_unique<Child>(std::vector<std::string>{
+        "simulate", "--profile", file.string(), "--personality", personality, "--link", path(link),
+        "--transcript", path(link + ".txt"), "--speed", "100"});
     test::await([&] { return fs::exists(path(link)); }, *printers_[link]);
   }
   std::vector<std::string> print_on(const std::string& port) const {
@@ -89,8 +91,10 @@ test::FakeBehaviour called(const std::string& firmware) {
 }  // namespace
 
 TEST_CASE("a print for the other firmware is refused before anything moves, with the remedy") {
-  const auto [mine, other] =
-      GENERATE(table<std::string, std::string>({{"marlin", "repetier"}, {"repetier", "marlin"}}));
+  const auto [mine, other] = GENERATE(table<std::string, std::string>({{"marlin", "repetier"},
+                                                                       {"repetier", "marlin"},
+                                                                       {"marlin", "reprapfirmware"},
+                                                                       {"reprapfirmware", "repetier"}}));
   Bench bench(profile_for(mine));
   bench.start_printer(other);
   const Outcome outcome = test::run(bench.print_on(bench.path("port")));
@@ -179,6 +183,25 @@ TEST_CASE("a printer whose feeders do not mix is refused, also when it says so b
   for (const std::string& line : printer.executed()) CHECK((line == "M163 S99 P1" || line.starts_with("T")));
 }
 
+TEST_CASE("a RepRapFirmware with other drives in its tool than the profile says is refused before it heats") {
+  const std::string mine = profile_for("reprapfirmware");
+  Bench bench(mine);
+  bench.start_printer("reprapfirmware", "port", test::replaced(mine, "feeders = 3", "feeders = 2"));
+  const Outcome outcome = test::run(bench.print_on(bench.path("port")));
+  INFO(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(says(outcome.err, "2 feeders meet in its tool 0"));
+  for (const std::string& order : bench.orders()) CHECK((order == "M567 P0" || order == "M114"));
+}
+
+TEST_CASE("a RepRapFirmware without a tool 0 is refused") {
+  CHECK(denies_mixing("Error: M567: Invalid tool number"));
+  CHECK_FALSE(denies_mixing("Tool 0 mix ratios: 1.000:0.000"));
+  CHECK(mixing_feeders("Tool 0 mix ratios: 1.000:0.000") == 2);
+  CHECK_FALSE(mixing_feeders("Tool 0 is selected"));
+  CHECK(says(does_not_mix("reprapfirmware"), "M563 P0 D0:1:2"));
+}
+
 TEST_CASE("an unknown printer is used, with a warning") {
   FakePrinter printer(called("Klipper v0.12.0"));
   const Bench bench;
@@ -201,7 +224,7 @@ TEST_CASE("a firmware that is named after another belongs to its family, unless 
   const auto spoken = [](const char* line) { return dialect_of(gcode::identify(line).family); };
   CHECK(spoken("FIRMWARE_NAME:Prusa-Firmware 3.13.3 based on Marlin") == "marlin");
   CHECK(spoken("FIRMWARE_NAME:Repetier_0.92.9 FIRMWARE_URL:https://github.com/repetier/") == "repetier");
-  CHECK_FALSE(spoken("FIRMWARE_NAME:RepRapFirmware for Duet 2 FIRMWARE_VERSION:3.4"));
+  CHECK(spoken("FIRMWARE_NAME: RepRapFirmware for Duet 2 FIRMWARE_VERSION: 3.4") == "reprapfirmware");
   CHECK_FALSE(mismatch(gcode::identify("FIRMWARE_NAME:Klipper"), "marlin"));
   CHECK_FALSE(mismatch(gcode::Identity{}, "repetier"));
 }

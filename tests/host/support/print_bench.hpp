@@ -29,8 +29,10 @@ struct Seen {
 class PrintBench {
  public:
   /// `speed`: printer seconds per second; 0: as fast as lines come. `more`: options of the simulator.
-  explicit PrintBench(int speed, const std::vector<std::string>& more = {}) : speed_(speed) {
-    folder_.write("bench.toml", sample_profile);
+  explicit PrintBench(int speed, const std::vector<std::string>& more = {},
+                      const std::string& profile = sample_profile)
+      : speed_(speed) {
+    folder_.write("bench.toml", profile);
     folder_.write("plate.svg", sample_drawing);
     folder_.write("job.toml", sample_job);
     start_printer(more);
@@ -90,12 +92,14 @@ class PrintBench {
   }
 
   void end_printer() {
+    if (printer_->id() < 0) throw std::logic_error("the printer has ended");  // kill(-1) would end everything
     kill(printer_->id(), SIGTERM);
     CHECK(printer_->wait().code == 0);
     std::istringstream transcript(read_text(path("t.txt")));
     for (std::string line; std::getline(transcript, line);) {
       const bool question = line == "M115" || line == "M105" || line == "M114" ||
-                            line.rfind("M155", 0) == 0 || line.rfind("M110", 0) == 0 || line == "M163 S99 P1";
+                            line.rfind("M155", 0) == 0 || line.rfind("M110", 0) == 0 ||
+                            line == "M163 S99 P1" || line == "M567 P0";
       if (!question) lines_.push_back(line);
     }
   }
