@@ -117,7 +117,9 @@ asio::awaitable<void> LinkState::begin_reports() {
 asio::awaitable<Rejoined> LinkState::find_again(std::uint32_t beyond) {
   probing = true;
   const auto lines_before = lines_heard;
-  write("\n");  // ends half a line, which is refused for its missing checksum
+  // Ends half a line so that it is refused: Repetier would run a numbered line without a checksum. What
+  // stands before the asterisk has the checksum 0 once in 256 times.
+  write("*\n");
   co_await quiet(options.quiet);
   Rejoined found;
   const std::function<bool()> warm = [this] { return reported_temperatures.has_value(); };

@@ -106,7 +106,7 @@ TEST_CASE("If a layer cannot be sliced there is no estimate, and nothing breaks"
 }
 
 TEST_CASE("The time that is left of a part that tapers is right from its second layer on") {
-  test::SessionBench bench({}, "", {frustum_job, "frustum.stl", frustum()});
+  test::SessionBench bench({}, "", {frustum_job, test::sample_profile, "frustum.stl", frustum()});
   std::vector<std::pair<double, double>> told;  // s that have passed, s that are left
   double end = 0;
   bench.print([&](Session& session, const SessionEvent&) {
