@@ -303,7 +303,7 @@ TEST_CASE("slow replies are late by up to the given time, and stay in order") {
 
 // ---- faults of the printer itself
 
-TEST_CASE("a stall: nothing is read or answered, but moves continue; afterwards everything is answered") {
+TEST_CASE("a stall: nothing is read or answered, but moves continue, afterwards everything is answered") {
   Desk desk({"stall:5@line=2"});
   desk.send(1, "G91");
   desk.send(Bench::numbered(2, "G1 X10 F600") + "\n", 0.01);

@@ -52,7 +52,7 @@ TEST_CASE("islands of a few cells or fewer get a contour") {
   CHECK(plan.curves.front().path.total_length() > area(square) / w / 2);
 }
 
-TEST_CASE("strips are filled down to the least width; narrower ones are reported as unfilled") {
+TEST_CASE("strips are filled down to the least width, narrower ones are reported as unfilled") {
   const double w = 0.5;
   const double width = GENERATE(0.1, 0.2, 0.26, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0);
   const Polygon strip = rectangle(20, width);
@@ -123,7 +123,7 @@ Neck plan_neck(double width, double w) {
 
 }  // namespace
 
-TEST_CASE("a neck is passed there and back with half its width; beads that cannot be laid are reported") {
+TEST_CASE("a neck is passed there and back with half its width, beads that cannot be laid are reported") {
   const double w = 0.5;  // the least width that can be laid is 0.55 w
   const double width = GENERATE(0.5, 0.8, 1.0, 1.5, 2.0);
   const Neck neck = plan_neck(width * w, w);
@@ -161,7 +161,7 @@ TEST_CASE("beads wider than the nozzle can lay are reported") {
   CHECK(curve.wide_length == Approx(curve.path.total_length()));
 }
 
-TEST_CASE("a larger budget gives a better curve; even a spent budget gives a faired one") {
+TEST_CASE("a larger budget gives a better curve, even a spent budget gives a faired one") {
   const Polygon square = rectangle(14, 14);
   const double w = 0.7;
   double last = 0.1;  // an unfaired curve has 0.107 or more

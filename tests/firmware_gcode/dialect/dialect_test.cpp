@@ -22,7 +22,7 @@ TEST_CASE("Repetier gets shares in whole hundredths, at standstill") {
   CHECK_THROWS_WITH(dialect_named("klipper"), Catch::Contains("klipper") && Catch::Contains("repetier"));
 }
 
-TEST_CASE("RepRapFirmware gets its shares at each change; those of the feeders that exist add up to one") {
+TEST_CASE("RepRapFirmware gets its shares at each change, those of the feeders that exist add up to one") {
   const Dialect& dialect = dialect_named("reprapfirmware");
   Printer printer;
   const auto line = [&](const std::array<double, 3>& shares) {

@@ -218,7 +218,7 @@ TEST_CASE("intended mixtures have the floor share and the resolution of the line
 }
 
 TEST_CASE(
-    "sixteen mixtures leave no retraction tool; with seventeen there is one and the others are redefined") {
+    "sixteen mixtures leave no retraction tool, with seventeen there is one and the others are redefined") {
   Encoder sixteen({}, many_colours(16));
   auto lines = commands(sixteen.start());
   CHECK(std::count(lines.begin(), lines.end(), "M164 S15") == 1);

@@ -124,12 +124,12 @@ TEST_CASE("facts: temperature reports come between other lines") {
   check_all_executed(printer, talk, lines);
 }
 
-TEST_CASE("facts: Repetier is asked for its temperatures") {
+TEST_CASE("facts: an old Repetier, which reports nothing by itself, is asked for its temperatures") {
   LinkOptions options;
   options.temperatures = 1s;
   std::vector<std::string> lines = moves(500);
   lines.insert(lines.begin() + 250, "G4 S5");
-  VirtualPrinter printer({"--personality", "repetier"});
+  VirtualPrinter printer({"--personality", "repetier-0.92"});
   std::vector<std::pair<std::uint32_t, std::uint64_t>> shifts;
   const auto say = [&](Link& link, Clock&) -> asio::awaitable<void> {
     link.on_numbering([&](std::uint32_t number, std::uint64_t line) { shifts.emplace_back(number, line); });
@@ -138,7 +138,7 @@ TEST_CASE("facts: Repetier is asked for its temperatures") {
   };
   const Talk talk = printer.talk(say, options);
   CHECK(talk.temperatures.nozzle == 25.0);
-  CHECK(talk.statistics.queries > 2);
+  REQUIRE(talk.statistics.queries > 2);
   CHECK(talk.statistics.resends == 0);
   // Each question shifts the numbers of the lines after it by one.
   REQUIRE(shifts.size() >= talk.statistics.queries);

@@ -37,7 +37,7 @@ class Printer {
     std::istringstream transcript(test::read_text(folder_ / "t"));
     std::vector<std::string> lines;
     for (std::string line; std::getline(transcript, line);) {
-      if (line.rfind("M1", 0) != 0) lines.push_back(line);
+      if (line.rfind("M1", 0) != 0 && line != "*") lines.push_back(line);
     }
     return lines;
   }
@@ -75,7 +75,7 @@ void with_link(const Printer& printer, const std::function<asio::awaitable<void>
 
 }  // namespace
 
-TEST_CASE("a second program continues where the first one died; no line is lost or executed twice") {
+TEST_CASE("a second program continues where the first one died, no line is lost or executed twice") {
   for (const char* personality : {"marlin", "marlin-advanced-ok", "repetier"}) {
     INFO(personality);
     Printer printer(personality);

@@ -119,7 +119,7 @@ TEST_CASE(
   CHECK(f.wrong_distance.percentile(1) == Approx(3).margin(0.1));
 }
 
-TEST_CASE("A bead that runs beside the part is outside; the rim, the prime line and the skirt are not") {
+TEST_CASE("A bead that runs beside the part is outside, the rim, the prime line and the skirt are not") {
   TargetLayer target = two_zones();
   target.bead_width = 0.8;
   target.prime = {{{8, 7}, {28, 7}, 1.0}};

@@ -92,7 +92,7 @@ const std::vector<std::string> garbling{"--fault", "merge:0.002",    "--fault", 
 
 }  // namespace
 
-TEST_CASE("a print whose host is killed is resumed; no line is lost or executed twice") {
+TEST_CASE("a print whose host is killed is resumed, no line is lost or executed twice") {
   kill_and_resume(0, 2, 1);
   kill_and_resume(100, 1, 2);
 }

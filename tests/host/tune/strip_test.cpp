@@ -96,7 +96,7 @@ TEST_CASE("The nozzle is filled before each reference line and before the strip"
   for (std::size_t shade = 0; shade + 1 < shade_count; ++shade) CHECK(filled[shade] > strip.volume());
 }
 
-TEST_CASE("A range that does not fit is refused; without one, the strip is made as large as fits") {
+TEST_CASE("A range that does not fit is refused, without one, the strip is made as large as fits") {
   CHECK(make_strip(printer_with(0.6, 120, 110), {}).volume() < 60);
   CHECK_THROWS_AS(make_strip(printer_with(0.6, 120, 110), 100.0), core::DataError);
   CHECK_THROWS_AS(make_strip(printer_with(0.6, 80, 80), {}), core::DataError);

@@ -121,7 +121,7 @@ struct Pixels {
 
 }  // namespace
 
-TEST_CASE("each layer has a picture with the beads in place; all have one frame, without the prime line") {
+TEST_CASE("each layer has a picture with the beads in place, all have one frame, without the prime line") {
   const Folder folder;
   const bool apart = GENERATE(true, false);
   {

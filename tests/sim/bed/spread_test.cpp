@@ -96,7 +96,7 @@ TEST_CASE("on open ground a bead has the width of its volume, in any direction")
   CHECK(sided / covered == Approx(0).margin(0.6 * pixel));
 }
 
-TEST_CASE("strands one bead width apart leave no gap; farther apart they do, and closer they pile up") {
+TEST_CASE("strands one bead width apart leave no gap, farther apart they do, and closer they pile up") {
   const double width = 0.5;
   const auto plate = [&](double spacing) {
     Spread spread({60, 60}, pixel);

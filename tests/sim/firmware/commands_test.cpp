@@ -142,7 +142,7 @@ TEST_CASE("relative moves, inches and a shifted origin") {
   CHECK(bench.sink.moves.back().to.y == Approx(25.4));
 }
 
-TEST_CASE("M220 scales speed; M221 scales filament, but not the E of M114") {
+TEST_CASE("M220 scales speed, M221 scales filament, but not the E of M114") {
   Bench bench;
   bench.heat();
   bench.finish("M83");
@@ -161,7 +161,7 @@ TEST_CASE("M220 scales speed; M221 scales filament, but not the E of M114") {
   CHECK(bench.sink.moves[1].filament == Approx(6));
 }
 
-TEST_CASE("homing takes time and reports the position; afterwards the bed has edges") {
+TEST_CASE("homing takes time and reports the position, afterwards the bed has edges") {
   Bench bench;
   bench.finish("G1 X50 Y50 F6000");
   const Replies replies = bench.finish("G28");
@@ -191,7 +191,7 @@ TEST_CASE("a running command reports busy every two seconds") {
   CHECK(bench.finish("G4 S5") == Replies{"echo:busy: processing", "echo:busy: processing", "ok"});
 }
 
-TEST_CASE("M410 acknowledges a blocked move first, then itself; the rest of the queue is dropped") {
+TEST_CASE("M410 acknowledges a blocked move first, then itself, the rest of the queue is dropped") {
   Bench bench;
   for (int i = 1; i <= 16; ++i) bench.send("G1 X" + std::to_string(10 * i) + " F1200");
   bench.firmware.advance(0.4);
@@ -276,7 +276,7 @@ TEST_CASE("a mixture is copied into each move when the move is planned") {
 }
 
 TEST_CASE(
-    "a feeder or a tool that is not there is ignored with a plain ok; a negative one is worth a warning") {
+    "a feeder or a tool that is not there is ignored with a plain ok, a negative one is worth a warning") {
   Bench bench;
   bench.heat();
   bench.finish("M83");

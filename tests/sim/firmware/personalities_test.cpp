@@ -108,7 +108,7 @@ TEST_CASE("M165 writes the current tool at once, and omitted letters are 0") {
   CHECK(fed_shares(bench)[2] == 0);
 }
 
-TEST_CASE("only a reset revives a killed board; tools, modes, targets and line numbers are lost") {
+TEST_CASE("only a reset revives a killed board, tools, modes, targets and line numbers are lost") {
   Bench bench("marlin-8bit");
   bench.heat();
   bench.send(1, "M83");

@@ -55,7 +55,7 @@ TEST_CASE("RepRapFirmware: a line that has lost its newline takes the next one w
   CHECK(bench.send("M114").at(0).starts_with("X:5.000 Y:0.000"));
 }
 
-TEST_CASE("RepRapFirmware: several commands in a line have one ok; capitals do not matter") {
+TEST_CASE("RepRapFirmware: several commands in a line have one ok, capitals do not matter") {
   Bench bench = duet();
   CHECK(bench.send("g92 x5 G92 Y7") == Replies{"ok"});
   CHECK(bench.send("m114").at(0).starts_with("X:5.000 Y:7.000"));

@@ -37,7 +37,7 @@ TEST_CASE("the receive buffer holds 127 bytes, loses the rest, and marks the gap
   CHECK_FALSE(buffer.pop());
 }
 
-TEST_CASE("lines end with CR, LF or both; blank lines and comments are skipped") {
+TEST_CASE("lines end with CR, LF or both, blank lines and comments are skipped") {
   LineAssembler assembler;
   CHECK(assemble(assembler, "G28\r\n\n   \nM105 ; heat?\r; only this\n  T1\n") ==
         std::vector<std::string>{"G28", "M105 ", "T1"});
