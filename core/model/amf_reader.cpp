@@ -19,6 +19,7 @@ namespace {
 
 constexpr int deepest_constellations = 32;
 constexpr double farthest_vertex = 1e5;  ///< mm
+constexpr std::size_t most_tints = 10'000;
 
 double millimetres(std::string_view unit) {
   if (unit == "inch") return 25.4;
@@ -57,7 +58,7 @@ std::string colour_of(const pugi::xml_node& node) {
 /// The text of a child <metadata type="…">.
 std::string metadata(const pugi::xml_node& node, std::string_view type) {
   for (const pugi::xml_node& entry : node.children("metadata")) {
-    if (type == entry.attribute("type").value()) return entry.child_value();
+    if (type == entry.attribute("type").value()) return name_in(entry.child_value());
   }
   return "";
 }
@@ -65,7 +66,11 @@ std::string metadata(const pugi::xml_node& node, std::string_view type) {
 class Reader {
  public:
   Reader(const pugi::xml_node& root, const std::string& file, Warnings& warnings)
-      : root_(root), file_(file), warnings_(warnings), unit_(millimetres(root.attribute("unit").value())) {
+      : root_(root),
+        file_(file),
+        warnings_(warnings),
+        unit_(millimetres(root.attribute("unit").value())),
+        angle_(metadata(root, "cad").find("Slic") == std::string::npos ? std::numbers::pi / 180 : 1) {
     for (const pugi::xml_node& node : root.children("material")) {
       Tint tint{colour_of(node), {}};
       for (std::string name : {metadata(node, "name"), std::string(node.attribute("id").value())}) {
@@ -102,16 +107,24 @@ class Reader {
     for (const pugi::xml_node& instance : node.children("instance")) {
       const auto found = by_id_.find(instance.attribute("objectid").value());
       if (found == by_id_.end()) throw Malformed("a constellation uses an object that is absent");
-      const auto angle = [&](const char* name) {
-        return number_or(instance, name, 0) * std::numbers::pi / 180;
-      };
+      if (value(instance, "printable") == "0") continue;
+      const auto angle = [&](const char* name) { return number_or(instance, name, 0) * angle_; };
       const Vec3 shift(number_or(instance, "deltax", 0), number_or(instance, "deltay", 0),
                        number_or(instance, "deltaz", 0));
       const Eigen::Affine3d own =
           Eigen::Translation3d(unit_ * shift) * Eigen::AngleAxisd(angle("rz"), Vec3::UnitZ()) *
-          Eigen::AngleAxisd(angle("ry"), Vec3::UnitY()) * Eigen::AngleAxisd(angle("rx"), Vec3::UnitX());
+          Eigen::AngleAxisd(angle("ry"), Vec3::UnitY()) * Eigen::AngleAxisd(angle("rx"), Vec3::UnitX()) *
+          Eigen::Scaling(stretch(instance));
       place(found->second, transform * own, depth + 1);
     }
+  }
+
+  /// What programs for slicing add to the standard: a scale, and a mirror as −1.
+  static Vec3 stretch(const pugi::xml_node& instance) {
+    const double all = number_or(instance, "scale", 1);
+    return {all * number_or(instance, "scalex", 1) * number_or(instance, "mirrorx", 1),
+            all * number_or(instance, "scaley", 1) * number_or(instance, "mirrory", 1),
+            all * number_or(instance, "scalez", 1) * number_or(instance, "mirrorz", 1)};
   }
 
   void add_object(const pugi::xml_node& object, const Eigen::Affine3d& transform) {
@@ -122,25 +135,30 @@ class Reader {
       for (const pugi::xml_node& vertex : child(mesh, "vertices").children("vertex")) {
         const pugi::xml_node at = child(vertex, "coordinates");
         const Vec3 p(xml_number(value(at, "x")), xml_number(value(at, "y")), xml_number(value(at, "z")));
+        if (++vertices_ > most_triangles)
+          throw Malformed("it has more than ten million vertices, copies included");
         vertices.push_back(transform * (unit_ * p));
-        if (vertices.back().cwiseAbs().maxCoeff() > farthest_vertex)
+        if (!vertices.back().allFinite() || vertices.back().cwiseAbs().maxCoeff() > farthest_vertex)
           throw Malformed(fmt::format("vertex {} lies more than 100 m away", vertices.size()));
       }
       for (const pugi::xml_node& volume : mesh.children("volume"))
-        add_volume(volume, vertices, object_name, object_colour);
+        add_volume(volume, vertices, object_name, object_colour, transform.linear().determinant() < 0);
     }
   }
 
   void add_volume(const pugi::xml_node& volume, const std::vector<Vec3>& vertices,
-                  const std::string& object_name, const std::string& object_colour) {
-    if (std::string_view(volume.attribute("type").value()) == "support")
+                  const std::string& object_name, const std::string& object_colour, bool mirrored) {
+    const std::string kind = metadata(volume, "slic3r.volume_type");
+    if (std::string_view(volume.attribute("type").value()) == "support" || kind.starts_with("Support"))
       return warnings_.add(file_ + ": supports are not printed");
     MeshBody body;
     body.object = objects_;
     for (std::string name : {metadata(volume, "name"), object_name}) {
       if (!name.empty()) body.names.push_back(std::move(name));
     }
-    if (metadata(volume, "slic3r.modifier") == "1") body.role = BodyRole::modifier;
+    if (metadata(volume, "slic3r.modifier") == "1" || kind == "ParameterModifier")
+      body.role = BodyRole::modifier;
+    if (kind == "NegativeVolume") body.role = BodyRole::negative;
     const auto material = materials_.find(volume.attribute("materialid").value());
     if (material != materials_.end()) body.tint = material->second;
     if (const std::string own = colour_of(volume); !own.empty()) body.tint.colour = own;
@@ -158,6 +176,7 @@ class Reader {
       }
       if (++triangles_ > most_triangles)
         throw Malformed("it has more than ten million triangles, copies included");
+      if (mirrored) std::swap(triangle[1], triangle[2]);
       body.triangles.push_back(triangle);
       tints.push_back(tint_of(node, palette));
     }
@@ -170,6 +189,7 @@ class Reader {
     if (colour.empty() || colour == palette.front().colour) return 0;
     auto found =
         std::find_if(palette.begin(), palette.end(), [&](const Tint& t) { return t.colour == colour; });
+    if (palette.size() >= most_tints) throw Malformed("it has more than ten thousand colours");
     if (found == palette.end()) found = palette.insert(palette.end(), Tint{colour, {}});
     return std::uint32_t(found - palette.begin());
   }
@@ -178,10 +198,11 @@ class Reader {
   const std::string& file_;
   Warnings& warnings_;
   double unit_;
+  double angle_;  ///< rad; the standard's degrees, except in files of Slic3r and its successors
   std::map<std::string_view, Tint> materials_;
   std::map<std::string_view, pugi::xml_node> by_id_;
   MeshModel model_;
-  std::size_t objects_ = 0, placed_ = 0, triangles_ = 0;
+  std::size_t objects_ = 0, placed_ = 0, vertices_ = 0, triangles_ = 0;
 };
 
 /// The file in an archive that is an AMF; programs do not agree on its name.

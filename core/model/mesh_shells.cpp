@@ -6,6 +6,7 @@
 
 #include "core/model/edge_pairing.hpp"
 #include "core/model/height_index.hpp"
+#include "core/stopping.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -204,12 +205,14 @@ std::size_t turn_shells(ClosedMesh& mesh, std::vector<Shell>& shells) {
   std::vector<bool> inside_out(shells.size(), false);
   bool any = false;
   for (const auto s : suspects) {
+    stop_point();
     if (shells.size() == 1 || nesting.around(s).empty()) any = inside_out[s] = true;
   }
   if (!any) return 0;
   std::vector<bool> turned = inside_out;
   for (std::uint32_t s = 0; s < shells.size(); ++s) {
     if (inside_out[s]) continue;
+    stop_point();
     const auto outer = nesting.around(s);
     turned[s] = std::any_of(outer.begin(), outer.end(), [&](auto o) { return inside_out[o]; });
   }

@@ -31,7 +31,7 @@ std::size_t index_or_zero(std::string_view text) {
 
 ProjectPart part_of(const pugi::xml_node& node, std::string_view kind) {
   ProjectPart part;
-  part.name = setting(node, "name");
+  part.name = name_in(setting(node, "name"));
   part.filament = index_or_zero(setting(node, "extruder"));
   if (kind == "NegativeVolume" || kind == "negative_part") part.role = BodyRole::negative;
   if (kind == "ParameterModifier" || kind == "modifier_part") part.role = BodyRole::modifier;
@@ -43,7 +43,7 @@ ProjectPart part_of(const pugi::xml_node& node, std::string_view kind) {
 void read_objects(const pugi::xml_node& config, SlicerProject& project) {
   for (const pugi::xml_node& node : config.children("object")) {
     ProjectObject& object = project.objects[xml_index(node.attribute("id").value())];
-    object.name = setting(node, "name");
+    object.name = name_in(setting(node, "name"));
     object.filament = index_or_zero(setting(node, "extruder"));
     for (const pugi::xml_node& volume : node.children("volume")) {
       std::string_view kind = setting(volume, "volume_type");

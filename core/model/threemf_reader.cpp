@@ -23,6 +23,7 @@ using Affine = Eigen::Affine3d;
 
 constexpr int deepest_components = 32;   ///< of objects within objects
 constexpr double farthest_vertex = 1e5;  ///< mm
+constexpr std::size_t most_tints = 10'000;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 struct Component {
@@ -128,8 +129,9 @@ class Part {
       std::string text = attribute(entry, bases ? "displaycolor" : "color").value();
       if (text.size() == 9) text.resize(7);  // without its opacity: plastic is what it is
       Tint tint{css_colour(text).value_or(""), {}};
-      if (const std::string name = attribute(entry, "name").value(); !name.empty())
-        tint.names.push_back(name);
+      if (std::string name = name_in(attribute(entry, "name").value()); !name.empty())
+        tint.names.push_back(std::move(name));
+      if (palette_.size() >= most_tints) throw Malformed("it has more than ten thousand colours");
       group.push_back(palette_.size());
       palette_.push_back(std::move(tint));
     }
@@ -145,7 +147,7 @@ class Part {
   void read_object(const pugi::xml_node& node) {
     const std::string_view type = attribute(node, "type").value();
     Object& object = objects_[xml_index(attribute(node, "id").value())];
-    object.name = attribute(node, "name").value();
+    object.name = name_in(attribute(node, "name").value());
     object.is_model = type.empty() || type == "model" || type == "surface";
     object.tint = tint(attribute(node, "pid"), attribute(node, "pindex"));
     if (const pugi::xml_node mesh = child(node, "mesh")) read_mesh(mesh, attribute(node, "pid"), object);
@@ -177,6 +179,7 @@ class Part {
   void read_triangle(const pugi::xml_node& node, const std::vector<Vec3>& vertices,
                      const pugi::xml_attribute& default_group, Object& object) {
     Triangle triangle;
+    unsigned corners = 0;  // a bit for each
     pugi::xml_attribute group = default_group, first;
     bool tinted = false, varies = false;
     std::string_view first_corner, code;
@@ -187,6 +190,7 @@ class Part {
         if (i >= vertices.size())
           throw Malformed(fmt::format("a triangle names vertex {} of {}", i, vertices.size()));
         triangle[std::size_t(name[1] - '1')] = vertices[i];
+        corners |= 1U << unsigned(name[1] - '1');
       } else if (name == "pid") {
         group = a;
       } else if (name == "p1") {
@@ -197,6 +201,7 @@ class Part {
         code = a.value();
       }
     }
+    if (corners != 7) throw Malformed("a triangle does not name its three corners");
     if (object.triangles.size() >= most_triangles) throw Malformed("it has more than ten million triangles");
     if (!code.empty()) object.paints.push_back({std::uint32_t(object.triangles.size()), std::string(code)});
     object.triangles.push_back(triangle);

@@ -62,6 +62,14 @@ pugi::xml_attribute attribute(const pugi::xml_node& node, std::string_view name)
   return {};
 }
 
+std::string name_in(std::string_view text) {
+  constexpr std::size_t longest = 200;
+  if (text.size() <= longest) return std::string(text);
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+  return std::string(text.substr(0, end));
+}
+
 double xml_number(std::string_view text) {
   std::string_view word = trimmed(text);
   if (word.starts_with('+')) word.remove_prefix(1);

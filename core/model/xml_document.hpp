@@ -22,6 +22,9 @@ inline std::string_view local_name(const pugi::xml_node& node) {
 pugi::xml_node child(const pugi::xml_node& node, std::string_view name);
 pugi::xml_attribute attribute(const pugi::xml_node& node, std::string_view name);
 
+/// A name as it is kept for each body: at most 200 bytes of UTF-8. It may be copied ten thousand times.
+std::string name_in(std::string_view text);
+
 /// A number in any of XML's spellings. Throws Malformed.
 double xml_number(std::string_view text);
 /// A whole number from 0 on. Throws Malformed.

@@ -118,11 +118,11 @@ void run_m(ModalState& state, const Command& command) {
       return;
     case 104:
     case 109:
-      state.nozzle = s.value_or(0);
+      if (const auto target = s ? s : value(command, 'R')) state.nozzle = *target;
       return;
     case 140:
     case 190:
-      state.bed = s.value_or(0);
+      if (const auto target = s ? s : value(command, 'R')) state.bed = *target;
       return;
     case 106:
       state.fan = s.value_or(255);

@@ -19,6 +19,7 @@
 #include <cerrno>
 #include <condition_variable>
 #include <fstream>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <set>
@@ -66,6 +67,7 @@ void offer_first() {
 
 void take_on(const CheckLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::setpriority(PRIO_PROCESS, 0, 19);  // the printer comes first
   offer_first();
   limit(RLIMIT_CORE, 0, 0);
   if (limits.memory) limit(RLIMIT_AS, *limits.memory, *limits.memory);
@@ -141,6 +143,8 @@ class Child {
     ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     ::posix_spawn_file_actions_adddup2(&files, write_end.get(), STDERR_FILENO);
+    // Asio's sockets do not close themselves in a child.
+    ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
     const int error = ::posix_spawn(&id_, "/proc/self/exe", &files, &attributes, arguments.data(), environ);
     ::posix_spawn_file_actions_destroy(&files);
     ::posix_spawnattr_destroy(&attributes);
@@ -198,16 +202,22 @@ std::string verdict(const JobCheck& check, int status, std::string said, bool la
 
 asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop) {
   const auto executor = co_await asio::this_coro::executor;
-  Child child(words_for(check));
+  // The timer's handler may run after this coroutine has ended.
+  struct Shared {
+    explicit Shared(std::vector<std::string> words) : child(std::move(words)) {}
+    Child child;
+    bool late = false;
+  };
+  const auto shared = std::make_shared<Shared>(words_for(check));
+  Child& child = shared->child;
   asio::posix::stream_descriptor output(executor, child.release_output());
-  bool late = false;
   asio::steady_timer timer(executor);
   if (check.limits.time) {
     timer.expires_after(*check.limits.time + grace);
-    timer.async_wait([&child, &late](const asio::error_code& cut) {
+    timer.async_wait([shared](const asio::error_code& cut) {
       if (cut) return;
-      late = true;
-      child.kill();
+      shared->late = true;
+      shared->child.kill();
     });
   }
   std::string said;
@@ -221,7 +231,7 @@ asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop
   if (said.size() == longest_sentence) child.kill();
   const int status = child.wait();
   if (stop.stop_requested()) throw core::Stopped();
-  co_return verdict(check, status, std::move(said), late);
+  co_return verdict(check, status, std::move(said), shared->late);
 }
 
 void check_here(const JobCheck& check) {

@@ -123,14 +123,12 @@ std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
   return print;
 }
 
-/// A job of the daemon's own folders is read by a child process first: a preparation that does not end can be
-/// cancelled there at once, wherever it is. Uploads were read by one when they were queued. Throws
+/// A job is read by a child process first: a preparation that does not end can be cancelled there at once,
+/// wherever it is, and files that have changed since the job was queued harm only the child. Throws
 /// core::Stopped.
 asio::awaitable<std::unique_ptr<Print>> Daemon::prepare_print(const QueuedJob& job, std::stop_token stop) {
-  if (!JobFiles::is_upload(job.name)) {
-    const std::string problem = co_await check_in_child(check_of(job.name, job.layers), stop);
-    if (!problem.empty()) throw core::DataError("", "", problem, "");
-  }
+  const std::string problem = co_await check_in_child(check_of(job.name, job.layers), stop);
+  if (!problem.empty()) throw core::DataError("", "", problem, "");
   const auto prepare = [this, job, stop] {
     const core::StopScope scope(stop);
     core::stop_point();

@@ -86,7 +86,8 @@ bool HeaterWatch::is_cold(TimePoint at, double reading) {
   const double lost = falls_from_->reading - reading;
   const bool fallen = at - falls_from_->at >= long_fall &&
                       lost >= rules_.rate * seconds(at - falls_from_->at) &&
-                      reading <= level_ - rules_.fallen;
+                      reading <= level_ - rules_.fallen &&
+                      last_ <= level_ - rules_.fallen / 2;  // one garbled report is not a fall
   if (reading > level_ - rules_.behind)
     behind_since_.reset();
   else if (!behind_since_)

@@ -117,8 +117,9 @@ void Session::State::obey(const std::string& action) {
 void Session::State::stop(const std::string& reason) {
   intent.stop(reason);
   source.cancel();
-  if (link.waits_for_user()) holding.printer_waits();
-  if (printer.may_wait_for_heat || link.waits_for_user()) link.cool_down();
+  const bool waited = link.waits_for_user();
+  if (waited) holding.printer_waits();
+  if (printer.may_wait_for_heat || waited) link.cool_down();
   announcer.notice(
       printer.may_wait_for_heat
           ? "stopping, since " + reason +

@@ -12,9 +12,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto answer_slack = 400ms;  ///< Beyond the estimated end of all moves; they brake at corners.
-constexpr auto boot_chatter = 500ms;  ///< Silence after which the firmware has finished booting.
-constexpr int most_losses = 8;        ///< Within `losses_within` lines; more halve the window.
+constexpr auto answer_slack = 400ms;    ///< Beyond the estimated end of all moves; they brake at corners.
+constexpr auto cooling_patience = 30s;  ///< Within which a wait must end that is to be ended.
+constexpr auto boot_chatter = 500ms;    ///< Silence after which the firmware has finished booting.
+constexpr int most_losses = 8;          ///< Within `losses_within` lines; more halve the window.
 constexpr std::uint64_t losses_within = 200;
 constexpr std::size_t least_window = 64;  ///< Bytes.
 constexpr int longest_boot = 4;           ///< Multiple of LinkOptions::silence.
@@ -246,13 +247,20 @@ asio::awaitable<void> LinkState::supervise([[maybe_unused]] std::shared_ptr<Link
 }
 
 /// A firmware without an emergency parser reads nothing while it waits for heat, and so does not see M108.
-asio::awaitable<void> LinkState::limit_wait([[maybe_unused]] std::shared_ptr<LinkState> self, TimePoint end) {
-  const std::function<bool()> over = [this] { return failure || !ledger.slow_in_flight(); };
-  if (co_await signal.wait(end, over)) co_return;
-  fail(
-      "the printer does not end its wait, since its firmware reads nothing meanwhile; it was stopped at "
-      "once");
-  emergency_stop();
+/// Homing and probing are given their time; so are the lines of the end, which come after `beyond`.
+asio::awaitable<void> LinkState::limit_wait([[maybe_unused]] std::shared_ptr<LinkState> self,
+                                            std::uint32_t beyond) {
+  const auto waits = [&] { return ledger.waits_before(beyond); };
+  const std::function<bool()> over = [&] { return failure || !ledger.in_flight() || !waits(); };
+  const std::function<bool()> waiting = [&] { return failure || !ledger.slow_in_flight() || waits(); };
+  while (!failure && ledger.slow_in_flight()) {
+    if (!co_await signal.wait(TimePoint::max(), waiting) || failure || !waits()) co_return;
+    if (co_await signal.wait(now() + cooling_patience, over)) continue;
+    fail(
+        "the printer does not end its wait, since its firmware reads nothing meanwhile; it was stopped at "
+        "once");
+    emergency_stop();
+  }
 }
 
 Duration LinkState::patience() const {

@@ -29,6 +29,14 @@ bool is_slow(std::string_view command) {
   return std::find(slow.begin(), slow.end(), command.substr(0, behind_number)) != slow.end();
 }
 
+/// A wait that somebody may want to end; homing and probing end by themselves.
+bool is_wait(std::string_view frame) {
+  constexpr std::array waits{"M0", "M1", "M109", "M116", "M190", "M191", "M192", "M226", "M600"};
+  const std::string_view command = frame.substr(std::min(frame.find(' ') + 1, frame.size()));
+  const auto behind_number = command.find_first_not_of("0123456789", 1);
+  return std::find(waits.begin(), waits.end(), command.substr(0, behind_number)) != waits.end();
+}
+
 }  // namespace
 
 std::string framed(std::uint32_t number, std::string_view command) {
@@ -145,6 +153,10 @@ bool Ledger::slow() const {
 
 bool Ledger::slow_in_flight() const {
   return in_flight() && slow_since(front_);
+}
+
+bool Ledger::waits_before(std::uint32_t beyond) const {
+  return in_flight() && front_ < beyond && is_wait(line(front_).frame);
 }
 
 bool Ledger::slow_since(std::uint32_t number) const {

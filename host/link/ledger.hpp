@@ -78,6 +78,8 @@ class Ledger {
   bool slow() const;
   /// The same without the acknowledged lines.
   bool slow_in_flight() const;
+  /// The oldest line without an ok waits for heat or for a person, and is before the line `beyond`.
+  bool waits_before(std::uint32_t beyond) const;
   /// Whether a line has moved the printer.
   bool has_moved() const { return has_moved_; }
   /// Whether every line in flight takes a time that is known.

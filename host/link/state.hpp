@@ -102,7 +102,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   asio::awaitable<void> ask(std::string_view query, const std::function<bool()>& answered);
   void go_on(std::uint32_t next);
   asio::awaitable<void> supervise(std::shared_ptr<LinkState> self);
-  asio::awaitable<void> limit_wait(std::shared_ptr<LinkState> self, TimePoint end);
+  asio::awaitable<void> limit_wait(std::shared_ptr<LinkState> self, std::uint32_t beyond);
   asio::awaitable<void> ask_firmware();
   asio::awaitable<void> reset_numbers();
   asio::awaitable<void> begin_reports();

@@ -18,7 +18,6 @@ namespace {
 
 /// Number of waits for heat that a cool-down ends, one for each report of a wait: bed, nozzle, and those in
 /// the user's own lines. It is limited, since a firmware without M108 would only queue them.
-constexpr auto cooling_patience = std::chrono::seconds(30);  ///< Within which a slow command must end.
 constexpr int most_interruptions = 4;
 
 std::string lost(const asio::error_code& error) {
@@ -102,7 +101,7 @@ void LinkState::cool_down() noexcept {
     doubt = out_of_band = true;
     interruptions = most_interruptions;
     write("M108\nM104 S0\nM140 S0\n");
-    asio::co_spawn(executor, limit_wait(shared_from_this(), now() + cooling_patience), asio::detached);
+    asio::co_spawn(executor, limit_wait(shared_from_this(), ledger.next()), asio::detached);
     signal.notify();
   } catch (...) {
     // The numbered lines that end the print switch the heaters off as well.
@@ -114,7 +113,6 @@ void LinkState::end_wait_for_user() noexcept {
     if (failure || phase == Phase::greeting || !waits_for_user) return;
     waits_for_user = false;
     doubt = out_of_band = true;
-    interruptions = most_interruptions;
     // M108 does not end the wait for a choice.
     const auto button = prompt.shown() ? prompt.going_on() : std::nullopt;
     prompt.answered();

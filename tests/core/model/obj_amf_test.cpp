@@ -158,8 +158,37 @@ TEST_CASE("an AMF's unit, constellations and coloured triangles are read") {
   CHECK(zone_area(q->layer(10), 1) == 0);
 }
 
+TEST_CASE("what programs for slicing add to AMF is read: scale, mirror, radians, and kinds of volumes") {
+  const TempFolder folder;
+  const auto placed = [&](const std::string& head, const std::string& how, const std::string& volume = ">") {
+    const std::string amf = "<amf>" + head + "<object id='1'>" + amf_mesh(0, 20, volume) +
+                            "</object><constellation id='2'><instance objectid='1'>" + how +
+                            "</instance></constellation></amf>";
+    return folder.write("model.amf", amf);
+  };
+  const auto size = [&](const std::string& head, const std::string& how) {
+    return part({placed(head, how)}, {"model"}, 0.25)->extent().size();
+  };
+  CHECK(size("", "<scale>2</scale>").isApprox(Vec2(40, 20)));
+  CHECK(size("", "<scalex>3</scalex>").isApprox(Vec2(60, 10)));
+  const std::string by = "<metadata type='cad'>PrusaSlicer 2.7</metadata>";
+  CHECK(size(by, "<rz>1.5707963267948966</rz>").isApprox(Vec2(10, 20), 1e-6));
+  CHECK(outline_area(part({placed(by, "<mirrorx>-1</mirrorx>")}, {"model"}, 0.25)->layer(3)) == Approx(200));
+  const auto kind = [](const std::string& word) {
+    return "><metadata type='slic3r.volume_type'>" + word + "</metadata>";
+  };
+  CHECK_THAT(refusal(placed("", "", kind("SupportBlocker"))), Contains("no mesh"));
+  CHECK_THAT(refusal(placed("", "", kind("NegativeVolume"))), Contains("matches nothing"));
+  CHECK_THAT(refusal(placed("", "<printable>0</printable>")), Contains("no mesh"));
+}
+
 TEST_CASE("damaged AMF files are refused") {
   const TempFolder folder;
+  const std::string far_away =
+      "<amf unit='meter'><object id='1'><mesh><vertices><vertex><coordinates><x>1e308</x><y>1e308</y>"
+      "<z>1e308</z></coordinates></vertex></vertices><volume><triangle><v1>0</v1><v2>0</v2><v3>0</v3>"
+      "</triangle></volume></mesh></object></amf>";
+  CHECK_THAT(refusal(folder.write("model.amf", far_away)), Contains("100 m away"));
   CHECK_THAT(refusal(folder.write("model.amf", "solid")), Contains("not well-formed"));
   CHECK_THAT(refusal(folder.write("model.amf", "<svg/>")), Contains("not an AMF"));
   CHECK_THAT(refusal(folder.write("model.amf", "<amf/>")), Contains("no mesh"));

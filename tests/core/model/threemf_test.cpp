@@ -252,6 +252,12 @@ TEST_CASE("Bambu Studio's parts lie in other files of the package and have filam
 
 TEST_CASE("damaged and hostile packages are refused") {
   const TempFolder folder;
+  std::string incomplete = mesh_xml(box);
+  const auto corner = incomplete.find(" v3=");
+  REQUIRE(corner != std::string::npos);
+  incomplete.replace(corner, 4, " w3=");
+  CHECK_THAT(refusal(write_3mf(folder, model_xml(object(1, incomplete), "<item objectid='1'/>"))),
+             Contains("three corners"));
   CHECK_THAT(refusal(folder.write("model.3mf", "PK\x03\x04 and no more")), Contains("not a sound ZIP"));
   CHECK_THAT(refusal(folder.write("model.3mf", "")), Contains("3dmodel.model"));
   CHECK_THAT(refusal(write_zip(folder, "model.3mf", {{"readme.txt", "hello"}})), Contains("3dmodel.model"));

@@ -216,3 +216,11 @@ TEST_CASE("a lead-in keeps below the printer's height, and warns if nothing can 
   REQUIRE(chunk.warnings.size() == 1);
   CHECK(chunk.volume == 0);
 }
+
+TEST_CASE("a target may be given by R, and a line without a number changes none") {
+  const ModalState state = after({"M140 S60", "M190 R55", "M104 S200", "M109 R210"});
+  CHECK(state.bed == 55);
+  CHECK(state.nozzle == 210);
+  CHECK(after({"M104 S200", "M109"}).nozzle == 200);
+  CHECK(after({"M104 S200", "M104 S0"}).nozzle == 0);
+}

@@ -85,6 +85,7 @@ TEST_CASE("A heater that gives no more heat is noticed within 10 s, and one that
   // One report is damaged.
   CHECK(objects_at([](double t) { return t == 20 ? 5.0 : 210.0; }) == -1);
   CHECK(objects_at([](double t) { return t == 20 ? 999.0 : 210.0; }) == -1);
+  CHECK(objects_at([](double t) { return t == 20 ? 21.0 : t < 20 ? 210.2 - t / 100 : 210.0; }) == -1);
 }
 
 TEST_CASE("A heater that becomes hotter and hotter is noticed, and one that cools to a new target is not") {
