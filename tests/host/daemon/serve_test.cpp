@@ -375,3 +375,30 @@ TEST_CASE("systemd gets messages: ready, alive, stopping") {
   CHECK(bench.daemon().wait().code == 0);
   close(heard);
 }
+
+TEST_CASE("an upload that was swapped after its job had ended is read by a child again") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve({"--check-time", "5"});
+  bench.folder().write("plate.svg", test::sample_drawing);
+  bench.folder().write("bench.toml", test::sample_profile);
+  bench.folder().write("own.toml", test::sample_job);
+  REQUIRE(bench.command({"queue", "--upload", bench.path("own.toml")}).code == 0);
+  REQUIRE(bench.command({"start"}).code == 0);
+  const int id = bench.ask("GET", "/api/jobs")["jobs"][0]["id"];
+  bench.await_job(id, "done");
+  // A drawing that does not end within the limit of time.
+  std::string circles =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100mm\" height=\"100mm\" "
+      "viewBox=\"0 0 100 100\">";
+  for (int i = 0; i < 20000; ++i) {
+    if (i == 19000) circles += "<rect fill=\"#0000ff\" width=\"90\" height=\"90\"/>";
+    circles += "<circle fill=\"red\" cx=\"" + std::to_string(20 + i % 61) + "\" cy=\"" +
+               std::to_string(20 + i % 59) + "\" r=\"" + std::to_string(5 + i % 13) + "\"/>";
+  }
+  REQUIRE(bench.status(bench.request("PUT", "/api/files/own/plate.svg", circles + "</svg>")) == 201);
+  CHECK(bench.command({"start", std::to_string(id)}).code == 1);
+  bench.await_job(id, "failed");
+  CHECK(bench.daemon().running());
+  CHECK(job(bench, id)["reason"].get<std::string>().find("time") != std::string::npos);
+}
