@@ -144,14 +144,7 @@ const std::vector<std::string>& Session::State::first_lines() {
 
 /// Some firmwares say ok when a line has come, and answer when they run it. What they answer to the last
 /// question comes behind what they say to the others.
-asio::awaitable<void> Session::State::check_abilities() {
-  const gcode::Printer& wanted = source.printer();
-  std::vector<std::string> questions{mixing_question(wanted.firmware)};
-  const auto highest = highest_tool(first_lines());
-  if (highest && wanted.firmware == "marlin") {
-    questions.push_back(fmt::format("T{}", *highest));
-    questions.emplace_back("T0");
-  }
+asio::awaitable<void> Session::State::ask(std::vector<std::string> questions) {
   questions.emplace_back("M105");
   printer.temperatures = {};
   co_await places.interpose(std::move(questions));
@@ -160,11 +153,23 @@ asio::awaitable<void> Session::State::check_abilities() {
     return !printer.mixes || printer.temperatures.nozzle || printer.temperatures.bed;
   };
   co_await wake.wait(clock->now() + late_answer, answered);
+}
+
+asio::awaitable<void> Session::State::check_abilities() {
+  const gcode::Printer& wanted = source.printer();
+  std::vector<std::string> questions(1, mixing_question(wanted.firmware));
+  co_await ask(std::move(questions));
   // An old RepRapFirmware says only ok if it has no such tool.
   const bool silent = wanted.firmware == "reprapfirmware" && !printer.feeders;
   if (!printer.mixes || silent) refuse(does_not_mix(wanted.firmware));
   if (printer.feeders && *printer.feeders != wanted.feeders)
     refuse(mixes_other_feeders(*printer.feeders, wanted.feeders));
+  const auto highest = highest_tool(first_lines());
+  if (!highest || wanted.firmware != "marlin") co_return;
+  // Only now: on a printer that does not mix, T may load filament or change a tool.
+  questions.assign(1, fmt::format("T{}", *highest));
+  questions.emplace_back("T0");
+  co_await ask(std::move(questions));
   if (!printer.has_tools) refuse(lacks_tools(*highest));
 }
 

@@ -43,6 +43,7 @@ struct Session::State {
   asio::awaitable<void> begin();
   asio::awaitable<void> rejoin();
   void check_firmware();
+  asio::awaitable<void> ask(std::vector<std::string> questions);
   asio::awaitable<void> check_abilities();
   const std::vector<std::string>& first_lines();
   asio::awaitable<void> send_spooled();

@@ -98,7 +98,7 @@ class PrintBench {
     std::istringstream transcript(read_text(path("t.txt")));
     bool asks_for_tools = false;  // a Marlin is asked T<highest>, T0 behind the question whether it mixes
     for (std::string line; std::getline(transcript, line);) {
-      asks_for_tools = line == "M163 S99 P1" || (asks_for_tools && line.starts_with('T'));
+      asks_for_tools = line == "M163 S99 P1" || (asks_for_tools && (line.starts_with('T') || line == "M105"));
       const bool question = asks_for_tools || line == "*" || line == "M115" || line == "M105" ||
                             line == "M114" || line.starts_with("M155") || line.starts_with("M110") ||
                             line == "M567 P0";
