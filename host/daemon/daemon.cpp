@@ -29,6 +29,7 @@ using nlohmann::json;
 using namespace std::chrono_literals;
 
 constexpr auto progress_interval = 250ms;  ///< between two events of progress
+constexpr std::size_t most_checks = 2;     ///< at once: each may take a core and much memory
 
 std::string text_of(const json& event) {
   return event.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -122,6 +123,8 @@ asio::awaitable<void> Daemon::save() {
 
 asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<LayerRange> layers) {
   if (queue_.waiting() >= Queue::most_waiting) throw Refused(Why::conflict, "the queue is full");
+  if (being_added_->size() >= most_checks)
+    throw Refused(Why::conflict, "other jobs are being checked; queue this one in a moment");
   {
     // The files must not be changed between the check and the queue.
     const auto place = being_added_->insert(name);

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <fstream>
+#include <map>
+#include <memory>
 
 #include "tests/host/support/daemon_process.hpp"
 
@@ -198,4 +200,23 @@ TEST_CASE("uploads that would take all memory or all time are refused with a sen
     CHECK(seconds_since(asked) < 12);
   }
   CHECK(peak_megabytes(bench.daemon().id()) < before + 100);  // the bytes of an upload, and no more
+}
+
+TEST_CASE("no more than two jobs are checked at once, so that a running print keeps its computer") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve({"--check-time", "3"});
+  for (const auto& [name, text] : {std::pair<std::string, std::string>{"job.toml", test::sample_job},
+                                   {"bench.toml", test::sample_profile},
+                                   {"plate.svg", overlapping_circles(20000)}})
+    REQUIRE(bench.status(bench.request("PUT", "/api/files/slow/" + name, text)) == 201);
+  std::vector<std::unique_ptr<test::RawConnection>> clients;
+  std::map<int, int> answers;
+  for (int i = 0; i < 5; ++i) {
+    clients.push_back(std::make_unique<test::RawConnection>(bench.port()));
+    clients.back()->send(bench.request("POST", "/api/jobs", "{\"job\": \"upload:slow/job.toml\"}"));
+  }
+  for (const auto& client : clients) ++answers[test::status_of(client->read_all())];
+  CHECK(answers == std::map<int, int>{{409, 3}, {422, 2}});
+  CHECK(bench.status(bench.request("POST", "/api/jobs", "{\"job\": \"plate.toml\"}")) == 201);
 }
