@@ -159,7 +159,7 @@ TEST_CASE("A plan has the lines that a dry run sends, and is the same twice") {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) commands += !line.empty() && line[0] != ';';
   CHECK(read_json(shop.path("r.json"))["lines"] == commands);
-  constexpr std::size_t questions = 5;  // M163, two T and M105 first; M155 at the end
+  constexpr std::size_t questions = 6;  // M163, M105, two T and M105 first; M155 at the end
   CHECK(read_json(shop.path("d.json"))["link"]["lines"] == commands + questions);
 }
 
