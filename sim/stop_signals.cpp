@@ -35,9 +35,15 @@ StopSignals::StopSignals() {
   ::sigaction(SIGTERM, &action, &old_terminate_);
 }
 
+/// A signal that comes while the last report is written must not cut it off, so the default action, which
+/// ends the process, is not restored.
 StopSignals::~StopSignals() {
-  ::sigaction(SIGINT, &old_interrupt_, nullptr);
-  ::sigaction(SIGTERM, &old_terminate_, nullptr);
+  const auto restore = [](int signal, struct sigaction action) {
+    if (action.sa_handler == SIG_DFL) action.sa_handler = SIG_IGN;
+    ::sigaction(signal, &action, nullptr);
+  };
+  restore(SIGINT, old_interrupt_);
+  restore(SIGTERM, old_terminate_);
 }
 
 }  // namespace unicursal::sim

@@ -1,6 +1,6 @@
 // SIGINT and SIGTERM as a descriptor that poll() can wait for. While an object of this class exists, the
-// signals do not end the process; its destructor restores the previous handlers. At most one object may
-// exist in a process.
+// signals do not end the process; its destructor restores the previous handlers, or ignores the signals if
+// they had none. At most one object may exist in a process.
 #pragma once
 
 #include <csignal>
