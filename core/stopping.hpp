@@ -30,7 +30,7 @@ class StopScope {
   std::stop_token before_;
 };
 
-/// The token that counts on this thread; it can never be stopped where there is no scope.
+/// The token that counts on this thread; without a scope it can never be stopped.
 std::stop_token present_stop_token();
 
 /// Throws Stopped if this thread was asked to stop. It costs a few nanoseconds.

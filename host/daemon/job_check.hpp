@@ -30,7 +30,7 @@ struct JobCheck {
 };
 
 /// Why a job cannot be printed, found by a child process; empty if it can. `stop` ends the child at once:
-/// then core::Stopped is thrown. Belongs to the loop's thread. Throws std::system_error if there is no child.
+/// then core::Stopped is thrown. Belongs to the loop's thread. Throws std::system_error if it cannot start.
 asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop);
 
 /// The child's part: takes on the limits, reads and prepares the job, and, if there is a limit of time, plans

@@ -312,7 +312,7 @@ void Holding::pause_for_printer(const std::string& reason, PausedBy by) {
   parts_.wake.notify();
 }
 
-/// Before the printer has answered, and at the end, there is no print to be held. A nozzle that is to be
+/// Before the printer has answered, and at the end, no print can be held. A nozzle that is to be
 /// parked does not wait for a person.
 void Holding::printer_waits() {
   if (parts_.intent.ends()) return let_printer_go_on();

@@ -48,7 +48,7 @@ fs::path common_frame() {
   const std::optional<fs::path> state = state_home();
   if (!state) {
     throw core::FileError("", "",
-                          "there is no folder for a profile, since neither XDG_STATE_HOME nor HOME is set",
+                          "the folder of profiles is unknown, since neither XDG_STATE_HOME nor HOME is set",
                           "name a profile with --profile");
   }
   const fs::path file = *state / "frames" / "common.toml";

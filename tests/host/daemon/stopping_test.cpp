@@ -1,4 +1,4 @@
-// What is no longer wanted ends soon, and files that are hostile or hopeless harm nobody: real daemons.
+// What is no longer wanted ends soon, and files that are hostile or hopeless do no harm: real daemons.
 #include <catch2/catch.hpp>
 
 #include <chrono>
