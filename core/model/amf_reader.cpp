@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,9 +11,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/model/malformed.hpp"
-#include "core/model/xml_document.hpp"
 #include "core/model/zip_archive.hpp"
+#include "core/text/malformed.hpp"
+#include "core/text/xml_document.hpp"
 
 namespace unicursal::core {
 namespace {

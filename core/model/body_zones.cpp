@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/drawing/css_colour.hpp"
 #include "core/error.hpp"
-#include "core/model/css_colour.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {

@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
+#include "core/drawing/css_colour.hpp"
+#include "core/drawing/svg_reader.hpp"
 #include "core/error.hpp"
-#include "core/model/css_colour.hpp"
 #include "core/model/layer_stack.hpp"
-#include "core/model/svg_reader.hpp"
 #include "core/model/zoning.hpp"
 
 namespace unicursal::core {

@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
+#include "core/drawing/svg_reader.hpp"
 #include "core/error.hpp"
 #include "core/model/mesh_bodies.hpp"
 #include "core/model/read_part.hpp"
-#include "core/model/svg_reader.hpp"
 #include "core/model/zoning.hpp"
 
 namespace unicursal::core {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/model/malformed.hpp"
+#include "core/text/malformed.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {

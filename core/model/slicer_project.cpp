@@ -6,10 +6,10 @@
 #include <pugixml.hpp>
 #include <string_view>
 
+#include "core/drawing/css_colour.hpp"
 #include "core/error.hpp"
-#include "core/model/css_colour.hpp"
-#include "core/model/malformed.hpp"
-#include "core/model/xml_document.hpp"
+#include "core/text/malformed.hpp"
+#include "core/text/xml_document.hpp"
 
 namespace unicursal::core {
 namespace {

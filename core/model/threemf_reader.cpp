@@ -2,19 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "core/drawing/css_colour.hpp"
 #include "core/error.hpp"
-#include "core/model/css_colour.hpp"
-#include "core/model/malformed.hpp"
 #include "core/model/paint_code.hpp"
 #include "core/model/slicer_project.hpp"
-#include "core/model/xml_document.hpp"
 #include "core/model/zip_archive.hpp"
+#include "core/text/malformed.hpp"
+#include "core/text/xml_document.hpp"
 
 namespace unicursal::core {
 namespace {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "core/model/malformed.hpp"
+#include "core/text/malformed.hpp"
 
 using namespace unicursal::core;
 

@@ -1,4 +1,4 @@
-#include "core/model/css_colour.hpp"
+#include "core/drawing/css_colour.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "core/model/svg_frame.hpp"
+#include "core/drawing/svg_frame.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/model/malformed.hpp"
-#include "core/model/number_scanner.hpp"
+#include "core/text/malformed.hpp"
+#include "core/text/number_scanner.hpp"
 
 namespace unicursal::core {
 namespace {

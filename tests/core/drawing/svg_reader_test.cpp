@@ -1,9 +1,9 @@
-#include "core/model/svg_reader.hpp"
+#include "core/drawing/svg_reader.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "core/error.hpp"
-#include "model_support.hpp"
+#include "tests/core/model/model_support.hpp"
 
 using namespace unicursal::core;
 using Catch::Matchers::Contains;

@@ -1,11 +1,11 @@
-#include "core/model/svg_path.hpp"
+#include "core/drawing/svg_path.hpp"
 
 #include <fmt/format.h>
 
 #include <numbers>
 
-#include "core/model/malformed.hpp"
-#include "core/model/number_scanner.hpp"
+#include "core/text/malformed.hpp"
+#include "core/text/number_scanner.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {

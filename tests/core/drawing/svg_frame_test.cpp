@@ -1,8 +1,8 @@
-#include "core/model/svg_frame.hpp"
+#include "core/drawing/svg_frame.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "core/model/malformed.hpp"
+#include "core/text/malformed.hpp"
 
 using namespace unicursal::core;
 

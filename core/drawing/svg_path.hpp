@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "core/model/outline.hpp"
+#include "core/drawing/outline.hpp"
 
 namespace unicursal::core {
 

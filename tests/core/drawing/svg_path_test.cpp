@@ -1,10 +1,10 @@
-#include "core/model/svg_path.hpp"
+#include "core/drawing/svg_path.hpp"
 
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
-#include "core/model/malformed.hpp"
+#include "core/text/malformed.hpp"
 
 using namespace unicursal::core;
 

@@ -1,11 +1,11 @@
-#include "core/model/outline.hpp"
+#include "core/drawing/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
-#include "core/model/malformed.hpp"
+#include "core/text/malformed.hpp"
 
 namespace unicursal::core {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/model/svg_style.hpp"
+#include "core/drawing/svg_style.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "core/model/css_colour.hpp"
-#include "core/model/malformed.hpp"
-#include "core/model/number_scanner.hpp"
+#include "core/drawing/css_colour.hpp"
+#include "core/text/malformed.hpp"
+#include "core/text/number_scanner.hpp"
 
 namespace unicursal::core {
 namespace {

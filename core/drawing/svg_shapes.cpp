@@ -1,10 +1,10 @@
-#include "core/model/svg_shapes.hpp"
+#include "core/drawing/svg_shapes.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "core/model/malformed.hpp"
-#include "core/model/number_scanner.hpp"
+#include "core/text/malformed.hpp"
+#include "core/text/number_scanner.hpp"
 
 namespace unicursal::core {
 

@@ -2,7 +2,6 @@
 // common.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>

@@ -1,11 +1,11 @@
-#include "core/model/number_scanner.hpp"
+#include "core/text/number_scanner.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <system_error>
 
-#include "core/model/malformed.hpp"
+#include "core/text/malformed.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {

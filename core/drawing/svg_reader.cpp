@@ -1,4 +1,4 @@
-#include "core/model/svg_reader.hpp"
+#include "core/drawing/svg_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -10,14 +10,14 @@
 #include <string_view>
 #include <utility>
 
+#include "core/drawing/outline.hpp"
+#include "core/drawing/svg_frame.hpp"
+#include "core/drawing/svg_path.hpp"
+#include "core/drawing/svg_shapes.hpp"
+#include "core/drawing/svg_style.hpp"
 #include "core/error.hpp"
-#include "core/model/malformed.hpp"
-#include "core/model/outline.hpp"
-#include "core/model/svg_frame.hpp"
-#include "core/model/svg_path.hpp"
-#include "core/model/svg_shapes.hpp"
-#include "core/model/svg_style.hpp"
 #include "core/text/file_bytes.hpp"
+#include "core/text/malformed.hpp"
 
 namespace unicursal::core {
 namespace {

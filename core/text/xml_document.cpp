@@ -1,4 +1,4 @@
-#include "core/model/xml_document.hpp"
+#include "core/text/xml_document.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/model/malformed.hpp"
+#include "core/text/malformed.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {
