@@ -15,6 +15,7 @@
 #include "core/cycle/shuffle.hpp"
 #include "core/geometry/region.hpp"
 #include "core/graph/cell_graph.hpp"
+#include "core/planner/fill_thin.hpp"
 #include "core/planner/measure.hpp"
 #include "core/planner/stopwatch.hpp"
 #include "core/planner/with_perimeters.hpp"
@@ -30,11 +31,9 @@ constexpr double needle_growth = 1.75;            ///< of the needles' length pe
 // Target length of a tour's chords as a share of the curve's target length: too long a tour crowds its
 // strands.
 constexpr double aligned_length = 0.95, free_length = 1.2;
-constexpr double longest_needle = 2;  ///< in the paper's lengths
-constexpr double fewest_cells = 2.5;  ///< a smaller island gets a contour
-constexpr int tries = 8;              ///< with other seeds, before a contour is used instead
-constexpr double least_half_width = 0.15,
-                 most_half_width = 0.3;  ///< bead widths; limits of half the least width
+constexpr double longest_needle = 2;     ///< in the paper's lengths
+constexpr double fewest_cells = 2.5;     ///< a smaller island gets a contour
+constexpr int tries = 8;                 ///< with other seeds, before a contour is used instead
 constexpr std::size_t most_pieces = 50;  ///< material pieces of an island that are joined one by one
 constexpr double speck = 0.05;           ///< square bead widths; a smaller piece gets no curve of its own
 constexpr double most_thin = 0.002;      ///< share of a material piece that its own curve may leave out
@@ -235,19 +234,8 @@ std::optional<RegionCurve> fill_with_perimeters(const FillableRegion& part, bool
   return std::nullopt;
 }
 
-}  // namespace
-
-double half_width(const PlanOptions& options) {
-  const double asked = options.min_bead_width / 2 / options.bead_width;
-  return options.bead_width * std::clamp(asked > 0 ? asked : 0.25, least_half_width, most_half_width);
-}
-
-bool sound(const Curve& curve, const Polygon& region, double bead_width) {
-  return curve.size() >= 5 && self_intersections(curve) == 0 &&
-         segments_outside(curve, BorderIndex(region, bead_width)) == 0;
-}
-
-std::optional<RegionCurve> fill_region(const FillableRegion& part, bool by_material, IslandWork& work) {
+/// A region without thin places.
+std::optional<RegionCurve> fill_thick(const FillableRegion& part, bool by_material, IslandWork& work) {
   by_material = by_material && work.island.zones.size() > 1;
   if (std::optional<RegionCurve> found = fill_with_perimeters(part, by_material, work)) return found;
   if (by_material) {
@@ -256,6 +244,21 @@ std::optional<RegionCurve> fill_region(const FillableRegion& part, bool by_mater
   std::optional<RegionCurve> found = unfaired_curve(part, work);
   if (found) fair_curve(*found, part, work);
   return found;
+}
+
+}  // namespace
+
+std::optional<RegionCurve> fill_region(const FillableRegion& part, bool by_material, IslandWork& work) {
+  // Curves of several materials are joined at their borders, which strands along thin places would cut off.
+  const bool several = by_material && material_pieces(work.island, work.zones, work.width()).size() > 1;
+  const FillThick fill = [&](const FillableRegion& place) -> std::optional<RegionCurve> {
+    if (several) return std::nullopt;
+    return fill_thick(place, by_material, work);
+  };
+  const Random random = work.random;
+  if (std::optional<RegionCurve> found = fill_thin(part.region, work, fill)) return found;
+  work.random = random;
+  return fill_thick(part, by_material, work);
 }
 
 }  // namespace unicursal::core

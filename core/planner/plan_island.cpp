@@ -24,7 +24,8 @@ constexpr double strokes_every = 1.5;  ///< bead widths between the samples of t
 void measure_widths(PlannedCurve& planned, const PlanOptions& options) {
   const std::vector<double> widths = widths_around(planned.path, options.bead_width);
   for (std::size_t i = 0; i < widths.size(); ++i) {
-    if (widths[i] < options.min_bead_width) planned.narrow_length += planned.path.length(i);
+    const bool narrow = std::max(widths[i], planned.path.width(i)) < options.min_bead_width;
+    if (narrow && planned.path.beads[i].area > 0) planned.narrow_length += planned.path.length(i);
     if (options.max_bead_width && widths[i] > *options.max_bead_width)
       planned.wide_length += planned.path.length(i);
   }
@@ -49,11 +50,15 @@ void leave_straight_lines(Ring& ring, double bead_width, std::uint64_t seed) {
 PlannedCurve finish(RegionCurve& filled, const FillableRegion& part, IslandWork& work) {
   const Stopwatch watch(work.plan.widths);
   const double w = work.width();
+  const Curve exact = filled.curve;
   leave_straight_lines(filled.curve.vertices, w, work.options.seed);
+  if (!sound(filled.curve, part.region, w)) filled.curve = exact;
   const SegmentDiagram diagram = segment_diagram(filled.curve.vertices, part.region, &work.workers);
   PlannedCurve planned;
   planned.area = area(part.region);
-  planned.path = along_zones(filled.curve, segment_areas(diagram, filled.curve, w), work.island);
+  std::vector<double> areas = segment_areas(diagram, filled.curve, w);
+  empty_ways_back(filled.curve, filled.one_way, areas);
+  planned.path = along_zones(filled.curve, areas, work.island);
   planned.objectives = objectives(diagram, filled.curve, planned.area, w, work.demands.field());
   measure_path(planned.path, work.zones, w, planned.objectives);
   measure_widths(planned, work.options);
