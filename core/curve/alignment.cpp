@@ -49,6 +49,27 @@ double Alignment::evaluate(const Curve& curve, const LatticeOwners& owners, doub
   return value;
 }
 
+double alignment_along(const Curve& curve, const DirectionField& field, double turn, double width,
+                       double weight, std::vector<Vec2>& gradient) {
+  const double c = std::cos(turn), s = std::sin(turn);
+  double value = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const std::size_t j = curve.after(i);
+    const Vec2 u = curve.vertices[j] - curve.vertices[i],
+               middle = (curve.vertices[i] + curve.vertices[j]) / 2;
+    const double length = u.norm();
+    const Vec2 v = field.at({c * middle.x() + s * middle.y(), c * middle.y() - s * middle.x()});
+    if (!(length > 0) || v.norm() < least_field) continue;
+    const double asked = width * v.norm();
+    const double off = std::remainder(std::atan2(u.y(), u.x()) - turn - direction(v), std::numbers::pi);
+    value += asked * length * off * off;
+    const Vec2 pull = weight * asked * off / length * (off * u + 2 * perpendicular(u));
+    gradient[i] -= pull;
+    gradient[j] += pull;
+  }
+  return value;
+}
+
 double mean_squared_angle(const Curve& curve, const DirectionField& field) {
   double sum = 0, length = 0;
   if (field.empty()) return 0;

@@ -60,7 +60,8 @@ class Fairer {
         leash_(border_, options.bead_width, options.workers),
         newton_(options.workers) {
     alignment_weight_ = options.alignment;
-    if (options.field != nullptr) alignment_ = Alignment(lattice_, *options.field, irrational_turn);
+    if (options.field != nullptr && !options.alignment_by_length)
+      alignment_ = Alignment(lattice_, *options.field, irrational_turn);
     const double w = options.bead_width;
     multiplier_ = w * w * w / 6;  // −∂E_CVT/∂L of evenly spaced folds, E = A³ ÷ (12 L²)
     if (options.hold_length) stiffness_ = multiplier_ / (2 * length_stiffness * options.target_length);
@@ -99,7 +100,7 @@ class Fairer {
 
   /// The curve without the fingers that crowd a place.
   Curve without_crowding(const Curve& curve) {
-    if (ended_) return curve;  // a curve that is not smooth yet only seems crowded
+    if (ended_ || !options_.may_retract) return curve;  // a curve that is not smooth yet only seems crowded
     Field unused(curve.size(), Vec2(0, 0));
     coverage_.evaluate(curve, 1, unused);
     return retracted(curve, coverage_.areas(), border_, options_.bead_width).curve;
@@ -115,9 +116,12 @@ class Fairer {
     const double finer = static_cast<double>(curve.size()) / coarse;
     const double smooth = options_.smoothness * per_vertex * finer * finer * finer;
     value += smooth * smoothness_with_gradient(curve, smooth, gradient);
+    const double weight = alignment_weight_ * options_.bead_width * options_.bead_width;
     if (!alignment_.empty()) {
-      const double weight = alignment_weight_ * options_.bead_width * options_.bead_width;
       value += weight * alignment_.evaluate(curve, coverage_.owners(), weight, gradient);
+    } else if (options_.field != nullptr) {
+      value += weight * alignment_along(curve, *options_.field, irrational_turn, options_.bead_width, weight,
+                                        gradient);
     }
     value += orientation(curve, gradient);
     const double excess = curve.length() - options_.target_length;

@@ -44,6 +44,8 @@ struct FairingOptions {
   double alignment = 0.05;
   // Weight of (33) on the subdivided curve: strands that are aligned stay so, and coverage evens out.
   double fine_alignment = 0.002;
+  bool alignment_by_length = false;    ///< (33) along segments instead of over their cells, see alignment.hpp
+  bool may_retract = true;             ///< cut off fingers that crowd a place (retraction.hpp)
   std::vector<OrientationZone> zones;  ///< zones with an orientation objective
   double evenness = 1;         ///< weight of (53) in isotropic zones, square bead widths; compare γ_Obj (54)
   double likeness = 0.006;     ///< weight of (53) in anisotropic zones, square bead widths

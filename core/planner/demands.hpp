@@ -20,7 +20,10 @@ class Demands {
   Demands(const Island& island, const std::vector<Zone>& zones, const ZoneDirections& files, double z,
           double bead_width);
 
+  /// All directions, with those that anisotropic zones have chosen.
   const DirectionField& field() const { return field_; }
+  /// The same without anisotropic zones, which ask their strands to be alike instead.
+  const DirectionField& named_field() const { return named_field_ ? *named_field_ : field_; }
   const ZoneMap& map() const { return map_; }
 
   /// For the first cycle: a run along the field earns, a run across it or over a material's border costs.
@@ -35,6 +38,8 @@ class Demands {
 
   /// Whether most of the piece is to be aligned.
   bool mostly_aligned(const Polygon& piece) const;
+  /// Whether all of the piece, except for little, is to be aligned.
+  bool wholly_aligned(const Polygon& piece) const;
   /// The direction, rad, that nearly all of the piece is to follow; nullopt if directions differ.
   std::optional<double> one_direction(const Polygon& piece) const;
 
@@ -45,11 +50,13 @@ class Demands {
   const std::vector<Zone>& zones_;
   double bead_width_;
   DirectionField field_;
+  std::optional<DirectionField> named_field_;  ///< absent if it is the same as field_
   ZoneMap map_;
   bool several_materials_ = false;
 };
 
-/// The direction, rad, in which a zone of an island extends farthest: its principal axis.
-double principal_axis(const ZoneRegion& region);
+/// The direction, rad, in which strands end at the zone's borders least often: of n strands a mm side by
+/// side, n |sin α| ds end along a border of length ds at an angle α to them.
+double direction_of_fewest_ends(const ZoneRegion& region);
 
 }  // namespace unicursal::core

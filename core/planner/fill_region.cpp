@@ -20,6 +20,7 @@
 #include "core/planner/stopwatch.hpp"
 #include "core/planner/with_perimeters.hpp"
 #include "core/stopping.hpp"
+#include "core/stripes/stripe_curve.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -38,6 +39,9 @@ constexpr std::size_t most_pieces = 50;  ///< material pieces of an island that 
 constexpr double speck = 0.05;           ///< square bead widths; a smaller piece gets no curve of its own
 constexpr double most_thin = 0.002;      ///< share of a material piece that its own curve may leave out
 constexpr double nearly_far = 1.0;       ///< bead widths; with larger holes, fairing gives up directions
+// Square bead widths, and share of the region, that strands along a field may leave bare, as in sharp
+// corners.
+constexpr double most_bare = 1, bare_share = 0.0005;
 // Steps of fairing that are always granted: an unfaired curve has a normalised coverage of 0.107 to 0.12 and
 // is 30 % too short; after these steps the coverage is 0.090 to 0.095, and the length is as asked.
 constexpr int kept_for_fairing = 12;
@@ -123,29 +127,81 @@ std::optional<RegionCurve> unfaired_curve(const FillableRegion& part, IslandWork
   return std::nullopt;
 }
 
+/// What fairing needs to know of a region. Strands of stripes hold the asked directions more firmly.
+FairingOptions fairing_options(const FillableRegion& part, bool of_stripes, IslandWork& work) {
+  FairingOptions fairing = work.settings.fairing;
+  fairing.bead_width = work.width();
+  fairing.target_length = area(part.region) / work.width();
+  fairing.hold_length = !part.thin;
+  fairing.field = &work.demands.field();
+  fairing.workers = &work.workers;
+  fairing.zones = work.demands.orientation_zones();
+  if (of_stripes) {
+    fairing.field = &work.demands.named_field();
+    fairing.alignment_by_length = true;
+    // Strands of stripes do not crowd, and the fingers that reach the ends of thin places are to stay.
+    fairing.may_retract = false;
+    fairing.alignment = work.settings.stripe_alignment;
+    fairing.fine_alignment = work.settings.stripe_fine_alignment;
+    fairing.likeness = work.settings.stripe_likeness;
+  }
+  fairing.may_continue = work.budget.stage(kept_for_fairing);
+  return fairing;
+}
+
+double farthest(const Curve& curve, const FillableRegion& part, IslandWork& work) {
+  return look_for_holes(curve, part.region, work.width(), &work.workers).farthest / work.width();
+}
+
 /// Fairs the curve. The result is discarded if it is not sound, which only rounding can cause. Strands that
 /// are held straight may leave a hole where their number does not fit the width; then the curve is faired
 /// again without directions.
 void fair_curve(RegionCurve& filled, const FillableRegion& part, IslandWork& work) {
   const Stopwatch watch(work.plan.fairing);
   const double w = work.width();
-  FairingOptions fairing = work.settings.fairing;
-  fairing.bead_width = w;
-  fairing.target_length = area(part.region) / w;
-  fairing.hold_length = !part.thin;
-  fairing.field = &work.demands.field();
-  fairing.workers = &work.workers;
-  fairing.zones = work.demands.orientation_zones();
-  fairing.may_continue = work.budget.stage(kept_for_fairing);
+  FairingOptions fairing = fairing_options(part, false, work);
   Curve result = fair(smoothed(filled.curve, part.region, w, &work.workers), part.region, fairing).curve;
-  if (!work.demands.field().empty() &&
-      look_for_holes(result, part.region, w, &work.workers).farthest > nearly_far * w) {
+  if (!work.demands.field().empty() && farthest(result, part, work) > nearly_far) {
     fairing.field = nullptr;
     fairing.may_continue = work.budget.stage();
     result = fair(result, part.region, fairing).curve;
   }
   filled.faired = sound(result, part.region, w);
   if (filled.faired) filled.curve = std::move(result);
+}
+
+/// A faired curve of strands along the asked directions, where the whole region asks for them, time is left,
+/// and no hole remains.
+std::optional<RegionCurve> curve_of_stripes(const FillableRegion& part, IslandWork& work) {
+  if (!work.settings.stripes || part.thin || !work.demands.wholly_aligned(part.region)) return std::nullopt;
+  const double w = work.width();
+  std::optional<StripeCurve> laid;
+  {
+    const Stopwatch watch(work.plan.cycle);
+    const MayContinue may_continue = work.budget.stage();
+    if (!may_continue()) return std::nullopt;
+    laid = stripe_curve(part.region, work.demands.field(), {w, work.options.seed, may_continue});
+  }
+  if (!laid) return std::nullopt;
+  const Stopwatch watch(work.plan.fairing);
+  RegionCurve filled;
+  if (work.options.stages != nullptr) filled.cycles.push_back(drawn(*laid));
+  filled.curve = fair(smoothed(laid->curve, part.region, w, &work.workers), part.region,
+                      fairing_options(part, true, work))
+                     .curve;
+  filled.faired = true;
+  if (!sound(filled.curve, part.region, w) || farthest(filled.curve, part, work) > nearly_far ||
+      bare_area(filled.curve, part.region, w) > most_bare * w * w + bare_share * area(part.region))
+    return std::nullopt;
+  return filled;
+}
+
+/// A curve through one region, faired if that is possible.
+std::optional<RegionCurve> faired_curve(const FillableRegion& part, IslandWork& work) {
+  if (std::optional<RegionCurve> filled = curve_of_stripes(part, work)) return filled;
+  std::optional<RegionCurve> filled = unfaired_curve(part, work);
+  if (filled) fair_curve(*filled, part, work);
+  return filled;
 }
 
 /// Adds the figures of a part to those of the whole.
@@ -181,10 +237,8 @@ std::optional<RegionCurve> fill_by_material(const FillableRegion& part, IslandWo
   for (const Polygon& piece : pieces) {
     const Fillable parts = fillable(piece, w, half_width(work.options));
     if (parts.too_thin > most_thin * area(piece) || parts.regions.size() != 1) return std::nullopt;
-    std::optional<RegionCurve> filled = unfaired_curve(parts.regions.front(), work);
-    if (!filled) return std::nullopt;
-    fair_curve(*filled, parts.regions.front(), work);
-    if (!filled->faired) return std::nullopt;
+    std::optional<RegionCurve> filled = faired_curve(parts.regions.front(), work);
+    if (!filled || !filled->faired) return std::nullopt;
     add_figures(sum, *filled);
     curves.push_back(std::move(filled->curve));
   }
@@ -203,8 +257,7 @@ std::optional<RegionCurve> fill_with_perimeters(const FillableRegion& part,
                                                 IslandWork& work) {
   RegionCurve sum;
   const FillFunction fill = [&](const FillableRegion& region) -> std::optional<Curve> {
-    std::optional<RegionCurve> filled = unfaired_curve(region, work);
-    if (filled) fair_curve(*filled, region, work);
+    std::optional<RegionCurve> filled = faired_curve(region, work);
     if (!filled || !filled->faired) return std::nullopt;
     add_figures(sum, *filled);
     return std::move(filled->curve);
@@ -241,9 +294,7 @@ std::optional<RegionCurve> fill_thick(const FillableRegion& part, bool by_materi
   if (by_material) {
     if (std::optional<RegionCurve> found = fill_by_material(part, work)) return found;
   }
-  std::optional<RegionCurve> found = unfaired_curve(part, work);
-  if (found) fair_curve(*found, part, work);
-  return found;
+  return faired_curve(part, work);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ Settings paper() {
   s.shuffle.weights = {0, 0, 0, 1};
   s.one_direction_sweeps = 1;
   s.edge_alignment = 1;
+  s.stripes = false;
   // (54) with A ÷ L0 = w: 1/50 of a square bead width, for alignment and orientation alike.
   s.fairing.alignment = s.fairing.fine_alignment = 0.02;
   s.fairing.evenness = s.fairing.likeness = 0.02;

@@ -15,7 +15,10 @@ struct Settings {
   // themselves in between and freeze below.
   double aligned_hot = 0.3, aligned_cold = 0.15;
   int one_direction_sweeps =
-      10;  ///< factor on the sweeps of islands with one direction, which take longer to order
+      10;               ///< factor on the sweeps of islands with one direction, which take longer to order
+  bool stripes = true;  ///< where directions are asked for everywhere, strands are laid along them first
+  // Weights of (33) and (53) in the fairing of such strands, square bead widths, as in FairingOptions.
+  double stripe_alignment = 0.3, stripe_fine_alignment = 0.058, stripe_likeness = 0.04;
 };
 
 /// `quality` scales how long the optimisers run; 1 is the default, more is better and slower.

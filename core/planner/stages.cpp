@@ -2,6 +2,7 @@
 
 #include "core/field/direction_field.hpp"
 #include "core/graph/cell_graph.hpp"
+#include "core/stripes/stripe_curve.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -31,6 +32,16 @@ CycleStages drawn(const CellGraph& graph) {
   stages.nodes = graph.position.values();
   for (const EdgeIndex e : graph.edges()) stages.edges.push_back(graph.line(PlanarGraph::forward(e)));
   for (const Segment& needle : graph.needles) stages.needles.push_back({needle.a, needle.b});
+  return stages;
+}
+
+CycleStages drawn(const StripeCurve& stripes) {
+  CycleStages stages;
+  for (const Curve& loop : stripes.loops) {
+    stages.edges.push_back(loop.vertices);
+    stages.edges.back().push_back(loop.vertices.front());
+  }
+  stages.first = stages.optimised = stripes.curve.vertices;
   return stages;
 }
 

@@ -10,6 +10,7 @@ namespace unicursal::core {
 
 class DirectionField;
 struct CellGraph;
+struct StripeCurve;
 
 /// A straight or bent line from one end to the other.
 using Polyline = std::vector<Vec2>;
@@ -23,10 +24,10 @@ struct AskedDirection {
 /// The stages of one curve before it is faired (and joined to others if there are several).
 struct CycleStages {
   std::vector<Vec2> nodes;        ///< of the cell graph, with three edges each
-  std::vector<Polyline> edges;    ///< between cells, and around them
+  std::vector<Polyline> edges;    ///< between cells, and around them; or the loops of stripes
   std::vector<Polyline> needles;  ///< one per cell; both ends of a point seed are the same
-  Ring first;                     ///< the first Hamiltonian cycle, through all nodes
-  Ring optimised;                 ///< the cycle after the local operations
+  Ring first;                     ///< the first Hamiltonian cycle, through all nodes; or the merged loops
+  Ring optimised;                 ///< the cycle after the local operations; or the merged loops
 };
 
 struct Stages {
@@ -40,5 +41,7 @@ std::vector<AskedDirection> asked_directions(const DirectionField& field, const 
 
 /// The nodes, edges and needles of a cell graph.
 CycleStages drawn(const CellGraph& graph);
+/// The loops of stripes, and the curve merged from them.
+CycleStages drawn(const StripeCurve& stripes);
 
 }  // namespace unicursal::core

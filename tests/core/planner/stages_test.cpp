@@ -21,11 +21,13 @@ std::set<Place> places(const std::vector<Vec2>& points) {
   return result;
 }
 
-Stages stages_of(const Island& island, const std::vector<Zone>& zones, double w) {
+Stages stages_of(const Island& island, const std::vector<Zone>& zones, double w,
+                 Preset preset = Preset::best) {
   Stages stages;
   PlanOptions options;
   options.bead_width = w;
   options.stages = &stages;
+  options.preset = preset;
   plan_island(island, zones, options);
   return stages;
 }
@@ -92,7 +94,7 @@ TEST_CASE("each material has its own stages, and those of discarded curves are n
 TEST_CASE("needles lie along the asked direction, and points have no length") {
   std::vector<Zone> zones(1);
   zones[0].pattern.kind = PatternKind::parallel;
-  const Stages aligned = stages_of(whole(square_with_hole()), zones, 0.7);
+  const Stages aligned = stages_of(whole(square_with_hole()), zones, 0.7, Preset::paper);
   const Stages plain = stages_of(whole(square_with_hole()), one_zone(), 0.7);
   const auto mean_length = [](const Stages& stages) {
     double sum = 0;
@@ -101,4 +103,16 @@ TEST_CASE("needles lie along the asked direction, and points have no length") {
   };
   CHECK(mean_length(plain) == 0);
   CHECK(mean_length(aligned) > 0.3);
+}
+
+TEST_CASE("of stripes, the loops are kept and the curve that is merged from them") {
+  std::vector<Zone> zones(1);
+  zones[0].pattern.kind = PatternKind::angle;
+  const Stages stages = stages_of(whole(rectangle(12, 12)), zones, 0.6);
+  REQUIRE(stages.cycles.size() == 1);
+  const CycleStages& cycle = stages.cycles.front();
+  CHECK(cycle.nodes.empty());
+  CHECK(cycle.edges.size() == 10);  // 20 strands, two in a loop
+  for (const Polyline& loop : cycle.edges) CHECK(loop.front() == loop.back());
+  CHECK(cycle.optimised.size() > 100);
 }
