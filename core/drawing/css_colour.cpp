@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/text/malformed.hpp"
 #include "core/text/number_scanner.hpp"
+#include "core/text/wording.hpp"
 
 namespace unicursal::core {
 namespace {
@@ -169,20 +172,43 @@ constexpr std::array<std::pair<std::string_view, std::uint32_t>, 148> names{{
 
 static_assert(std::is_sorted(names.begin(), names.end()));
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
-}
+// CSS Color Module Level 4, section 6.2, with the values of a light desktop.
+constexpr std::array<std::pair<std::string_view, std::uint32_t>, 16> system_colours{{
+    {"accentcolor", 0x0078d7},
+    {"activetext", 0xff0000},
+    {"buttonborder", 0x767676},
+    {"buttonface", 0xefefef},
+    {"buttontext", 0x000000},
+    {"canvas", 0xffffff},
+    {"canvastext", 0x000000},
+    {"field", 0xffffff},
+    {"fieldtext", 0x000000},
+    {"graytext", 0x808080},
+    {"highlight", 0xb5d5ff},
+    {"highlighttext", 0x000000},
+    {"linktext", 0x0000ee},
+    {"menutext", 0x000000},
+    {"visitedtext", 0x551a8b},
+    {"windowtext", 0x000000},
+}};
 
-std::string trimmed(const std::string& text) {
+static_assert(std::is_sorted(system_colours.begin(), system_colours.end()));
+
+std::string without_spaces_around(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n\f");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\n\f") - first + 1);
 }
 
-std::optional<std::string> from_hex(const std::string& text) {
+std::string written(const std::array<double, 3>& shares) {
+  std::uint32_t rgb = 0;
+  for (const double share : shares) {
+    rgb = rgb << 8U | static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255));
+  }
+  return fmt::format("#{:06x}", rgb);
+}
+
+std::optional<CssColour> from_hex(const std::string& text) {
   std::string digits = text.substr(1);
   if (digits.find_first_not_of("0123456789abcdef") != std::string::npos) return std::nullopt;
   if (digits.size() == 3 || digits.size() == 4) {
@@ -191,56 +217,123 @@ std::optional<std::string> from_hex(const std::string& text) {
     digits = twice;
   }
   if (digits.size() != 6 && digits.size() != 8) return std::nullopt;
-  if (digits.size() == 8 && digits.substr(6) == "00") return "none";
-  return "#" + digits.substr(0, 6);
+  double alpha = 1;
+  if (digits.size() == 8) {
+    unsigned value = 0;
+    std::from_chars(digits.data() + 6, digits.data() + 8, value, 16);
+    alpha = value / 255.0;
+  }
+  return CssColour{"#" + digits.substr(0, 6), alpha};
 }
 
-/// Reads one argument of rgb(): a number or a percentage of `whole`.
-double channel(NumberScanner& scanner, double whole) {
-  const double value = scanner.required();
-  if (scanner.peek() != '%') return value;
-  scanner.advance();
-  return value * whole / 100;
+/// CSS Color Module Level 4, section 7.1: hue in degrees, saturation and lightness from 0 to 1.
+std::array<double, 3> from_hsl(double hue, double saturation, double lightness) {
+  saturation = std::clamp(saturation, 0.0, 1.0);
+  lightness = std::clamp(lightness, 0.0, 1.0);
+  const auto channel = [&](double n) {
+    const double k = std::fmod(n + std::fmod(hue, 360.0) / 30 + 12, 12.0);
+    return lightness -
+           saturation * std::min(lightness, 1 - lightness) * std::clamp(std::min(k - 3, 9 - k), -1.0, 1.0);
+  };
+  return {channel(0), channel(8), channel(4)};
 }
 
-std::optional<std::string> from_function(const std::string& text) {
+/// Section 8 of the same.
+std::array<double, 3> from_hwb(double hue, double white, double black) {
+  white = std::clamp(white, 0.0, 1.0);
+  black = std::clamp(black, 0.0, 1.0);
+  if (white + black >= 1) return {white / (white + black), white / (white + black), white / (white + black)};
+  std::array<double, 3> rgb = from_hsl(hue, 1, 0.5);
+  for (double& share : rgb) share = share * (1 - white - black) + white;
+  return rgb;
+}
+
+/// The arguments of a colour function.
+class Arguments {
+ public:
+  explicit Arguments(NumberScanner& scanner) : scanner_(scanner) {}
+
+  /// A percentage as a share, or a number over `whole`.
+  double share(double whole) {
+    const double value = scanner_.required();
+    if (scanner_.peek() != '%') return value / whole;
+    scanner_.advance();
+    return value / 100;
+  }
+
+  double degrees() {
+    const double value = scanner_.required();
+    const std::string_view unit = scanner_.word();
+    if (unit.empty() || unit == "deg") return value;
+    if (unit == "grad") return value * 0.9;
+    if (unit == "rad") return value * 180 / std::numbers::pi;
+    if (unit == "turn") return value * 360;
+    throw Malformed("the hue has an unknown unit");
+  }
+
+  double alpha() {
+    scanner_.skip_separator();
+    if (scanner_.peek() == '/') scanner_.advance();
+    scanner_.skip_spaces();
+    const double value = scanner_.peek() == ')' ? 1 : share(1);
+    scanner_.skip_spaces();
+    if (scanner_.peek() != ')' || scanner_.rest().size() != 1) throw Malformed("the colour does not end");
+    return std::clamp(value, 0.0, 1.0);
+  }
+
+ private:
+  NumberScanner& scanner_;
+};
+
+CssColour from_function(const std::string& text) {
   NumberScanner scanner(text);
   const std::string_view name = scanner.word();
-  if ((name != "rgb" && name != "rgba") || scanner.peek() != '(') return std::nullopt;
+  if (scanner.peek() != '(') throw Malformed("the colour has no arguments");
   scanner.advance();
-  std::uint32_t rgb = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double value = std::clamp(channel(scanner, 255), 0.0, 255.0);
-    rgb = rgb << 8 | static_cast<std::uint32_t>(std::lround(value));
+  Arguments arguments(scanner);
+  std::array<double, 3> rgb{};
+  if (name == "rgb" || name == "rgba") {
+    for (double& share : rgb) share = arguments.share(255);
+  } else if (name == "hsl" || name == "hsla" || name == "hwb") {
+    const double hue = arguments.degrees(), second = arguments.share(100), third = arguments.share(100);
+    rgb = name == "hwb" ? from_hwb(hue, second, third) : from_hsl(hue, second, third);
+  } else {
+    throw Malformed("the colour function is unknown");
   }
-  scanner.skip_separator();
-  if (scanner.peek() == '/') scanner.advance();
-  scanner.skip_spaces();
-  const double alpha = scanner.peek() == ')' ? 1 : channel(scanner, 1);
-  scanner.skip_spaces();
-  if (scanner.peek() != ')' || scanner.rest().size() != 1) return std::nullopt;
-  return alpha <= 0 ? "none" : fmt::format("#{:06x}", rgb);
+  return {written(rgb), arguments.alpha()};
 }
 
 }  // namespace
 
-std::optional<std::string> css_colour(std::string_view written) {
-  const std::string text = trimmed(lower_case(written));
-  if (text.empty()) return std::nullopt;
-  if (text == "transparent") return "none";
-  if (text.front() == '#') return from_hex(text);
-  if (text.find('(') != std::string::npos) {
+std::optional<CssColour> read_css_colour(std::string_view text) {
+  const std::string word = without_spaces_around(lower(text));
+  if (word.empty()) return std::nullopt;
+  if (word == "transparent") return CssColour{"#000000", 0};
+  if (word.front() == '#') return from_hex(word);
+  if (word.find('(') != std::string::npos) {
     try {
-      return from_function(text);
+      return from_function(word);
     } catch (const Malformed&) {
       return std::nullopt;
     }
   }
-  const auto found =
-      std::lower_bound(names.begin(), names.end(), text,
-                       [](const auto& entry, const std::string& key) { return entry.first < key; });
-  if (found == names.end() || found->first != text) return std::nullopt;
-  return fmt::format("#{:06x}", found->second);
+  const auto by_name = [&word](const auto& table) -> std::optional<std::uint32_t> {
+    const auto found =
+        std::lower_bound(table.begin(), table.end(), word,
+                         [](const auto& entry, const std::string& key) { return entry.first < key; });
+    if (found == table.end() || found->first != word) return std::nullopt;
+    return found->second;
+  };
+  auto rgb = by_name(names);
+  if (!rgb) rgb = by_name(system_colours);
+  if (!rgb) return std::nullopt;
+  return CssColour{fmt::format("#{:06x}", *rgb), 1};
+}
+
+std::optional<std::string> css_colour(std::string_view text) {
+  const auto colour = read_css_colour(text);
+  if (!colour) return std::nullopt;
+  return colour->alpha <= 0 ? "none" : colour->rgb;
 }
 
 }  // namespace unicursal::core

@@ -1,11 +1,7 @@
 #include "core/drawing/svg_frame.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -17,68 +13,9 @@ namespace {
 
 constexpr double mm_per_px = 25.4 / 96;
 
-double px_per_unit(std::string_view unit, double whole) {
-  static constexpr std::array<std::pair<std::string_view, double>, 8> units{{{"", 1.0},
-                                                                             {"px", 1.0},
-                                                                             {"mm", 96 / 25.4},
-                                                                             {"cm", 960 / 25.4},
-                                                                             {"Q", 24 / 25.4},
-                                                                             {"in", 96.0},
-                                                                             {"pt", 96.0 / 72},
-                                                                             {"pc", 16.0}}};
-  if (unit == "%") return whole / 100;
-  const auto found = std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.first == unit; });
-  if (found == units.end()) {
-    throw Malformed("the unit " + in_quotes(unit) + " is not one of mm, cm, Q, in, pt, pc, px, %");
-  }
-  return found->second;
-}
-
-double radians(double degrees) {
-  return degrees * std::numbers::pi / 180;
-}
-
-Eigen::Affine2d linear_map(double a, double b, double c, double d, double e, double f) {
-  Eigen::Affine2d map;
-  map.matrix() << a, c, e, b, d, f, 0, 0, 1;
-  return map;
-}
-
-Eigen::Affine2d rotation(const std::vector<double>& v) {
-  const Eigen::Affine2d turn(Eigen::Rotation2Dd(radians(v[0])));
-  if (v.size() == 1) return turn;
-  const Vec2 center(v[1], v[2]);
-  return Eigen::Translation2d(center) * turn * Eigen::Translation2d(-center);
-}
-
-Eigen::Affine2d single_transform(std::string_view name, const std::vector<double>& v) {
-  const std::size_t n = v.size();
-  if (name == "matrix" && n == 6) return linear_map(v[0], v[1], v[2], v[3], v[4], v[5]);
-  if (name == "translate" && (n == 1 || n == 2)) return linear_map(1, 0, 0, 1, v[0], n == 2 ? v[1] : 0);
-  if (name == "scale" && (n == 1 || n == 2)) return linear_map(v[0], 0, 0, v[n - 1], 0, 0);
-  if (name == "rotate" && (n == 1 || n == 3)) return rotation(v);
-  if (name == "skewX" && n == 1) return linear_map(1, 0, std::tan(radians(v[0])), 1, 0, 0);
-  if (name == "skewY" && n == 1) return linear_map(1, std::tan(radians(v[0])), 0, 1, 0, 0);
-  throw Malformed(fmt::format("the transform {} with {} numbers is unknown", in_quotes(name), n));
-}
-
-std::vector<double> arguments(NumberScanner& scanner) {
-  scanner.skip_spaces();
-  if (scanner.peek() != '(') throw Malformed("a transform lacks its opening parenthesis");
-  scanner.advance();
-  std::vector<double> values;
-  scanner.skip_spaces();
-  while (scanner.peek() != ')') {
-    values.push_back(scanner.required());
-    scanner.skip_spaces();
-  }
-  scanner.advance();
-  return values;
-}
-
 struct Alignment {
   bool uniform = true;
-  bool slice = false;    ///< the drawing covers the page instead of fitting into it
+  bool slice = false;    ///< the drawing covers the viewport instead of fitting into it
   Vec2 share{0.5, 0.5};  ///< of the free space, the part to the left of (above) the drawing
 };
 
@@ -97,23 +34,6 @@ Alignment alignment(std::string_view text) {
   return result;
 }
 
-/// Maps the viewBox to the page (px, y down). `preserve_aspect_ratio` as in SVG 1.1, section 7.8.
-Eigen::Affine2d fitted(const Box& view, const Vec2& paper, const Alignment& how) {
-  Vec2 scale = paper.cwiseQuotient(view.size());
-  if (how.uniform) scale.setConstant(how.slice ? scale.maxCoeff() : scale.minCoeff());
-  const Vec2 free = paper - scale.cwiseProduct(view.size());
-  const Vec2 corner = how.uniform ? Vec2(free.cwiseProduct(how.share)) : Vec2(0, 0);
-  return Eigen::Translation2d(corner) * Eigen::Scaling(scale) * Eigen::Translation2d(-view.min);
-}
-
-std::optional<Box> view_box(std::string_view text) {
-  if (text.empty()) return std::nullopt;
-  const std::vector<double> v = numbers(text);
-  if (v.size() != 4) throw Malformed("the viewBox needs four numbers");
-  if (!(v[2] > 0 && v[3] > 0)) throw Malformed("the viewBox has no area");
-  return Box{{v[0], v[1]}, {v[0] + v[2], v[1] + v[3]}};
-}
-
 /// "", "auto" and percentages of an unknown window give no size.
 std::optional<double> paper_length(std::string_view text) {
   if (text.empty() || text == "auto" || text.find('%') != std::string_view::npos) return std::nullopt;
@@ -124,27 +44,56 @@ std::optional<double> paper_length(std::string_view text) {
 
 }  // namespace
 
-double length(std::string_view text, double whole) {
+std::optional<double> px_per_unit(std::string_view unit, const LengthFrame& frame) {
+  static constexpr std::array<std::pair<std::string_view, double>, 8> units{{{"", 1.0},
+                                                                             {"px", 1.0},
+                                                                             {"mm", 96 / 25.4},
+                                                                             {"cm", 960 / 25.4},
+                                                                             {"q", 24 / 25.4},
+                                                                             {"in", 96.0},
+                                                                             {"pt", 96.0 / 72},
+                                                                             {"pc", 16.0}}};
+  const std::string name = lower(unit);
+  const auto found = std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.first == name; });
+  if (found != units.end()) return found->second;
+  if (name == "rem") return frame.root_font_size;
+  if (name == "%") return frame.whole / 100;
+  if (name == "em") return frame.font_size;
+  if (name == "ex" || name == "ch") return frame.font_size / 2;
+  if (name == "vw") return frame.viewport.x() / 100;
+  if (name == "vh") return frame.viewport.y() / 100;
+  if (name == "vmin") return frame.viewport.minCoeff() / 100;
+  if (name == "vmax") return frame.viewport.maxCoeff() / 100;
+  return std::nullopt;
+}
+
+double length(std::string_view text, const LengthFrame& frame) {
   NumberScanner scanner(text);
   const double value = scanner.required();
   const std::string_view unit = scanner.peek() == '%' ? scanner.rest().substr(0, 1) : scanner.word();
   if (unit == "%") scanner.advance();
   scanner.skip_spaces();
   if (!scanner.at_end()) throw Malformed(in_quotes(text) + " is not a length");
-  return value * px_per_unit(unit, whole);
+  const auto px = px_per_unit(unit, frame);
+  if (!px) throw Malformed("the unit " + in_quotes(unit) + " is not one of mm, cm, Q, in, pt, pc, px, em, %");
+  return value * *px;
 }
 
-Eigen::Affine2d transform(std::string_view text) {
-  Eigen::Affine2d result = Eigen::Affine2d::Identity();
-  NumberScanner scanner(text);
-  scanner.skip_separator();
-  while (!scanner.at_end()) {
-    const std::string_view name = scanner.word();
-    if (name.empty()) throw Malformed("a transform should start at " + in_quotes(scanner.rest()));
-    result = result * single_transform(name, arguments(scanner));
-    scanner.skip_separator();
-  }
-  return result;
+std::optional<Box> view_box(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  const std::vector<double> v = numbers(text);
+  if (v.size() != 4) throw Malformed("the viewBox needs four numbers");
+  if (!(v[2] > 0 && v[3] > 0)) throw Malformed("the viewBox has no area");
+  return Box{{v[0], v[1]}, {v[0] + v[2], v[1] + v[3]}};
+}
+
+Eigen::Affine2d fitted(const Box& view, const Vec2& size, std::string_view preserve_aspect_ratio) {
+  const Alignment how = alignment(preserve_aspect_ratio);
+  Vec2 scale = size.cwiseQuotient(view.size());
+  if (how.uniform) scale.setConstant(how.slice ? scale.maxCoeff() : scale.minCoeff());
+  const Vec2 free = size - scale.cwiseProduct(view.size());
+  const Vec2 corner = how.uniform ? Vec2(free.cwiseProduct(how.share)) : Vec2(0, 0);
+  return Eigen::Translation2d(corner) * Eigen::Scaling(scale) * Eigen::Translation2d(-view.min);
 }
 
 Page page(const PageAttributes& attributes, Warnings& warnings) {
@@ -161,7 +110,8 @@ Page page(const PageAttributes& attributes, Warnings& warnings) {
   const Box shown = view.value_or(Box{{0, 0}, paper});
   Eigen::Affine2d flip = Eigen::Affine2d::Identity();
   flip.matrix() << mm_per_px, 0, 0, 0, -mm_per_px, paper.y() * mm_per_px, 0, 0, 1;
-  return {flip * fitted(shown, paper, alignment(attributes.preserve_aspect_ratio)), shown.size()};
+  return {flip * fitted(shown, paper, attributes.preserve_aspect_ratio), shown.size(), paper * mm_per_px,
+          view.has_value() || (width && height)};
 }
 
 }  // namespace unicursal::core

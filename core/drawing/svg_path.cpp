@@ -124,9 +124,16 @@ class PathReader {
 
 }  // namespace
 
-void draw_path(std::string_view text, Outline& outline) {
-  if (text == "none") return;
-  PathReader(text, outline).read();
+std::optional<std::string> draw_path(std::string_view text, Outline& outline) {
+  if (text == "none") return std::nullopt;
+  try {
+    PathReader(text, outline).read();
+  } catch (const TooFar&) {
+    throw;
+  } catch (const Malformed& mistake) {
+    return mistake.what();
+  }
+  return std::nullopt;
 }
 
 }  // namespace unicursal::core

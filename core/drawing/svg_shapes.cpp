@@ -8,14 +8,23 @@
 
 namespace unicursal::core {
 
-void draw_polygon(std::string_view points, Outline& outline) {
-  const std::vector<double> v = numbers(points);
-  if (v.size() % 2 != 0) throw Malformed("its points have an odd count of numbers");
-  for (std::size_t i = 0; i < v.size(); i += 2) {
-    const Vec2 p(v[i], v[i + 1]);
-    i == 0 ? outline.move_to(p) : outline.line_to(p);
+std::optional<std::string> draw_points(std::string_view points, bool closed, Outline& outline) {
+  NumberScanner scanner(points);
+  std::optional<std::string> mistake;
+  bool first = true;
+  try {
+    for (scanner.skip_separator(); !scanner.at_end(); scanner.skip_separator()) {
+      const double x = scanner.required(), y = scanner.required();
+      first ? outline.move_to({x, y}) : outline.line_to({x, y});
+      first = false;
+    }
+  } catch (const TooFar&) {
+    throw;
+  } catch (const Malformed& problem) {
+    mistake = problem.what();
   }
-  outline.close();
+  if (closed) outline.close();
+  return mistake;
 }
 
 void draw_ellipse(const Vec2& center, const Vec2& radii, Outline& outline) {

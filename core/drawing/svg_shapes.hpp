@@ -2,14 +2,15 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/drawing/outline.hpp"
 
 namespace unicursal::core {
 
-/// Points separated by spaces or commas. Throws Malformed for an odd count of numbers.
-void draw_polygon(std::string_view points, Outline& outline);
+/// Points separated by spaces or commas, closed or not. Returns the mistake before which the drawing ends.
+std::optional<std::string> draw_points(std::string_view points, bool closed, Outline& outline);
 
 /// Precondition: radii not negative. A radius of zero draws nothing.
 void draw_ellipse(const Vec2& center, const Vec2& radii, Outline& outline);

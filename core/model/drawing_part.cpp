@@ -11,6 +11,7 @@
 #include "core/drawing/svg_reader.hpp"
 #include "core/error.hpp"
 #include "core/model/layer_stack.hpp"
+#include "core/model/noted_error.hpp"
 #include "core/model/zoning.hpp"
 
 namespace unicursal::core {
@@ -56,26 +57,28 @@ bool names_file(const std::string& select, const std::filesystem::path& file) {
 bool selects(const Zone& zone, const Shape& shape, const std::filesystem::path& file) {
   if (zone.select.empty()) return false;
   const auto colour = css_colour(zone.select);
-  return (colour && *colour == shape.fill) || zone.select == shape.fill ||
-         std::find(shape.names.begin(), shape.names.end(), zone.select) != shape.names.end() ||
+  return (colour && *colour == shape.fill) || zone.select == shape.fill || has_name(shape, zone.select) ||
          names_file(zone.select, file);
 }
 
 std::string label(const Shape& shape) {
-  return shape.names.empty() ? shape.fill
-                             : fmt::format("{} ({})", shape.fill, in_quotes(shape.names.front()));
+  if (!shape.names) return shape.fill;
+  return fmt::format("{} ({})", shape.fill, in_quotes(shape.names->own.front()));
 }
 
 /// The fills and names that a zone could select.
-std::string choices(const std::vector<Shape>& shapes) {
+std::string choices(const std::vector<Shape>& shapes, const std::filesystem::path& file) {
   std::set<std::string> fills, names;
   for (const Shape& shape : shapes) {
     fills.insert(shape.fill);
-    for (const std::string& name : shape.names) names.insert(in_quotes(name));
+    for (const std::string& name : all_names(shape)) names.insert(in_quotes(name));
   }
   std::vector<std::string> all(fills.begin(), fills.end());
   all.insert(all.end(), names.begin(), names.end());
-  return listed(all);
+  constexpr std::size_t most_listed = 12;
+  std::string list = listed(all, most_listed);
+  if (all.size() > most_listed) list += "; `unicursal inspect " + file.string() + "` lists the colours";
+  return list;
 }
 
 std::string select_place(const Zone& zone) {
@@ -87,7 +90,7 @@ void refuse_unmatched(const PartSource& source, const std::vector<Shape>& shapes
   for (const Zone& zone : source.zones) {
     if (std::none_of(shapes.begin(), shapes.end(), [&](const Shape& s) { return selects(zone, s, file); })) {
       throw ModelError(file.string(), select_place(zone), "this matches nothing in the drawing",
-                       "choose among " + choices(shapes));
+                       "choose among " + choices(shapes, file));
     }
   }
 }
@@ -129,18 +132,13 @@ void warn_of_covered(const std::vector<Zone>& zones, const std::vector<Island>& 
   }
 }
 
-}  // namespace
-
-std::unique_ptr<const Part> read_drawing_part(const PartSource& source) {
+std::unique_ptr<const Part> read_with_notes(const PartSource& source, Warnings& warnings) {
   const std::filesystem::path& file = source.files.front();
-  Warnings warnings;
   const LayerStack stack =
       layers_of_drawing(source.height, source.layer_height, source.first_layer_height, warnings);
-  const std::vector<Shape> shapes = read_svg(file, warnings);
-  if (shapes.empty()) {
-    throw ModelError(file.string(), "", "the drawing holds no filled shape",
-                     "fill shapes, or convert strokes to paths");
-  }
+  DrawingOptions options;
+  options.strokes_are_contours = source.strokes_are_contours;
+  const std::vector<Shape> shapes = read_drawing(file, warnings, options).shapes;
   refuse_unmatched(source, shapes);
   std::vector<Painted> painted;
   for (const Shape& shape : shapes) painted.push_back({shape.region, zone_of(shape, source), label(shape)});
@@ -152,6 +150,28 @@ std::unique_ptr<const Part> read_drawing_part(const PartSource& source) {
   }
   warn_of_covered(source.zones, zoning.islands, warnings);
   return std::make_unique<DrawingPart>(std::move(zoning.islands), stack, source.zones, warnings.sentences());
+}
+
+}  // namespace
+
+Drawing read_drawing(const std::filesystem::path& file, Warnings& warnings, const DrawingOptions& options) {
+  Drawing drawing = read_svg(file, warnings, options);
+  if (!drawing.shapes.empty()) return drawing;
+  if (drawing.lines > 0 && !options.strokes_are_contours) {
+    throw ModelError(file.string(), "", "the drawing holds only lines thinner than 0.15 mm",
+                     "write outline = \"strokes\" in [part] if they are contours, or make them wider");
+  }
+  throw ModelError(file.string(), "", "the drawing holds no area",
+                   "fill its shapes, or give them strokes that are wide enough to print");
+}
+
+std::unique_ptr<const Part> read_drawing_part(const PartSource& source) {
+  Warnings warnings;
+  try {
+    return read_with_notes(source, warnings);
+  } catch (const ModelError& refusal) {
+    throw NotedError(refusal, warnings.sentences());
+  }
 }
 
 }  // namespace unicursal::core

@@ -5,9 +5,10 @@
 #include <map>
 #include <utility>
 
-#include "core/drawing/svg_reader.hpp"
 #include "core/error.hpp"
+#include "core/model/drawing_part.hpp"
 #include "core/model/mesh_bodies.hpp"
+#include "core/model/noted_error.hpp"
 #include "core/model/read_part.hpp"
 #include "core/model/zoning.hpp"
 
@@ -81,13 +82,8 @@ ModelContents contents_of_meshes(const std::vector<std::filesystem::path>& files
   return contents;
 }
 
-ModelContents contents_of_drawing(const std::filesystem::path& file) {
-  Warnings warnings;
-  const std::vector<Shape> shapes = read_svg(file, warnings);
-  if (shapes.empty()) {
-    throw ModelError(file.string(), "", "the drawing holds no filled shape",
-                     "fill shapes, or convert strokes to paths");
-  }
+ModelContents contents_of_drawing(const std::filesystem::path& file, Warnings& warnings) {
+  const std::vector<Shape> shapes = read_drawing(file, warnings).shapes;
   ModelContents contents;
   contents.drawing = true;
   std::vector<Painted> painted;
@@ -121,7 +117,14 @@ ModelContents contents_of_drawing(const std::filesystem::path& file) {
 }  // namespace
 
 ModelContents inspect_model(const std::vector<std::filesystem::path>& files) {
-  if (files.size() == 1 && is_drawing_file(files.front())) return contents_of_drawing(files.front());
+  if (files.size() == 1 && is_drawing_file(files.front())) {
+    Warnings warnings;
+    try {
+      return contents_of_drawing(files.front(), warnings);
+    } catch (const ModelError& refusal) {
+      throw NotedError(refusal, warnings.sentences());
+    }
+  }
   for (const auto& file : files) {
     if (is_drawing_file(file) || !is_model_file(file)) {
       throw ModelError(file.string(), "", "this is not one of the files that make a part",

@@ -58,6 +58,8 @@ struct PartSource {
   double layer_height = 0;                   ///< mm
   std::vector<Zone> zones;
   double first_layer_height = 0;  ///< mm; 0: like the others
+  /// Of a drawing: lines that are not filled surround areas, instead of being areas.
+  bool strokes_are_contours = false;
 };
 
 /// A part that slices itself. Layers are computed on demand and not kept, so memory does not grow with their

@@ -26,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-void parse_xml(pugi::xml_document& document, std::string& bytes, const std::string& file) {
+void refuse_too_many_elements(const std::string& bytes, const std::string& file) {
   // Every node begins with '<', every attribute has a '='.
   const auto nodes = std::size_t(std::count(bytes.begin(), bytes.end(), '<'));
   const auto attributes = std::size_t(std::count(bytes.begin(), bytes.end(), '='));
@@ -34,6 +34,10 @@ void parse_xml(pugi::xml_document& document, std::string& bytes, const std::stri
     throw ModelError(file, "", fmt::format("it has {} elements, more than can be read", nodes),
                      "simplify the model");
   }
+}
+
+void parse_xml(pugi::xml_document& document, std::string& bytes, const std::string& file) {
+  refuse_too_many_elements(bytes, file);
   const pugi::xml_parse_result parsed = document.load_buffer_inplace(bytes.data(), bytes.size());
   if (!parsed) {
     throw ModelError(file, fmt::format("byte {}", parsed.offset),

@@ -8,6 +8,9 @@
 
 namespace unicursal::core {
 
+/// Throws ModelError if the tree of such a file would need too much memory.
+void refuse_too_many_elements(const std::string& bytes, const std::string& file);
+
 /// Parses in place: the document refers to `bytes`. `file` is for messages. Throws ModelError.
 void parse_xml(pugi::xml_document& document, std::string& bytes, const std::string& file);
 

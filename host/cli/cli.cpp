@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/model/noted_error.hpp"
 #include "core/text/printable.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/help_format.hpp"
+#include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/cli/version.hpp"
 #include "host/job/nearest.hpp"
@@ -110,6 +112,9 @@ int run_command_line(int argc, char** argv) {
   try {
     return static_cast<int>(CommandLine().run(argc, argv));
   } catch (const std::exception& error) {
+    if (const auto* refusal = dynamic_cast<const core::NotedError*>(&error)) {
+      for (const std::string& note : refusal->notes()) show_note(note);
+    }
     show(stderr, "unicursal: {}\n", sentence_of(error));
     return static_cast<int>(exit_of(error));
   }

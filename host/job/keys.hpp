@@ -11,10 +11,10 @@ using Keys = std::vector<std::string>;
 
 inline const Keys job = {"printer", "part", "zone", "mixture"};
 inline const Keys part = {
-    "file",          "height",      "layer_height", "first_layer_height",   "bead_width",
-    "seed_distance", "flow",        "speed",        "first_layer_speed",    "perimeters",
-    "deposit",       "place",       "seam",         "change_before_border", "skirt",
-    "fan",           "temperatures"};
+    "file",       "outline",       "height",      "layer_height", "first_layer_height",
+    "bead_width", "seed_distance", "flow",        "speed",        "first_layer_speed",
+    "perimeters", "deposit",       "place",       "seam",         "change_before_border",
+    "skirt",      "fan",           "temperatures"};
 inline const Keys deposit = {"width"};
 inline const Keys skirt = {"loops", "distance"};
 inline const Keys fan = {"percent", "from"};

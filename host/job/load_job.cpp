@@ -71,6 +71,10 @@ core::PartSource read_source(const Section& part, double nozzle) {
     source.first_layer_height = read_layer_height(part, "first_layer_height", nozzle);
   }
   const bool drawing = std::any_of(source.files.begin(), source.files.end(), core::is_drawing_file);
+  if (const toml::node* outline = part.find("outline")) {
+    if (!drawing) part.fail("outline", "is for drawings, but the part is made of meshes", "remove it");
+    source.strokes_are_contours = part.choice("outline", *outline, {"fills", "strokes"}) == "strokes";
+  }
   if (drawing || part.has("height")) {
     source.height =
         part.number("height", length, "write how high the drawing is to become, for example height = 1.0");

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/drawing/svg_transform.hpp"
 #include "core/text/malformed.hpp"
 
 using namespace unicursal::core;
@@ -27,8 +28,18 @@ TEST_CASE("an inch is an inch in every unit") {
   CHECK(length(text, 192) == Approx(96));
 }
 
+TEST_CASE("relative lengths refer to the font and to the viewport") {
+  const LengthFrame frame{200, 10, {300, 400}};
+  CHECK(length("2em", frame) == Approx(20));
+  CHECK(length("2ex", frame) == Approx(10));
+  CHECK(length("2rem", frame) == Approx(32));
+  CHECK(length("5vw", frame) == Approx(15));
+  CHECK(length("5vmax", frame) == Approx(20));
+  CHECK(length("5%", frame) == Approx(10));
+}
+
 TEST_CASE("text that is not a length is refused") {
-  const auto text = GENERATE("", "mm", "1 mm", "1em", "1mmm", "1%%", "1mm2");
+  const auto text = GENERATE("", "mm", "1 mm", "1fm", "1mmm", "1%%", "1mm2");
   CAPTURE(text);
   CHECK_THROWS_AS(length(text, 1), Malformed);
 }
@@ -84,6 +95,23 @@ TEST_CASE("each transform moves a point as the standard says") {
   check_point(transform("skewX(45)") * p, 4, 1);
   check_point(transform("skewY(45)") * p, 3, 4);
   check_point(transform("matrix(1 2 3 4 5 6)") * p, 1 * 3 + 3 * 1 + 5, 2 * 3 + 4 * 1 + 6);
+}
+
+TEST_CASE("transforms of CSS have units and names of their own") {
+  const Vec2 p(3, 1);
+  const TransformFrame frame{{{0, 0}, {200, 100}}, 16};
+  check_point(transform("translateX(1in)") * p, 99, 1);
+  check_point(transform("translate(10%, 10%)", frame) * p, 23, 11);
+  check_point(transform("rotate(0.25turn)") * p, -1, 3);
+  check_point(transform("rotate(100grad)") * p, -1, 3);
+  check_point(transform("scaleY(300%)") * p, 3, 3);
+  check_point(transform("skew(45deg)") * p, 4, 1);
+  check_point(transform("none") * p, 3, 1);
+  check_point(transform_origin("right 10px", frame), 200, 10);
+  check_point(transform_origin("50%", frame), 100, 50);
+  check_point(transform_origin("top", frame), 100, 0);
+  CHECK_THROWS_AS(transform_origin("corner", frame), Malformed);
+  CHECK_THROWS_AS(transform("rotate(1km)"), Malformed);
 }
 
 TEST_CASE("in a list the last transform acts first") {

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Ring> rings(std::string_view text, const Eigen::Affine2d& map = Eigen::Affine2d::Identity()) {
   Outline outline(map);
-  draw_path(text, outline);
+  if (const auto mistake = draw_path(text, outline)) throw Malformed(*mistake);
   return outline.rings();
 }
 
@@ -101,13 +101,21 @@ TEST_CASE("flattening keeps to its tolerance through a transform") {
   }
 }
 
-TEST_CASE("damaged path data is refused") {
+TEST_CASE("damage in path data is reported") {
   const auto text =
       GENERATE("L1 1", "M", "M1", "M1 1L", "M1 1L2", "M0 0X", "M0 0 1 1 2", "M0 0A1 1 0 2 0 1 1",
                "M0 0A1 1 0 1 1", "M0 0Lnan 1", "M0 0L1e999 1", "M0 0L1e300 0L0 1e300Z", "M0 0L1,,2",
                "M0 0Z5 5", "M0 0C1 1 2 2", "5 5", "M inf 0");
   CAPTURE(text);
   CHECK_THROWS_AS(rings(text), Malformed);
+}
+
+TEST_CASE("a damaged path is drawn up to its mistake") {
+  Outline outline(Eigen::Affine2d::Identity());
+  const auto mistake = draw_path("M0 0H4V4H0Z M9 9 L1", outline);
+  REQUIRE(mistake.has_value());
+  REQUIRE(outline.rings().size() == 1);
+  CHECK(signed_area(outline.rings().front()) == Approx(16));
 }
 
 TEST_CASE("an empty text is not a ring") {

@@ -132,7 +132,7 @@ TEST_CASE("files that are missing, empty or of no known kind") {
   CHECK_THROWS_AS(part({unicursal::test::data_folder()}, {"a"}), ModelError);
   std::filesystem::create_directory(folder.write("x", "").parent_path() / "folder.svg");
   CHECK_THROWS_AS(part({folder.write("y", "").parent_path() / "folder.svg"}, {"a"}), FileError);
-  CHECK_THAT(refusal("", {"a"}), Contains("no filled shape"));
+  CHECK_THAT(refusal("", {"a"}), Contains("no area"));
   CHECK_THROWS_AS(part({folder.write("p.gcode", "G28")}, {"a"}), ModelError);
   CHECK_THROWS_AS(part({}, {"a"}), ModelError);
   CHECK_THROWS_AS(part({test_data("two_zones.svg")}, {}), ModelError);
