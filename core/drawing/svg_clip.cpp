@@ -68,6 +68,7 @@ std::shared_ptr<const Region> Scene::clip_region(const pugi::xml_node& clip, con
   const auto key =
       std::pair(static_cast<const void*>(clip.internal_object()), numbers_of(entered.context.to_part));
   if (const auto known = clips_.find(key); !shares && known != clips_.end()) return known->second;
+  spend(clip, price_of_a_cut, 0);
   Entered inner{styled(clip, style_around(clip), 0, source()), {}};
   inner.context.style = inner.style;
   inner.context.viewport = entered.context.viewport;
@@ -99,6 +100,7 @@ std::shared_ptr<const Region> Scene::clip_region(const pugi::xml_node& clip, con
 }
 
 Region Scene::mask_region(const pugi::xml_node& mask, const pugi::xml_node& node, const Entered& entered) {
+  spend(mask, price_of_a_cut, 0);
   Entered inner{styled(mask, style_around(mask), 0, source()), {}};
   inner.context.style = inner.style;
   inner.context.viewport = entered.context.viewport;

@@ -304,7 +304,7 @@ void Scene::markers(const pugi::xml_node& node, const Entered& entered, const Dr
 void Scene::marker(const pugi::xml_node& marker, const Entered& entered, const Vec2& at, double angle,
                    bool first) {
   Entered inner{styled(marker, style_around(marker), 0, source()), entered.context};
-  spend(marker, 1, 0);
+  spend(marker, price_of_a_cut, 0);
   inner.context.style = inner.style;
   const auto number = [&](const char* name, double whole, double otherwise) {
     return length_or(marker, inner, name, whole, otherwise);

@@ -108,9 +108,9 @@ void Scene::walk(const Page& page, const Eigen::Matrix2d& turn) {
 }
 
 void Scene::spend(const pugi::xml_node& node, std::size_t elements, std::size_t points) {
+  if (elements_ / between_stops != (elements_ + elements) / between_stops) stop_point();
   elements_ += elements;
   points_ += points;
-  if (elements > 0 && elements_ % between_stops == 0) stop_point();
   if (elements_ > most_elements || points_ > most_points) {
     throw ModelError(document_.file(), document_.where(node),
                      fmt::format("up to here the drawing has more than {} million {}, clones counted",

@@ -32,6 +32,8 @@ namespace unicursal::core {
 inline constexpr double hairline = 0.15;
 /// What is less opaque than this does not cover what lies below.
 inline constexpr double covers_from = 0.5;
+/// A clip path, a mask or a marker costs as much as this many elements.
+inline constexpr std::size_t price_of_a_cut = 50;
 
 /// An area of one paint.
 struct Piece {

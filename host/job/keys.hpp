@@ -11,7 +11,7 @@ using Keys = std::vector<std::string>;
 
 inline const Keys job = {"printer", "part", "zone", "mixture"};
 inline const Keys part = {
-    "file",       "outline",       "height",      "layer_height", "first_layer_height",
+    "file",       "height",        "outline",     "layer_height", "first_layer_height",
     "bead_width", "seed_distance", "flow",        "speed",        "first_layer_speed",
     "perimeters", "deposit",       "place",       "seam",         "change_before_border",
     "skirt",      "fan",           "temperatures"};

@@ -59,18 +59,23 @@ fs::path write(const fs::path& file, const std::string& bytes) {
 }
 
 /// Reads the file as a part and cuts its first and last layers.
-void read(const fs::path& file, const std::vector<std::string>& selects) {
-  std::vector<core::Zone> zones;
-  for (const std::string& select : selects) zones.push_back({select, {}, zones.size()});
-  const auto part = core::read_part({{file}, 1.0, 0.2, zones});
+void read(const fs::path& file, const std::vector<std::string>& selects, bool strokes_are_contours = false) {
+  core::PartSource source{{file}, 1.0, 0.2, {}};
+  for (const std::string& select : selects) source.zones.push_back({select, {}, source.zones.size()});
+  source.strokes_are_contours = strokes_are_contours;
+  const auto part = core::read_part(source);
   if (part->layer_count() == 0) return;
   part->layer(0);
   part->layer(part->layer_count() - 1);
 }
 
 void drawing(const fs::path& folder, core::Random& random) {
-  const std::string sound = random.below(2) == 0 ? sound_file("two_zones.svg") : test::sample_drawing;
-  read(write(folder / "drawing.svg", test::damaged(sound, random)), {"#0000ff", "#ff0000"});
+  const std::size_t which = random.below(4);
+  const std::string sound = which == 0   ? sound_file("two_zones.svg")
+                            : which == 1 ? test::sample_drawing
+                                         : sound_file("features.svg");
+  read(write(folder / "drawing.svg", test::damaged(sound, random)), {"#0000ff", "#ff0000"},
+       random.below(4) == 0);
 }
 
 /// The cube of the test data as binary STL.

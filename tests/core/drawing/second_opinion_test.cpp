@@ -27,6 +27,7 @@ double difference_of_text(const std::string& elements) {
 
 TEST_CASE("librsvg sees the same areas in the project's drawings") {
   CHECK(difference_of(core::test_data("two_zones.svg")) < 0.01);
+  CHECK(difference_of(core::test_data("features.svg")) < 0.01);
   CHECK(difference_of(test::source_folder() / "host/examples/leaf.svg") < 0.01);
 }
 

@@ -84,7 +84,7 @@ std::vector<Bad> bad_jobs() {
       {"missing drawing", replaced(sample_job, "plate.svg", "lost.svg"), sample_drawing, {"lost.svg"}},
       {"empty drawing",
        sample_job,
-       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"/>",
+       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9mm\" height=\"9mm\"/>",
        {"plate.svg"}},
       {"mesh without thickness", mesh_job("sheet.stl"), sample_drawing, {"sheet.stl", "no volume"}},
       {"NaN in a mesh", mesh_job("nan.stl"), sample_drawing, {"nan.stl"}},
@@ -145,6 +145,25 @@ TEST_CASE("Bad jobs are refused with a sentence, and the printer hears nothing")
     CHECK_FALSE(std::filesystem::exists(folder / "out.gcode"));
   }
   CHECK(printer.heard_nothing());
+}
+
+TEST_CASE("The notes on a drawing come before its refusal") {
+  const TempFolder folder;
+  folder.write("bench.toml", sample_profile);
+  folder.write("lines.svg",
+               "<svg xmlns='http://www.w3.org/2000/svg' width='20mm' height='16mm' viewBox='0 0 20 16'>"
+               "<rect id='cut' width='9' height='9' fill='none' stroke='red' stroke-width='0.1'/></svg>");
+  const std::string job = folder.write("job.toml", replaced(sample_job, "plate.svg", "lines.svg")).string();
+  for (const auto& words : {std::vector<std::string>{"dry-run", job},
+                            std::vector<std::string>{"inspect", (folder / "lines.svg").string()}}) {
+    const Outcome outcome = run(words);
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    const auto note = outcome.err.find("note: line 1: <rect id=\"cut\">"),
+               refusal = outcome.err.find("unicursal: ");
+    CHECK(note < refusal);
+    CHECK(refusal < outcome.err.find("outline = \"strokes\" in [part] if they are contours"));
+  }
 }
 
 TEST_CASE("A missing job, an unknown option and a wrong range are refused with code 2") {

@@ -55,6 +55,8 @@ TEST_CASE("Speed, first layer, skirt, fan and temperatures arrive in their field
   const Job skirt = with("skirt = { loops = 2, distance = 7.5 }");
   CHECK(skirt.print.skirt.loops == 2);
   CHECK(skirt.print.skirt.distance == 7.5);
+  CHECK(with("outline = \"strokes\"").source.strokes_are_contours);
+  CHECK_FALSE(with("outline = \"fills\"").source.strokes_are_contours);
   CHECK(with("fan = 80").print.fan.percent == 80);
   CHECK(with("fan = { percent = 60, from = 4 }").print.fan.from == 4);
   const Job warm =
@@ -72,6 +74,7 @@ TEST_CASE("Wrong values are reported with the line and the remedy") {
       {"first_layer_speed = 1.5", {"part.first_layer_speed", "1.5", "0.5"}},
       {"first_layer_height = 0.7", {"line 8", "part.first_layer_height", "0.7 mm", "opening of 0.6"}},
       {"first_layer_height = 0", {"part.first_layer_height"}},
+      {"outline = \"lines\"", {"part.outline", "strokes"}},
       {"skirt = 1.5", {"part.skirt", "whole number"}},
       {"skirt = -1", {"part.skirt", "from 0 to 20"}},
       {"skirt = { loop = 2 }", {"part.skirt.loop", "did you mean \"loops\"?"}},
