@@ -29,6 +29,27 @@ bool is_utf8(const std::string& bytes) {
   return bytes.find('\0') == std::string::npos;
 }
 
+constexpr std::string_view svg_vocabulary = "http://www.w3.org/2000/svg";
+
+bool declares(const pugi::xml_node& node) {
+  const auto attributes = node.attributes();
+  return std::any_of(attributes.begin(), attributes.end(), [](const pugi::xml_attribute& attribute) {
+    return std::string_view(attribute.name()).starts_with("xmlns");
+  });
+}
+
+/// What the prefix of an element stands for (Namespaces in XML 1.0); empty if that is not declared.
+std::string_view vocabulary_of(pugi::xml_node node) {
+  const std::string_view whole = node.name();
+  const auto colon = whole.find(':');
+  const std::string key =
+      colon == std::string_view::npos ? "xmlns" : "xmlns:" + std::string(whole.substr(0, colon));
+  for (; node; node = node.parent()) {
+    if (const auto declaration = node.attribute(key.c_str())) return declaration.value();
+  }
+  return colon == std::string_view::npos ? std::string_view{} : whole.substr(0, colon);
+}
+
 }  // namespace
 
 SvgDocument::SvgDocument(const std::filesystem::path& file) : file_(file.string()), bytes_(file_bytes(file)) {
@@ -61,6 +82,7 @@ SvgDocument::SvgDocument(const std::filesystem::path& file) : file_(file.string(
   for (pugi::xml_node node = root_; node;) {
     const pugi::xml_attribute id = node.attribute("id");
     if (id && *id.value() != '\0') ids_.emplace(id.value(), node);
+    declares_inside_ = declares_inside_ || (node != root_ && declares(node));
     if (node.first_child()) {
       node = node.first_child();
       continue;
@@ -92,7 +114,12 @@ pugi::xml_node SvgDocument::linked(const pugi::xml_node& node) const {
 
 std::string_view SvgDocument::name(const pugi::xml_node& node) const {
   if (node.type() != pugi::node_element) return {};
-  std::string_view whole = node.name();
+  const std::string_view whole = node.name();
+  if (declares_inside_) {
+    const std::string_view vocabulary = vocabulary_of(node);
+    return vocabulary.empty() || vocabulary == "svg" || vocabulary == svg_vocabulary ? local_name(node)
+                                                                                     : std::string_view{};
+  }
   if (!prefix_.empty() && whole.starts_with(prefix_)) return whole.substr(prefix_.size());
   if (whole.starts_with("svg:")) return whole.substr(4);
   return prefix_.empty() && whole.find(':') == std::string_view::npos ? whole : std::string_view{};

@@ -39,7 +39,8 @@ class SvgDocument {
   std::vector<std::ptrdiff_t> line_ends_;  ///< offsets of the newlines in bytes_
   pugi::xml_document tree_;
   pugi::xml_node root_;
-  std::string prefix_;  ///< of the elements of SVG, with its colon; mostly empty
+  std::string prefix_;            ///< of the elements of SVG, with its colon; mostly empty
+  bool declares_inside_ = false;  ///< whether elements below the root declare vocabularies of their own
   std::unordered_map<std::string_view, pugi::xml_node> ids_;
 };
 

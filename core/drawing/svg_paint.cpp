@@ -209,7 +209,7 @@ void Scene::serve(Region region, const Paint& paint, double opacity, const pugi:
   if (paint.has_fallback) {
     if (paint.fallback_is_none) return;
     Paint other;
-    other.kind = Paint::Kind::colour;
+    other.kind = paint.fallback_is_current ? Paint::Kind::current_colour : Paint::Kind::colour;
     other.colour = paint.colour;
     return cover(std::move(region), other, opacity, node, entered);
   }

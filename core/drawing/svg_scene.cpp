@@ -341,6 +341,13 @@ void Scene::draw(const pugi::xml_node& node, const Entered& entered, Outline& ou
     if (value < 0) throw Malformed(fmt::format("{} must not be negative", key));
     return value;
   };
+  // A radius that is not valid is as if it were absent: it follows the other one.
+  const auto radius = [&](const char* key, double whole) -> std::optional<double> {
+    const auto value = optional_length(node, entered, key, whole);
+    if (!value || *value >= 0) return value;
+    notes_.say(fmt::format("{}: {} must not be negative; it is skipped", document_.where(node), key));
+    return std::nullopt;
+  };
   std::optional<std::string> mistake;
   if (name == "path") {
     std::string_view data = node.attribute("d").value();
@@ -351,17 +358,15 @@ void Scene::draw(const pugi::xml_node& node, const Entered& entered, Outline& ou
     }
     mistake = draw_path(data, outline);
   } else if (name == "rect") {
-    draw_rect({{at("x", w), at("y", h)},
-               {size("width", w), size("height", h)},
-               optional_length(node, entered, "rx", w),
-               optional_length(node, entered, "ry", h)},
-              outline);
+    draw_rect(
+        {{at("x", w), at("y", h)}, {size("width", w), size("height", h)}, radius("rx", w), radius("ry", h)},
+        outline);
   } else if (name == "circle") {
     draw_ellipse({at("cx", w), at("cy", h)}, Vec2::Constant(size("r", d)), outline);
   } else if (name == "ellipse") {
-    const auto rx = optional_length(node, entered, "rx", w), ry = optional_length(node, entered, "ry", h);
-    draw_ellipse({at("cx", w), at("cy", h)},
-                 {rx ? size("rx", w) : ry.value_or(0), ry ? size("ry", h) : rx.value_or(0)}, outline);
+    const auto rx = radius("rx", w), ry = radius("ry", h);
+    draw_ellipse({at("cx", w), at("cy", h)}, {rx.value_or(ry.value_or(0)), ry.value_or(rx.value_or(0))},
+                 outline);
   } else if (name == "line") {
     outline.move_to({at("x1", w), at("y1", h)});
     outline.line_to({at("x2", w), at("y2", h)});

@@ -49,6 +49,8 @@ std::optional<Paint> paint(std::string_view value) {
     const std::string_view fallback = trimmed(value.substr(end + 1));
     if (fallback == "none") {
       result.has_fallback = result.fallback_is_none = true;
+    } else if (lower(fallback) == "currentcolor") {
+      result.has_fallback = result.fallback_is_current = true;
     } else if (const auto colour = read_css_colour(fallback)) {
       result.has_fallback = true;
       result.colour = *colour;
@@ -290,9 +292,11 @@ const std::unordered_map<std::string_view, Property>& properties() {
        {[](S& s, V v, R) { return set_word(s.pen.join, v, joins); }, copy_pen<&StrokeStyle::join>}},
       {"stroke-miterlimit",
        {[](S& s, V v, R) {
-          const double limit = NumberScanner(v).required();
-          if (limit >= 1) s.pen.miter_limit = limit;
-          return limit >= 1;
+          NumberScanner scanner(v);
+          const double limit = scanner.required();
+          if (limit < 1 || !scanner.at_end()) return false;
+          s.pen.miter_limit = limit;
+          return true;
         },
         copy_pen<&StrokeStyle::miter_limit>}},
       {"stroke-dasharray", {set_dashes, copy_pen<&StrokeStyle::dashes>}},

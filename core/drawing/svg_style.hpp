@@ -24,10 +24,11 @@ struct Paint {
   enum class Kind { none, colour, current_colour, server, context_fill, context_stroke };
 
   Kind kind = Kind::none;
-  CssColour colour;               ///< of kind colour; of a server: its fallback
-  std::string server;             ///< id of a gradient or a pattern
-  bool has_fallback = false;      ///< of a server
-  bool fallback_is_none = false;  ///< of a server: the fallback is `none`
+  CssColour colour;                  ///< of kind colour; of a server: its fallback
+  std::string server;                ///< id of a gradient or a pattern
+  bool has_fallback = false;         ///< of a server
+  bool fallback_is_none = false;     ///< of a server: the fallback is `none`
+  bool fallback_is_current = false;  ///< of a server: the fallback is `currentColor`
 };
 
 /// What text looks like. Lengths in user units.

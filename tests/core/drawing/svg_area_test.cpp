@@ -143,6 +143,8 @@ TEST_CASE("a gradient is one zone, and the note says how it runs") {
   CHECK(areas("<rect width='20' height='30' fill='url(#none)'/>").empty());
   CHECK_THAT(notes_of("<rect width='20' height='30' fill='url(#none)'/>"), Contains("gradient or pattern"));
   CHECK(areas("<rect width='20' height='30' fill='url(#none) gold'/>").at("#ffd700") == Approx(600));
+  CHECK(areas("<rect width='20' height='30' color='gold' fill='url(#none) currentColor'/>").at("#ffd700") ==
+        Approx(600));
 }
 
 TEST_CASE("filters, blend modes and patterns are named") {

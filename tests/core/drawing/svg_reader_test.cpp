@@ -130,6 +130,9 @@ TEST_CASE("damaged elements are drawn as far as they are sound, with a note") {
   CHECK_THAT(notes_of("<g transform='spin(1)'/>"), Contains("spin"));
   CHECK(area_of("<circle r='-1'/><rect width='9' height='9'/>") == Approx(81));
   CHECK_THAT(notes_of("<circle r='-1'/>"), Contains("negative"));
+  CHECK(area_of("<rect width='9' height='9' rx='-1'/>") == Approx(81));
+  CHECK_THAT(notes_of("<path d='M0 0H9V9' stroke='red' stroke-miterlimit='4mm'/>"),
+             Contains("stroke-miterlimit"));
   CHECK_THAT(notes_of("<rect width='3furlong' height='2'/>"), Contains("furlong"));
   CHECK_THAT(notes_of("<path d='M0 0H1e9V1e9Z'/>"), Contains("100 m") && Contains("left out"));
 }

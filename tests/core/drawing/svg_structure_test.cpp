@@ -167,6 +167,14 @@ TEST_CASE("names of other vocabularies are not drawn, those with SVG's prefix ar
   CHECK(area_of("<x:rect width='9' height='9'/><svg:rect width='3' height='3'/>") == Approx(9));
 }
 
+TEST_CASE("a vocabulary that an element declares holds for what is inside of it") {
+  CHECK(
+      area_of("<s:g xmlns:s='http://www.w3.org/2000/svg' xmlns='http://other'><s:rect width='3' height='3'/>"
+              "<rect width='9' height='9'/></s:g>") == Approx(9));
+  CHECK(area_of("<g xmlns:other='http://other'><rect width='3' height='3'/><other:rect width='9' "
+                "height='9'/></g>") == Approx(9));
+}
+
 TEST_CASE("what lies outside of the page is cut off with a note") {
   CHECK(area_of("<rect x='90' width='20' height='10'/>") == Approx(100));
   CHECK_THAT(notes_of("<rect x='90' width='20' height='10'/>"), Contains("outside of the page"));
