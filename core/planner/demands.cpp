@@ -158,6 +158,13 @@ bool Demands::wholly_aligned(const Polygon& piece) const {
   return share > wholly;
 }
 
+bool Demands::partly_aligned(const Polygon& piece) const {
+  if (field_.empty()) return false;
+  double share = 0;
+  mean_direction(piece, share);
+  return share > 1 - wholly && share <= wholly;
+}
+
 std::optional<double> Demands::one_direction(const Polygon& piece) const {
   if (field_.empty()) return std::nullopt;
   double share = 0;

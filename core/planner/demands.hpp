@@ -40,6 +40,8 @@ class Demands {
   bool mostly_aligned(const Polygon& piece) const;
   /// Whether all of the piece, except for little, is to be aligned.
   bool wholly_aligned(const Polygon& piece) const;
+  /// Whether some of the piece is to be aligned, and some not.
+  bool partly_aligned(const Polygon& piece) const;
   /// The direction, rad, that nearly all of the piece is to follow; nullopt if directions differ.
   std::optional<double> one_direction(const Polygon& piece) const;
 

@@ -36,6 +36,7 @@ constexpr double longest_needle = 2;     ///< in the paper's lengths
 constexpr double fewest_cells = 2.5;     ///< a smaller island gets a contour
 constexpr int tries = 8;                 ///< with other seeds, before a contour is used instead
 constexpr std::size_t most_pieces = 50;  ///< material pieces of an island that are joined one by one
+constexpr double least_piece = 40;       ///< square bead widths, of a piece with or without directions
 constexpr double speck = 0.05;           ///< square bead widths; a smaller piece gets no curve of its own
 constexpr double most_thin = 0.002;      ///< share of a material piece that its own curve may leave out
 constexpr double nearly_far = 1.0;       ///< bead widths; with larger holes, fairing gives up directions
@@ -141,6 +142,7 @@ FairingOptions fairing_options(const FillableRegion& part, bool of_stripes, Isla
     fairing.alignment_by_length = true;
     // Strands of stripes do not crowd, and the fingers that reach the ends of thin places are to stay.
     fairing.may_retract = false;
+    fairing.coarse_iterations = work.settings.stripe_coarse_iterations;
     fairing.alignment = work.settings.stripe_alignment;
     fairing.fine_alignment = work.settings.stripe_fine_alignment;
     fairing.likeness = work.settings.stripe_likeness;
@@ -196,19 +198,67 @@ std::optional<RegionCurve> curve_of_stripes(const FillableRegion& part, IslandWo
   return filled;
 }
 
-/// A curve through one region, faired if that is possible.
-std::optional<RegionCurve> faired_curve(const FillableRegion& part, IslandWork& work) {
-  if (std::optional<RegionCurve> filled = curve_of_stripes(part, work)) return filled;
-  std::optional<RegionCurve> filled = unfaired_curve(part, work);
-  if (filled) fair_curve(*filled, part, work);
-  return filled;
-}
+std::optional<RegionCurve> faired_curve(const FillableRegion& part, IslandWork& work);
 
 /// Adds the figures of a part to those of the whole.
 void add_figures(RegionCurve& sum, RegionCurve& part) {
   sum.split_and_reconnect += part.split_and_reconnect;
   sum.doubled_edges += part.doubled_edges;
   std::move(part.cycles.begin(), part.cycles.end(), std::back_inserter(sum.cycles));
+}
+
+/// Fills each piece with a curve of its own, and joins them.
+std::optional<RegionCurve> fill_pieces(const std::vector<Polygon>& pieces, const FillableRegion& part,
+                                       IslandWork& work) {
+  const double w = work.width();
+  if (pieces.size() < 2 || pieces.size() > most_pieces) return std::nullopt;
+  RegionCurve sum;
+  std::vector<Curve> curves;
+  for (const Polygon& piece : pieces) {
+    const Fillable parts = fillable(piece, w, half_width(work.options));
+    if (parts.too_thin > most_thin * area(piece) || parts.regions.size() != 1) return std::nullopt;
+    std::optional<RegionCurve> filled = faired_curve(parts.regions.front(), work);
+    if (!filled || !filled->faired) return std::nullopt;
+    add_figures(sum, *filled);
+    curves.push_back(std::move(filled->curve));
+  }
+  const Stopwatch watch(work.plan.fairing);
+  std::optional<Curve> one = joined(std::move(curves), part.region, w);
+  if (!one || !sound(*one, part.region, w)) return std::nullopt;
+  sum.curve = std::move(*one);
+  sum.faired = true;
+  return sum;
+}
+
+/// The pieces of a region that ask for directions, and those that do not. Empty if a piece is too small to be
+/// worth a joint.
+std::vector<Polygon> pattern_pieces(const Polygon& region, const IslandWork& work) {
+  Region asking;
+  for (const ZoneRegion& zone : work.island.zones) {
+    const PatternKind kind = work.zones[zone.zone].pattern.kind;
+    if (kind != PatternKind::none && kind != PatternKind::isotropic) asking = unite(asking, zone.polygons);
+  }
+  const double w = work.width();
+  Region pieces = intersect({region}, asking);
+  const Region rest = subtract({region}, asking);
+  pieces.insert(pieces.end(), rest.begin(), rest.end());
+  std::erase_if(pieces, [&](const Polygon& piece) { return area(piece) < speck * w * w; });
+  const bool small = std::any_of(pieces.begin(), pieces.end(),
+                                 [&](const Polygon& piece) { return area(piece) < least_piece * w * w; });
+  return small ? Region{} : pieces;
+}
+
+/// A curve through one region, faired if that is possible: of stripes where directions are asked for, of a
+/// cell graph elsewhere.
+std::optional<RegionCurve> faired_curve(const FillableRegion& part, IslandWork& work) {
+  if (std::optional<RegionCurve> filled = curve_of_stripes(part, work)) return filled;
+  if (work.settings.stripes && work.demands.partly_aligned(part.region)) {
+    if (std::optional<RegionCurve> filled = fill_pieces(pattern_pieces(part.region, work), part, work))
+      return filled;
+  }
+  std::optional<RegionCurve> filled = unfaired_curve(part, work);
+  if (filled) fair_curve(*filled, part, work);
+  return filled;
 }
 
 /// The pieces of the island that hold one material each. Specks are left out: beads of other materials cover
@@ -229,25 +279,7 @@ std::vector<Polygon> material_pieces(const Island& island, const std::vector<Zon
 /// One curve that crosses between materials as rarely as possible. Returns nullopt if a piece is too thin for
 /// a curve of its own or cannot be joined to the others.
 std::optional<RegionCurve> fill_by_material(const FillableRegion& part, IslandWork& work) {
-  const double w = work.width();
-  const std::vector<Polygon> pieces = material_pieces(work.island, work.zones, w);
-  if (pieces.size() < 2 || pieces.size() > most_pieces) return std::nullopt;
-  RegionCurve sum;
-  std::vector<Curve> curves;
-  for (const Polygon& piece : pieces) {
-    const Fillable parts = fillable(piece, w, half_width(work.options));
-    if (parts.too_thin > most_thin * area(piece) || parts.regions.size() != 1) return std::nullopt;
-    std::optional<RegionCurve> filled = faired_curve(parts.regions.front(), work);
-    if (!filled || !filled->faired) return std::nullopt;
-    add_figures(sum, *filled);
-    curves.push_back(std::move(filled->curve));
-  }
-  const Stopwatch watch(work.plan.fairing);
-  std::optional<Curve> one = joined(std::move(curves), part.region, w);
-  if (!one || !sound(*one, part.region, w)) return std::nullopt;
-  sum.curve = std::move(*one);
-  sum.faired = true;
-  return sum;
+  return fill_pieces(material_pieces(work.island, work.zones, work.width()), part, work);
 }
 
 /// Contours and fill in one curve. `pieces` are the parts of one material each; a single piece stands for the
@@ -307,9 +339,14 @@ std::optional<RegionCurve> fill_region(const FillableRegion& part, bool by_mater
     return fill_thick(place, by_material, work);
   };
   const Random random = work.random;
-  if (std::optional<RegionCurve> found = fill_thin(part.region, work, fill)) return found;
+  std::optional<RegionCurve> thin = fill_thin(part.region, work, fill);
+  const double w = work.width(), left = thin ? bare_area(thin->curve, part.region, w) : 0;
+  if (thin && left <= most_bare * w * w + bare_share * area(part.region)) return thin;
   work.random = random;
-  return fill_thick(part, by_material, work);
+  std::optional<RegionCurve> thick = fill_thick(part, by_material, work);
+  // Thin places without a strand are no better than curves that do not reach into them.
+  if (thin && (!thick || left <= bare_area(thick->curve, part.region, w))) return thin;
+  return thick;
 }
 
 }  // namespace unicursal::core

@@ -38,6 +38,7 @@ Settings settings(Preset preset, double quality) {
   s.shuffle.sweeps = scaled(s.shuffle.sweeps, quality);
   // The curve hardly changes after these iterations; more than twice as many would be wasted.
   s.fairing.coarse_iterations = scaled(s.fairing.coarse_iterations, std::min(quality, 2.0));
+  s.stripe_coarse_iterations = scaled(s.stripe_coarse_iterations, std::min(quality, 2.0));
   s.fairing.fine_iterations = scaled(s.fairing.fine_iterations, std::min(quality, 2.0));
   return s;
 }

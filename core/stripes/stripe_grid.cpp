@@ -10,7 +10,7 @@ namespace unicursal::core {
 namespace {
 
 constexpr double nodes_per_width = 2;
-constexpr double blur = 0.6;       ///< standard deviation of the blur, bead widths
+constexpr double blur = 0.9;       ///< standard deviation of the blur, bead widths
 constexpr double wide_blur = 1.8;  ///< where directions cancel each other or none is asked for
 constexpr double no_direction = 1e-6;
 constexpr int blur_steps = 4;    ///< of half a standard deviation, to either side

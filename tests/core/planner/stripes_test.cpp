@@ -162,3 +162,18 @@ TEST_CASE("random fields with singularities, noise and waves: plans are sound") 
 TEST_CASE("hundreds of random fields with singularities, noise and waves: plans are sound", "[long]") {
   check_random_fields(0, 200, 10);
 }
+
+TEST_CASE("zones of one material with and without directions each get a curve of their kind") {
+  const Polygon left = rectangle(10, 12), right{{{10, 0}, {22, 0}, {22, 12}, {10, 12}}, {}};
+  const Island island{rectangle(22, 12), {{0, {left}}, {1, {right}}}};
+  std::vector<Zone> zones(2);
+  zones[0].pattern.kind = PatternKind::isotropic;
+  zones[1].pattern = {PatternKind::angle, 0.5, {}, false};
+  const IslandPlan plan = plan_island(island, zones, options_for(0.5, 6));
+  REQUIRE(fault_of(plan, island.outline, zones, 0.5) == "");
+  REQUIRE(plan.curves.size() == 1);
+  const CurveObjectives& o = plan.curves.front().objectives;
+  CHECK(o.alignment < 0.09);  // 0.15 and more if one cell graph serves both
+  CHECK(o.isotropy < 0.001);
+  CHECK(o.normalised_coverage < 0.0875);
+}

@@ -50,8 +50,7 @@ TEST_CASE("a straight line off the field costs the square of its angle times its
   CHECK(off_field({5, 5}, line(0.2 + pi + 0.5), field, 0.1) == Approx(3 * 0.25));
 }
 
-TEST_CASE(
-    "an exchange between straight strands costs two round hairpins, an exchange at an end next to nothing") {
+TEST_CASE("an exchange between straight strands costs two round hairpins, where a strand ends clearly less") {
   // A round hairpin costs 2 ∫ a² da · w ÷ 2 over a quarter turn: 1.29 w.
   const double hairpin = std::pow(pi / 2, 3) / 3;
   const Exchange between = cheapest({stadium({0, 0}, 20), stadium({0, 2 * w}, 20)}, 1.7 * w);
