@@ -17,6 +17,9 @@ Printer::Printer(const Machine& machine, const Personality& personality, const W
       faults_(faults),
       firmware_(make_firmware(machine, personality, sink, [this](std::string_view line) { say(line); })) {
   firmware_->watch_lines([this](std::string_view line) { return faults_.received(line); });
+  if (const auto seconds = faults_.boot_seconds()) firmware_->set_boot_seconds(*seconds);
+  for (const Fault& work : faults_.long_works())
+    firmware_->lengthen(*work.command, work.seconds, work.kind == FaultKind::chatty_work);
 }
 
 void Printer::opened(bool dtr_rises) {

@@ -47,10 +47,13 @@ constexpr std::array kinds{
     KindFacts{K::other_ok, "answer", Value::text, "the next ok reads TEXT"},
     KindFacts{K::lost_resend, "lostresend", Value::chance, "a request to resend never arrives"},
     KindFacts{K::double_resend, "doubleresend", Value::chance, "a request to resend arrives twice"},
+    KindFacts{K::glued_ok, "gluedok", Value::chance,
+              "a report of temperatures loses its newline, and the next ok is glued to it"},
     KindFacts{K::noise, "noise", Value::chance, "a line of random bytes comes before a reply"},
     KindFacts{K::bad_utf8, "badutf8", Value::chance, "a line of invalid UTF-8 comes before a reply"},
     KindFacts{K::nul, "nul", Value::chance, "a line with NUL bytes comes before a reply"},
     KindFacts{K::slow, "slow", Value::seconds, "every reply is up to SECONDS late"},
+    KindFacts{K::slow_boot, "slowboot", Value::seconds, "the board takes SECONDS to boot"},
     KindFacts{K::stall, "stall", Value::seconds,
               "the firmware neither reads nor answers for SECONDS; moves continue"},
     KindFacts{K::silence, "silence", Value::none, "the firmware never answers again"},
@@ -71,6 +74,10 @@ constexpr std::array kinds{
     KindFacts{K::fatal, "fatal", Value::text, "the firmware stops itself with the error TEXT"},
     KindFacts{K::stopped, "stopped", Value::none,
               "the firmware acknowledges moves and does none of them until M999"},
+    KindFacts{K::silent_work, "silentwork", Value::seconds,
+              "the command of the moment takes SECONDS longer, and the firmware says nothing meanwhile"},
+    KindFacts{K::chatty_work, "chattywork", Value::seconds,
+              "the command of the moment takes SECONDS longer, and reports a probed point every 3 s"},
 };
 
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {
@@ -183,8 +190,11 @@ Fault parse_fault(std::string_view text) {
   fault.kind = facts.kind;
   if (at != std::string_view::npos) read_moment(text.substr(at + 1), text, fault);
   read_value(facts.value, colon == std::string_view::npos ? "" : before.substr(colon + 1), text, fault);
-  if (facts.kind == K::slow && fault.has_moment()) refuse(text, "acts all the time and takes no moment");
-  const bool always = facts.value == Value::chance || facts.kind == K::slow;
+  const bool timeless = facts.kind == K::slow || facts.kind == K::slow_boot;
+  if (timeless && fault.has_moment()) refuse(text, "acts all the time and takes no moment");
+  const bool work = facts.kind == K::silent_work || facts.kind == K::chatty_work;
+  if (work && !fault.command) refuse(text, "needs a command as its moment, as in silentwork:40@command=G29");
+  const bool always = facts.value == Value::chance || timeless;
   if (!always && !fault.has_moment()) refuse(text, "needs a moment, as in reset@t=60 or reset@line=100");
   return fault;
 }

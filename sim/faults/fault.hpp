@@ -7,9 +7,10 @@
 //
 // A moment is `t=SECONDS` of printer time, `line=NUMBER` when that numbered line is first received, or
 // `command=WORD` whenever a line with that command is received. A kind with a chance needs a chance or a
-// moment; with a moment it strikes at its next occasion, once for each time that the moment comes. `slow`
-// takes no moment. Every other kind needs one; the occasion of `answer` is the next ok. A file holds one
-// fault on each line, blank lines, comments after `#`, and `seed NUMBER`.
+// moment; with a moment it strikes at its next occasion, once for each time that the moment comes. `slow` and
+// `slowboot` take no moment. Every other kind needs one, `silentwork` and `chattywork` that of a command; the
+// occasion of `answer` is the next ok. A file holds one fault on each line, blank lines, comments after `#`,
+// and `seed NUMBER`.
 #pragma once
 
 #include <cstdint>
@@ -41,10 +42,12 @@ enum class FaultKind {
   other_ok,
   lost_resend,
   double_resend,
+  glued_ok,
   noise,
   bad_utf8,
   nul,
   slow,
+  slow_boot,  // no occasion
   // These strike at a moment.
   stall,
   silence,
@@ -60,6 +63,8 @@ enum class FaultKind {
   say,
   fatal,
   stopped,
+  silent_work,
+  chatty_work,
 };
 
 struct Fault {

@@ -41,6 +41,11 @@ bool is_ok(std::string_view line) {
   return line == "ok" || line.starts_with("ok ");
 }
 
+/// One that the firmware makes by itself, or while it waits for heat; an answer to M105 begins with its ok.
+bool is_report(std::string_view line) {
+  return line.starts_with("T:") || line.starts_with(" T:");
+}
+
 bool is_resend(std::string_view line) {
   return line.starts_with("Resend:");
 }
@@ -113,6 +118,11 @@ Misreading Faults::received(std::string_view line) {
 
 std::string Faults::from_printer(std::string_view line) {
   std::string text = before_reply();
+  text += behind_report(is_ok(line));
+  if (is_report(line) && strikes(FaultKind::glued_ok)) {
+    unfinished_ = line;
+    return damaged(text);
+  }
   std::string whole = std::string(line) + '\n';
   if (is_ok(line)) {
     if (strikes(FaultKind::lost_ok)) whole.clear();
@@ -124,6 +134,13 @@ std::string Faults::from_printer(std::string_view line) {
     if (strikes(FaultKind::double_resend)) whole += whole;
   }
   return damaged(text + whole);
+}
+
+/// What remains of a report before the next line: nothing else is glued to it than an ok.
+std::string Faults::behind_report(bool ok) {
+  std::string report = std::exchange(unfinished_, {});
+  if (!report.empty() && !ok) report += '\n';
+  return report;
 }
 
 std::string Faults::misspelt_ok() {
@@ -184,6 +201,24 @@ void Faults::arm(Armed& armed) {
   }
   ++counts_[std::string(name(armed.fault.kind))];
   events_.push_back(armed.fault);
+}
+
+std::optional<double> Faults::boot_seconds() const {
+  std::optional<double> longest;
+  for (const Armed& armed : armed_) {
+    if (armed.fault.kind == FaultKind::slow_boot)
+      longest = std::max(longest.value_or(armed.fault.seconds), armed.fault.seconds);
+  }
+  return longest;
+}
+
+std::vector<Fault> Faults::long_works() const {
+  std::vector<Fault> works;
+  for (const Armed& armed : armed_) {
+    const FaultKind kind = armed.fault.kind;
+    if (kind == FaultKind::silent_work || kind == FaultKind::chatty_work) works.push_back(armed.fault);
+  }
+  return works;
 }
 
 std::optional<double> Faults::next_time() const {

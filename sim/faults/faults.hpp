@@ -34,6 +34,10 @@ class Faults {
   std::optional<double> next_time() const;
   /// Returns the faults that strike the printer now.
   std::vector<Fault> due(double now);
+  /// The time that the board takes to boot, s; nullopt if no fault changes it.
+  std::optional<double> boot_seconds() const;
+  /// The faults that make commands take longer.
+  std::vector<Fault> long_works() const;
 
   /// How often each kind has struck, by name.
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
@@ -52,6 +56,7 @@ class Faults {
   std::string misspelt_ok();
   std::optional<std::string> other_ok();
   std::string before_reply();
+  std::string behind_report(bool ok);
   std::string noise();
   std::string damaged(std::string text);
   void damage_byte(WireByte byte, std::vector<WireByte>& bytes);
@@ -61,6 +66,7 @@ class Faults {
   std::map<std::string, std::uint64_t> counts_;
   std::mt19937_64 details_;  ///< Chooses bits and texts.
   bool gap_ = false;         ///< Whether the last byte to the printer was lost.
+  std::string unfinished_;   ///< A report that has lost its newline, as long as no other line has come.
 };
 
 }  // namespace unicursal::sim

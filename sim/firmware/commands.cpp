@@ -100,6 +100,7 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'M', 302}, &F::cold_extrusion},
       {{'M', 400}, &F::finish_moves},
       {{'M', 410}, &F::stop_moves},
+      {{'M', 412}, &F::runout_sensor},
       {{'M', 500}, &F::store_settings},
       {{'M', 501}, &F::load_settings},
       {{'M', 502}, &F::load_settings},
@@ -120,6 +121,11 @@ void Firmware::execute(const std::string& body) {
   }
   ++counts_.unknown;
   say_unknown(body);
+}
+
+bool Firmware::handles(const Command& command) const {
+  return command.letter() == 'T' ||
+         (knows(command) && handlers().contains({command.letter(), command.code()}));
 }
 
 void Firmware::say_unknown(const std::string& body) {
@@ -258,8 +264,19 @@ void Firmware::home(const Command& command) {
     if (x || y)
       seconds += std::max(x ? way(axis_x) : 0, y ? way(axis_y) : 0) / homing_speed + homing_touch_seconds;
     if (z) seconds += way(axis_z) / homing_speed_z + homing_touch_seconds;
+    if (!z) lift_for_homing();
     wait_seconds(seconds, [this, x, y, z] { homed(x, y, z); });
   });
+}
+
+/// Marlin's Z_CLEARANCE_FOR_HOMING: z is only ever raised, and stays where it is then.
+void Firmware::lift_for_homing() {
+  const double rise = personality_.homing_clearance - coordinates_.place()[axis_z];
+  if (rise <= 0) return;
+  coordinates_.raise(rise);
+  PerAxis<std::int64_t> steps = planner_.planned_position();
+  steps[axis_z] += to_steps(rise, planner_.limits().steps_per_mm[axis_z]);
+  planner_.set_position(steps);
 }
 
 void Firmware::homed(bool x, bool y, bool z) {

@@ -45,6 +45,8 @@ class Coordinates {
   double logical(Axis axis) const { return place_[axis] - origin_[axis]; }
 
   void home(Axis axis);
+  /// The nozzle goes up by `rise`, mm.
+  void raise(double rise) { place_[axis_z] += rise; }
   void forget_home() { homed_ = {}; }
   /// To be called after an abrupt stop, with the position that the machine has really reached.
   void stopped_at(const std::array<double, 3>& place, double e);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double longest_run_down = 7200;  // s; a heater that has failed never becomes hot
 constexpr double heat_interval = 1;        // s between the lines of M109 and M190
+constexpr double probe_interval = 3;       // s between the points that a long command reports
 constexpr double heat_look = 0.25;         // s between checks of the temperature while M109 or M190 waits
 
 LineCheck::Rules rules_of(const Personality& personality) {
@@ -74,6 +75,8 @@ void Firmware::reset() {
   cold_ = personality_.cold;
   busy_interval_ = 2;
   awaited_ = Awaited::nothing;
+  runout_sensor_ = true;
+  ran_out_ = at_long_work_ = false;
   emergency_line_.clear();
   check_.set_last(0);
   last_executed_ = 0;
@@ -141,7 +144,7 @@ std::optional<double> Firmware::next_event() const {
     if (!silent()) consider(stalled_until_);
     return next;
   }
-  if (running_ && busy_interval_ > 0) consider(busy_at_);
+  if (running_ && !at_long_work_ && busy_interval_ > 0) consider(busy_at_);
   if (report_interval_ > 0) consider(report_at_);
   if (inactivity_ > 0 && !running_ && planner_.still()) consider(active_at_ + inactivity_);
   if (!waits_.empty() && waits_.front().until > 0) consider(waits_.front().until);
@@ -171,7 +174,7 @@ void Firmware::tick() {
     heat_report_at_ = now_ + heat_interval;
     say_heating(*waits_.front().heat);
   }
-  if (running_ && busy_interval_ > 0 && now_ >= busy_at_) {
+  if (running_ && !at_long_work_ && busy_interval_ > 0 && now_ >= busy_at_) {
     busy_at_ = now_ + busy_interval_;
     say_busy();
   }
@@ -236,8 +239,10 @@ void Firmware::read_lines() {
     const auto byte = buffer_.pop();
     if (!byte) return;
     line_damaged_ = line_damaged_ || byte->damaged;
+    if (swallows(byte->value)) continue;
     const auto line = assembler_.push(byte->value);
     if (line) take(*line, line_damaged_);
+    if (assembler_.threw_away()) threw_line_away();
     if (byte->value == '\n' || byte->value == '\r' || byte->value == '\0') line_damaged_ = false;
   }
 }
@@ -308,8 +313,29 @@ void Firmware::start_next() {
   answers_ok_ = true;
   busy_at_ = now_ + busy_interval_;
   active_at_ = now_;
-  if (command_watch_) command_watch_(queue_.front().body);
-  execute(queue_.front().body);
+  const std::string& body = queue_.front().body;
+  if (command_watch_) command_watch_(body);
+  const auto is = [&](const LongWork& work) {
+    return body == work.word || body.starts_with(work.word + ' ');
+  };
+  const auto work = std::find_if(long_works_.begin(), long_works_.end(), is);
+  at_long_work_ = work != long_works_.end();
+  const auto command = parse_command(body);
+  if (!at_long_work_ || (command && handles(*command))) execute(body);
+  if (at_long_work_) work_on(work->seconds, work->chatty);
+}
+
+void Firmware::work_on(double seconds, bool chatty) {
+  const double step = std::min(seconds, probe_interval), rest = seconds - step;
+  wait_seconds(step, [this, rest, chatty] {
+    if (rest <= 0) return;
+    if (chatty) say("Bed X: 100.000 Y: 100.000 Z: 0.012");
+    work_on(rest, chatty);
+  });
+}
+
+void Firmware::lengthen(std::string_view word, double seconds, bool chatty) {
+  long_works_.push_back({std::string(word), seconds, chatty});
 }
 
 bool Firmware::progress() {
@@ -355,7 +381,7 @@ void Firmware::finish() {
   active_at_ = now_;
   done(queue_.front());
   queue_.pop_front();
-  running_ = false;
+  running_ = at_long_work_ = false;
 }
 
 void Firmware::done(const Line& line) {

@@ -104,7 +104,14 @@ class Firmware {
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
   /// Stops for good, with `reason` as an error message.
   virtual void die(const std::string& reason);
-  /// A feeder runs out of filament: it announces that and gives itself the command `script`.
+  /// From now on it takes so long to boot, s.
+  void set_boot_seconds(double seconds) { personality_.boot_seconds = seconds; }
+  /// From now on a command of this word ("G29") takes `seconds` longer. Meanwhile the firmware reports probed
+  /// points (`chatty`), or says nothing; it does not say that it is busy. A command that it does not know
+  /// becomes known.
+  void lengthen(std::string_view word, double seconds, bool chatty);
+  /// A feeder runs out of filament, which a sensor that is switched on notices: the firmware announces it
+  /// and gives itself the command `script`.
   void run_out(std::string script);
   /// What it does when it has noticed that a heater or its sensor has failed.
   virtual void alarm(Heater::Alarm what, bool bed);
@@ -135,6 +142,12 @@ class Firmware {
     bool injected = false;  ///< The firmware gave it to itself, so nobody waits for an ok.
     bool more = false;      ///< Whether another command of the same line follows.
   };
+  /// A command that takes longer than usual.
+  struct LongWork {
+    std::string word;
+    double seconds;
+    bool chatty;
+  };
   /// A wait for a heater to stay at its target for a while.
   struct HeatWait {
     const Heater* heater;
@@ -153,6 +166,9 @@ class Firmware {
   // The steps from line to ok in which families differ
   virtual void repeated(std::int64_t) { ++counts_.repeated; }
   virtual void refuse(LineVerdict::Kind kind);
+  /// Takes a byte that does not belong to a line of text. Returns whether it was one.
+  virtual bool swallows(char) { return false; }
+  virtual void threw_line_away() {}
   virtual bool handled_at_once(std::string_view line);
   /// The commands that a line holds; at least one.
   virtual std::vector<std::string> commands_in(const std::string& body) const { return {body}; }
@@ -168,6 +184,8 @@ class Firmware {
   virtual void say_stopped();
   virtual void say_still_stopped();
   virtual bool knows(const Command& command) const;
+  /// Whether it knows the command and its family has an action for it.
+  bool handles(const Command& command) const;
   virtual Mix current_mix() const { return mixer_.current(); }
   /// Time for which a heater must have been hot before M109 or M190 ends, s.
   virtual double residency() const { return 10; }
@@ -187,6 +205,7 @@ class Firmware {
   bool over(Wait& wait);
   bool hot_for_long(Wait& wait);
   void finish();
+  void work_on(double seconds, bool chatty);
   void note_order(const Line& line);
   void tick();
   void tick_heaters();
@@ -235,6 +254,7 @@ class Firmware {
   void pid(const Command& command);
   void cold_extrusion(const Command& command);
   void soft_endstops(const Command& command);
+  void runout_sensor(const Command& command);
   void echo_text(const Command& command);
   void print_time(const Command& command);
   void endstops(const Command& command);
@@ -278,10 +298,11 @@ class Firmware {
   void plan(const MoveTarget& target, double e);
   virtual double filament_to_feed(double e);
   void homed(bool x, bool y, bool z);
+  void lift_for_homing();
   void say_position();
 
   const Machine machine_;
-  const Personality personality_;
+  Personality personality_;
   Reply reply_;
   LineWatch watch_;
   CommandWatch command_watch_;
@@ -304,6 +325,10 @@ class Firmware {
   bool booting_ = false, running_ = false, answers_ok_ = true, killed_ = false;
   enum class Awaited { nothing, anything, choice } awaited_ = Awaited::nothing;
   bool purge_more_ = false;
+  bool runout_sensor_ = true;  ///< M412
+  bool ran_out_ = false;       ///< It waits for new filament.
+  std::vector<LongWork> long_works_;
+  bool at_long_work_ = false;  ///< The running command is one.
   std::string emergency_line_;
   double cold_ = 0;           ///< Below, nothing is extruded, °C.
   double busy_interval_ = 2;  ///< M113, s; 0 = off.

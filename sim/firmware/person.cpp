@@ -66,16 +66,27 @@ void Firmware::change_filament(const Command& command) {
 }
 
 void Firmware::offer_purging() {
-  show_prompt("Paused", {"PurgeMore", "Continue"});
+  show_prompt("Paused", {"PurgeMore", ran_out_ ? "DisableRunout" : "Continue"});
   if (!personality_.host_prompts) return say("//action:resumed");
   wait_for_choice([this] {
     if (purge_more_) return wait_seconds(purging_seconds, [this] { offer_purging(); });
+    if (std::exchange(ran_out_, false)) runout_sensor_ = false;
     show_prompt("Resuming", {"Dismiss"});
     say("//action:resumed");
   });
 }
 
+/// M412; S also forgets that filament has run out.
+void Firmware::runout_sensor(const Command& command) {
+  const auto on = command.value('S');
+  if (!on) return say(fmt::format("echo:Filament runout {}", runout_sensor_ ? "ON" : "OFF"));
+  runout_sensor_ = *on != 0;
+  ran_out_ = false;
+}
+
 void Firmware::run_out(std::string script) {
+  if (!runout_sensor_) return warn("filament ran out while its sensor was switched off");
+  ran_out_ = true;
   say("//action:out_of_filament T0");
   say("//action:paused filament_runout 0");
   show_prompt("FilamentRunout T0", {"Continue"});

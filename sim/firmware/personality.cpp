@@ -46,6 +46,7 @@ Personality marlin_host() {
   Personality one = marlin();
   one.name = "marlin-host";
   one.emergency_parser = one.host_prompts = one.homes_first = true;
+  one.homing_clearance = 4;
   return one;
 }
 

@@ -22,6 +22,7 @@ struct Personality {
   bool emergency_parser = false;     ///< Whether M108, M112, M410 and M876 act as soon as they arrive.
   bool host_prompts = false;         ///< Whether it asks a person through the host.
   bool homes_first = false;          ///< Whether it refuses moves of an axis that was not homed.
+  double homing_clearance = 0;       ///< z that the nozzle is raised to before x or y is homed alone, mm.
   bool capabilities = true;          ///< Whether M115 lists what it can do, and M155 exists.
   std::size_t queue_size = 4;        ///< Commands in the queue, the running one included.
   double cold = 170;                 ///< °C of the nozzle below which nothing is extruded.

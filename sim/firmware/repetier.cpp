@@ -15,6 +15,39 @@ namespace {
 constexpr double ask_interval = 0.2;      // s between requests for the same line
 constexpr double idle_interval = 1;       // s without a command after which it says "wait"
 constexpr std::int32_t heaviest = 30000;  // weights are 16-bit integers
+
+/// The length of a binary packet by its first bytes, four or more. Two of them are a set of bits that says
+/// which words follow; from version 2 on two more. Two bytes of checksum end it (Repetier's host protocol).
+std::size_t packet_length(std::string_view bytes) {
+  const auto word = [&](std::size_t at) {
+    return static_cast<unsigned>(static_cast<unsigned char>(bytes[at])) |
+           static_cast<unsigned>(static_cast<unsigned char>(bytes[at + 1])) << 8U;
+  };
+  struct Part {
+    unsigned bit;
+    std::size_t length;
+  };
+  // N, X, Y, Z, E, F, T, S, P
+  constexpr std::array<Part, 9> parts{
+      {{0, 2}, {3, 4}, {4, 4}, {5, 4}, {6, 4}, {8, 4}, {9, 1}, {10, 4}, {11, 4}}};
+  const unsigned bits = word(0);
+  const auto has = [](unsigned set, unsigned bit) { return (set >> bit & 1U) != 0; };
+  std::size_t length = 4;
+  for (const Part& part : parts) length += has(bits, part.bit) ? part.length : 0;
+  const bool second_version = has(bits, 12);
+  const std::size_t code = second_version ? 2 : 1;
+  if (has(bits, 1)) length += code;  // M
+  if (has(bits, 2)) length += code;  // G
+  if (!second_version) return length + (has(bits, 15) ? 16 : 0);
+  const unsigned more = word(2);
+  length += 2;
+  for (unsigned bit = 0; bit < 12; ++bit)
+    length += has(more, bit) ? 4 : 0;  // I, J, R, D, C, H, A, B, K, L, O
+  if (!has(bits, 15)) return length;
+  constexpr std::size_t longest_text = 80;
+  const std::size_t text = bytes.size() > 4 ? static_cast<unsigned char>(bytes[4]) : 0U;
+  return length + std::min(longest_text, text + 1);
+}
 }  // namespace
 
 std::unique_ptr<Firmware> make_firmware(const Machine& machine, const Personality& personality,
@@ -35,6 +68,7 @@ Repetier::Repetier(const Machine& machine, const Personality& personality, MoveS
 
 void Repetier::forget() {
   waits_for_line_ = false;
+  packet_.clear();
   idle_at_ = now_ + idle_interval;
   tools_.fill(equal_parts());
   live_ = equal_parts();
@@ -75,9 +109,28 @@ void Repetier::refuse(LineVerdict::Kind kind) {
   ask_for_line();
 }
 
+/// A line that begins with a byte from 0x80 is a binary packet to it.
+bool Repetier::swallows(char byte) {
+  ask_at_ = now_ + ask_interval;
+  if (packet_.empty() && (!assembler_.at_line_start() || static_cast<unsigned char>(byte) < 0x80))
+    return false;
+  packet_ += byte;
+  if (packet_.size() < 5 || packet_.size() < packet_length(packet_)) return true;
+  packet_.clear();
+  refuse(LineVerdict::Kind::wrong_checksum);
+  return true;
+}
+
+void Repetier::threw_line_away() {
+  if (!std::exchange(waits_for_line_, true)) ask_for_line();
+}
+
 void Repetier::ask_for_line() {
   ++counts_.resends;
   ask_at_ = now_ + ask_interval;
+  buffer_.flush();
+  assembler_.reset();
+  packet_.clear();
   say("");
   say(fmt::format("Resend:{}", check_.last() + 1));
   say("ok");
@@ -98,13 +151,19 @@ void Repetier::done(const Line&) {
   idle_at_ = now_ + idle_interval;
 }
 
+/// It has asked for a line, or one has begun and does not go on.
+bool Repetier::misses_a_line() const {
+  const bool reads = queue_.size() < personality_.queue_size;
+  return reads && (waits_for_line_ || !packet_.empty() || !assembler_.at_line_start());
+}
+
 std::optional<double> Repetier::next_habit() const {
-  if (waits_for_line_) return ask_at_;
+  if (misses_a_line()) return ask_at_;
   return idle() ? std::optional(idle_at_) : std::nullopt;
 }
 
 void Repetier::follow_habits() {
-  if (waits_for_line_ && now_ >= ask_at_) ask_for_line();
+  if (misses_a_line() && now_ >= ask_at_) ask_for_line();
   if (!idle() || now_ < idle_at_) return;
   idle_at_ = now_ + idle_interval;
   say("wait");
@@ -128,7 +187,7 @@ void Repetier::say_unknown(const std::string& body) {
 }
 
 bool Repetier::knows(const Command& command) const {
-  constexpr std::array unknown{0, 1, 31, 75, 76, 77, 108, 113, 118, 165, 211, 410, 503, 600, 876};
+  constexpr std::array unknown{0, 1, 31, 75, 76, 77, 108, 113, 118, 165, 211, 410, 412, 503, 600, 876};
   if (command.is('M', 155) && !personality_.capabilities) return false;
   return command.letter() != 'M' ||
          std::find(unknown.begin(), unknown.end(), command.code()) == unknown.end();

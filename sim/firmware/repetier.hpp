@@ -1,11 +1,12 @@
 // Repetier 1.0.4, as far as it differs from Marlin (sim/README.md, "Repetier"): it says ok when a line is
 // received; it repeats its requests for a line; it answers repeated lines with `skip`; the mixture belongs to
 // the extruder and not to a move, so a change affects moves that already run; and it reports that it is idle.
-// Departures: it discards any number of lines while it waits for a resend; M112 boots as at power-up; bytes
-// from 0x80, which begin a binary packet, and the rest of too long a line are read as in Marlin.
+// Departures: it discards any number of lines while it waits for a resend; M112 boots as at power-up; a
+// binary packet is never right, since the host sends none, and damage makes none.
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "sim/firmware/firmware.hpp"
 
@@ -23,6 +24,8 @@ class Repetier final : public Firmware {
  private:
   void repeated(std::int64_t number) override;
   void refuse(LineVerdict::Kind kind) override;
+  bool swallows(char byte) override;
+  void threw_line_away() override;
   bool handled_at_once(std::string_view line) override;
   void taken(const Line& line) override;
   void done(const Line& line) override;
@@ -56,6 +59,7 @@ class Repetier final : public Firmware {
   void store_mixture(const Command& command) override;
   void select_tool(const Command& command) override;
 
+  bool misses_a_line() const;
   void ask_for_line();
   void mix_live(const Factors& weights);
   Factors equal_parts() const;
@@ -63,6 +67,7 @@ class Repetier final : public Firmware {
   Factors live_{};
   std::array<Factors, tools> tools_{};
   int selected_ = 0;
+  std::string packet_;           ///< The bytes of a binary packet that have come.
   bool waits_for_line_ = false;  ///< Whether it has asked for a line.
   double ask_at_ = 0;            ///< Time of the next request.
   double idle_at_ = 0;           ///< Time of the next "wait".

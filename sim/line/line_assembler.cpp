@@ -7,11 +7,15 @@ namespace unicursal::sim {
 std::optional<std::string> LineAssembler::push(char byte) {
   if (byte == '\n' || byte == '\r' || byte == '\0') return finish();
   if (comment_ || cut_) return std::nullopt;
-  if (!escaped_ && (byte == ';' || (brackets_ && byte == '('))) {
+  if (!escaped_ && (byte == ';' || (repetier_ && byte == '('))) {
     comment_ = true;
   } else if (!escaped_ && byte == '\\') {
     escaped_ = true;
-  } else if (line_.size() == longest) {
+  } else if (repetier_ && line_.size() + 1 == repetier_room) {
+    reset();
+    threw_away_ = true;
+    ++too_long_;
+  } else if (line_.size() == longest && !repetier_) {
     cut_ = true;
     ++too_long_;
   } else {

@@ -385,6 +385,84 @@ TEST_CASE("say and fatal take any text, at every command of a kind") {
   CHECK(desk.said("Error:Fan stopped\nError:Printer halted. kill() called!\n"));
 }
 
+TEST_CASE("a report loses its newline, and the next ok is glued to it, never another line") {
+  Desk desk({"gluedok:1"});
+  desk.send("M155 S1\n", 1.5);
+  CHECK(desk.count("ok") == 1);
+  desk.heard.clear();
+  desk.send("M400\n", 0.2);
+  CHECK(desk.heard.starts_with(" T:"));
+  CHECK(desk.heard.ends_with("ok\n"));
+  CHECK(desk.count("ok") == 0);
+  desk.heard.clear();
+  desk.send("M118 hello\n", 0.01);
+  desk.listen(2);
+  desk.send("M118 hello\n", 0.2);
+  CHECK(desk.count("hello") >= 1);
+  CHECK(desk.struck("gluedok") >= 3);
+}
+
+TEST_CASE("a long command says nothing, or reports probed points, and is never busy") {
+  const bool chatty = GENERATE(true, false);
+  Desk desk({chatty ? "chattywork:10@command=G29" : "silentwork:10@command=G29"});
+  desk.send("G29\n", 9.9);
+  CHECK(desk.count("Bed X: 100.000 Y: 100.000 Z: 0.012") == (chatty ? 3 : 0));
+  CHECK_FALSE(desk.said("busy"));
+  CHECK_FALSE(desk.said("ok"));
+  CHECK_FALSE(desk.said("Unknown"));
+  desk.listen(0.3);
+  CHECK(desk.count("ok") == 1);
+  desk.send("G290\n", 0.2);  // another command
+  CHECK(desk.said("Unknown command: \"G290\""));
+  Desk homing({"silentwork:30@command=G28"});
+  homing.send("G28\n", 60);
+  CHECK(homing.said("X:0.00 Y:0.00 Z:0.00"));  // it does its work, too
+  CHECK(homing.count("ok") == 1);
+}
+
+TEST_CASE("a board boots as slowly as it is asked to, also after a reset") {
+  MoveList moves;
+  FaultPlan plan;
+  plan.faults = {parse_fault("slowboot:20"), parse_fault("reset@t=30")};
+  Printer printer(Machine{}, personality("marlin"), {250000, Usb::none}, plan, moves);
+  printer.opened();
+  const auto spoken = [&](double until) {
+    std::string text;
+    while (printer.now() < until) {
+      printer.advance(until);
+      text += printer.take_output();
+    }
+    return text;
+  };
+  CHECK(spoken(19.9).empty());
+  CHECK(spoken(21).starts_with("start\n"));
+  CHECK(spoken(49.9).empty());
+  CHECK(spoken(51).starts_with("start\n"));
+}
+
+TEST_CASE("filament that runs out while its sensor is off is not noticed, and M412 switches it on again") {
+  Desk desk({"filamentchange@t=10", "filamentchange@t=100", "filamentchange@t=200"}, "marlin-host");
+  const auto choose = [&](const std::string& answer) {
+    desk.listen(10);
+    desk.send("M876 S0\n", 10);
+    CHECK(desk.said("//action:prompt_button DisableRunout"));
+    desk.send(answer, 1);
+    CHECK(desk.said("//action:resumed"));
+    desk.heard.clear();
+  };
+  desk.listen(8);
+  choose("M876 S1\n");
+  desk.send("M412\n");
+  CHECK(desk.said("echo:Filament runout OFF"));
+  desk.heard.clear();
+  desk.listen(120);
+  CHECK_FALSE(desk.said("out_of_filament"));
+  desk.send("M412 S1\n");
+  CHECK_FALSE(desk.said("runout"));  // Marlin says nothing then
+  desk.listen(60);
+  CHECK(desk.said("//action:out_of_filament T0"));
+}
+
 TEST_CASE("the same seed gives the same faults, and an additional fault does not change the others") {
   const auto errors = [](const std::vector<std::string>& faults, std::uint64_t seed) {
     Desk desk(faults, "marlin", {250000, Usb::none}, seed);

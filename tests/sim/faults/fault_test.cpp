@@ -41,6 +41,8 @@ TEST_CASE("a malformed fault is refused with the correct form") {
   CHECK_THROWS_WITH(parse_fault("reset@line=x"), Contains("number"));
   CHECK_THROWS_WITH(parse_fault("say:@t=1"), Contains("text"));
   CHECK_THROWS_WITH(parse_fault("slow:1@t=1"), Contains("no moment"));
+  CHECK_THROWS_WITH(parse_fault("slowboot:20@t=1"), Contains("no moment"));
+  CHECK_THROWS_WITH(parse_fault("silentwork:20@t=1"), Contains("command"));
 }
 
 TEST_CASE("a file of faults has comments, blank lines and a seed") {
@@ -54,7 +56,7 @@ TEST_CASE("a file of faults has comments, blank lines and a seed") {
 
 TEST_CASE("every kind has a name that can be parsed, and a line in the help") {
   const std::string help = fault_help();
-  for (int i = 0; i <= static_cast<int>(FaultKind::fatal); ++i) {
+  for (int i = 0; i <= static_cast<int>(FaultKind::chatty_work); ++i) {
     const auto kind = static_cast<FaultKind>(i);
     CHECK(help.find("  " + std::string(name(kind))) != std::string::npos);
   }

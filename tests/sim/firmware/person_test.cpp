@@ -68,6 +68,21 @@ TEST_CASE("a printer whose filament runs out gives itself the command, which nob
   CHECK(bench.replies.back() == "echo:M600 E stepper not specified");
 }
 
+TEST_CASE("x and y are homed with the nozzle raised, which is only ever raised and stays there") {
+  Bench bench("marlin-host");
+  bench.finish("G28");
+  bench.finish("G1 Z1 F600");
+  bench.finish("G28 X Y");
+  CHECK(bench.send("M114").front().starts_with("X:0.00 Y:0.00 Z:4.00"));
+  bench.finish("G1 Z9 F600");
+  bench.finish("G28 X");
+  CHECK(bench.send("M114").front().find("Z:9.00") != std::string::npos);
+  Bench stock;
+  stock.finish("G28");
+  stock.finish("G28 X");
+  CHECK(stock.send("M114").front().find("Z:0.00") != std::string::npos);
+}
+
 TEST_CASE("a Marlin that must be homed first refuses moves of axes that were not") {
   Bench bench("marlin-host");
   CHECK(bench.send("G1 X5 Z1") == Replies{"echo:Home XZ First", "ok"});

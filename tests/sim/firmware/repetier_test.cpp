@@ -160,3 +160,48 @@ TEST_CASE("Repetier: unknown commands") {
   CHECK(bench.send("M165 A1").back() == "Unknown command:M165 A1 ");
   CHECK(bench.send("M115").at(1).starts_with("FIRMWARE_NAME:Repetier_1.0.4"));
 }
+
+TEST_CASE(
+    "Repetier: a line that begins with a byte from 0x80 is a binary packet, which swallows what follows") {
+  Bench bench = repetier();
+  bench.send(1, "G90");
+  // Bits 1, 2, 3, 6 and 8: M and G of a byte each, X, E and F, and four bytes about the packet itself.
+  bench.firmware.receive("\xce\x01 G1 X5*100\n.....");
+  CHECK(bench.replies == Replies{"ok 1", "Error:Wrong checksum", "", "Resend:2", "ok"});
+  bench.replies.clear();
+  CHECK(bench.send(2, "G91").front() == "ok 2");
+  bench.replies.clear();
+  bench.firmware.receive("\x80\x90");  // version 2 with a text, whose length is still to come
+  bench.firmware.receive(std::string("\0\0\x05", 3));
+  bench.firmware.receive("hello!");
+  CHECK(bench.replies.empty());
+  bench.firmware.receive("XX");
+  CHECK(bench.replies.front() == "Error:Wrong checksum");
+}
+
+TEST_CASE("Repetier: a line or packet that has begun and does not go on is asked for again") {
+  Bench bench = repetier();
+  bench.send(1, "G90");
+  bench.replies.clear();
+  const std::string beginning = GENERATE("N2 G1", "\xce\x01");
+  bench.firmware.receive(beginning);
+  bench.firmware.advance(bench.firmware.now() + 0.19);
+  CHECK(bench.replies.empty());
+  bench.firmware.advance(bench.firmware.now() + 0.02);
+  CHECK(bench.replies == Replies{"", "Resend:2", "ok"});
+  CHECK(bench.send(2, "G91").back() == "ok 2");
+}
+
+TEST_CASE("Repetier: too long a line is asked for again, and its rest is a line of its own") {
+  Bench bench = repetier();
+  bench.send(1, "G90");
+  bench.replies.clear();
+  bench.firmware.receive("N2 M117 " + std::string(88, 'a'));
+  CHECK(bench.replies == Replies{"", "Resend:2", "ok"});
+  bench.replies.clear();
+  bench.firmware.receive("M105\n");
+  CHECK(bench.replies == Replies{"ok 1", "T:25.00 /0 B:25.00 /0"});
+  bench.replies.clear();
+  bench.firmware.receive("N2 M117 " + std::string(80, 'a') + "\n");
+  CHECK(bench.replies == Replies{"ok 2"});
+}
