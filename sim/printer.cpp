@@ -120,6 +120,8 @@ void Printer::strike(const Fault& fault) {
       return firmware_->run_out("M600 T0");
     case FaultKind::say:
       return say(fault.text);
+    case FaultKind::display:
+      return firmware_->enter(fault.text);
     case FaultKind::fatal:
       return firmware_->die(fault.text);
     case FaultKind::stopped:

@@ -46,6 +46,7 @@ std::unique_ptr<Command> make_queue();
 std::unique_ptr<Command> make_start();
 std::unique_ptr<Command> make_status();
 std::unique_ptr<Command> make_pause();
+std::unique_ptr<Command> make_answer();
 std::unique_ptr<Command> make_cancel();
 std::unique_ptr<Command> make_stop();
 std::unique_ptr<Command> make_set();

@@ -36,6 +36,12 @@ void show_print(const json& print) {
   }
   show(stdout, "{}{}{}\n", line, heater_text(print, "nozzle"), heater_text(print, "bed"));
   if (print.contains("mixture")) show(stdout, "mixture: {}\n", print["mixture"].get<std::string>());
+  if (print.contains("prompt")) {
+    show(stdout, "the printer asks: {}\n", print["prompt"].value("text", ""));
+    int number = 0;
+    for (const json& answer : print["prompt"].value("answers", json::array()))
+      show(stdout, "  unicursal answer {}: {}\n", number++, answer.get<std::string>());
+  }
   for (const json& warning : print.value("warnings", json::array()))
     show(stdout, "note: {}\n", warning.get<std::string>());
 }

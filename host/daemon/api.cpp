@@ -158,6 +158,7 @@ const Api::Route& Api::route_of(const RequestHead& head) {
       {"POST", "/api/print/start", &Api::start},
       {"POST", "/api/print/pause", &Api::pause},
       {"POST", "/api/print/resume", &Api::resume},
+      {"POST", "/api/print/answer", &Api::answer_prompt},
       {"POST", "/api/print/cancel", &Api::cancel},
       {"POST", "/api/print/stop", &Api::stop},
       {"POST", "/api/temperature", &Api::set_temperature},
@@ -300,6 +301,14 @@ asio::awaitable<Response> Api::resume(Request request) {
     obeyed(daemon_.session().resume());
   else
     daemon_.continue_interrupted(yes(body, "sure"));
+  co_return reply(daemon_.status(), 202);
+}
+
+asio::awaitable<Response> Api::answer_prompt(Request request) {
+  const auto button = whole_number(read_object(request, {"button"}), "button");
+  if (!button) throw HttpError(400, "button is missing");
+  constexpr std::uint64_t most = 1000;  // more than any question has
+  obeyed(daemon_.session().answer(std::min(*button, most)));
   co_return reply(daemon_.status(), 202);
 }
 

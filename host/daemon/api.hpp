@@ -44,6 +44,7 @@ class Api : public HttpHandler {
   asio::awaitable<Response> start(Request request);
   asio::awaitable<Response> pause(Request request);
   asio::awaitable<Response> resume(Request request);
+  asio::awaitable<Response> answer_prompt(Request request);
   asio::awaitable<Response> cancel(Request request);
   asio::awaitable<Response> stop(Request request);
   asio::awaitable<Response> set_temperature(Request request);

@@ -12,12 +12,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto patience = 10s;      ///< with a heater that is too cold or too hot
-constexpr auto long_fall = 6s;      ///< three reports
-constexpr auto long_off = 2s;       ///< two reports
+constexpr auto long_fall = 5s;      ///< six reports
+constexpr auto long_off = 2s;       ///< three reports
 constexpr double still_rising = 2;  ///< °C
 
 /// A nozzle whose heater is off loses 1 to 2 °C/s at first; a fan that has been switched on costs less.
-constexpr HeaterWatch::Rules nozzle_rules{15, 8, 0.8, 15};
+constexpr HeaterWatch::Rules nozzle_rules{15, 6, 0.8, 15};
 /// A bed has much more mass, and a part comes off before the bed is cold.
 constexpr HeaterWatch::Rules bed_rules{6, 4, 0.8, 15};
 
@@ -114,10 +114,18 @@ std::optional<HeatWatch::Trouble> HeatWatch::note(TimePoint at, const gcode::Tem
                         std::optional<double> target, double wanted) {
     if (!reading) return;
     const auto what = watch.note(at, *reading, target, wanted);
-    if (what && !trouble) trouble = Trouble{*what, sentence(name, *what, *reading, wanted)};
+    if (what && !trouble) trouble = Trouble{*what, sentence(name, *what, *reading, wanted), false};
   };
   look(nozzle_, "nozzle", reported.nozzle, reported.nozzle_target, nozzle);
   look(bed_, "bed", reported.bed, reported.bed_target, bed);
+  // A firmware that finds a fault of the bed stops itself, or switches the nozzle off as well.
+  const bool nozzle_on = !reported.nozzle_target || *reported.nozzle_target > 0;
+  if (trouble && trouble->what == HeatTrouble::off && nozzle_on) {
+    trouble->meant = true;
+    trouble->why =
+        "the bed was switched off at the printer, and the print goes on without its heat; `bed` with a "
+        "temperature heats it again";
+  }
   if (trouble) rest();
   return trouble;
 }

@@ -65,8 +65,9 @@ class HeaterWatch {
 class HeatWatch {
  public:
   struct Trouble {
-    HeatTrouble what;
-    std::string why;  ///< a sentence with the remedy
+    HeatTrouble what{};
+    std::string why;     ///< a sentence with the remedy
+    bool meant = false;  ///< a person may have done it at the printer: the print goes on
   };
 
   HeatWatch();

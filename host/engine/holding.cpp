@@ -36,6 +36,7 @@ asio::awaitable<void> Holding::between_batches() {
   co_await make_changes(false);
   while (parts_.intent.pausing()) {
     co_await hold();
+    co_await guard_again();
     co_await make_changes(false);
   }
 }
@@ -276,9 +277,30 @@ Refusal Holding::resume() {
   return std::nullopt;
 }
 
+Refusal Holding::answer(std::size_t button) {
+  HostPrompt& prompt = parts_.printer.prompt;
+  if (!prompt.shown()) return "the printer does not ask anything";
+  if (button >= prompt.buttons().size())
+    return fmt::format("{} is not one of its answers: {}", button, prompt.sentence());
+  parts_.announcer.notice(fmt::format("the printer was answered: {}", prompt.buttons()[button]));
+  prompt.answered();
+  parts_.link.answer_prompt(button);
+  return std::nullopt;
+}
+
+/// In a batch of its own, since the printer may be about to ask again.
+asio::awaitable<void> Holding::guard_again() {
+  if (!std::exchange(unguarded_, false)) co_return;
+  std::vector<std::string> lines(1, "M412 S1");
+  co_await parts_.places.interpose(std::move(lines));
+  parts_.announcer.notice("the printer's filament sensor is on again");
+}
+
 /// It answers the printer's question, if there is one.
 void Holding::let_printer_go_on() {
-  parts_.printer.prompt.answered();
+  HostPrompt& prompt = parts_.printer.prompt;
+  unguarded_ = unguarded_ || (prompt.shown() && prompt.going_on_is_unguarded());
+  prompt.answered();
   parts_.link.end_wait_for_user();
 }
 

@@ -67,6 +67,8 @@ class Holding {
   /// Returns when `need` has come or the print is to end. The nozzle is not left on the part for long. Throws
   /// LinkError.
   asio::awaitable<void> wait_for(const Need& need);
+  /// Switches the printer's filament sensor on again if a resume has switched it off. Throws LinkError.
+  asio::awaitable<void> guard_again();
   /// Times that the print was held.
   std::size_t pauses() const { return pauses_; }
 
@@ -74,6 +76,8 @@ class Holding {
 
   Refusal pause(const std::string& reason);
   Refusal resume();
+  /// Presses a button of the question that the printer asks, counted from 0.
+  Refusal answer(std::size_t button);
   /// A G-code line for the printer; while it heats, the printer reads it only afterwards.
   Refusal change(const std::string& line);
   /// The printer does not lay what it is sent, or is about to: the print is held and a person is called.
@@ -113,6 +117,7 @@ class Holding {
   bool waits_aside_ = false;                ///< the nozzle stands aside since something is missing
   std::vector<std::string> way_aside_;      ///< lines that have led the nozzle away in a pause, and back
   bool cooled_ = false;                     ///< the nozzle was cooled while the print was held
+  bool unguarded_ = false;                  ///< the printer's filament sensor was switched off
   bool waited_ = false;                     ///< in this pause the printer has said that it waits
   TimePoint wait_began_{};                  ///< when it said so first
   TimePoint waits_until_{};                 ///< until then it may still be in its own wait

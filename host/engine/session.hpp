@@ -62,6 +62,8 @@ class Session {
 
   Refusal pause(const std::string& reason = "the user has paused it");
   Refusal resume();
+  /// Presses a button of the question in status().prompt, counted from 0.
+  Refusal answer(std::size_t button);
   /// Parks and cools. While it heats, the heating ends at once.
   Refusal cancel(const std::string& reason = "the user has stopped it");
   /// Sends M112 past every queue, and pulses the board's reset line if the printer does not confirm. The

@@ -85,6 +85,10 @@ void Session::State::watch_heat() {
   if (announcer.state() != SessionState::printing || printer.may_wait_for_heat) return heat_watch.rest();
   const auto trouble =
       heat_watch.note(clock->now(), printer.temperatures, printer.expected.nozzle, printer.expected.bed);
+  if (trouble && trouble->meant) {
+    printer.expected.bed = 0;
+    return announcer.warn(trouble->why);
+  }
   if (trouble) holding.pause_for_fault(trouble->why, trouble->what == HeatTrouble::hot);
 }
 
@@ -157,7 +161,7 @@ asio::awaitable<StreamResult> Session::run() {
     error = std::current_exception();
   }
   if (state_->intent.aborted()) co_await state_->confirm_stop();
-  if (error && state_->intent.stopped() && state_->printer.may_wait_for_heat) {
+  if (error && state_->intent.stopped() && state_->link.cut_wait_short()) {
     // Nothing is laid while it heats, so a printer that has been stopped at once is stopped well.
     co_await state_->confirm_stop();
     state_->announcer.notice("the printer did not end its heating: it was " + state_->announcer.reason());
@@ -185,6 +189,10 @@ Refusal Session::pause(const std::string& reason) {
 
 Refusal Session::resume() {
   return state_->holding.resume();
+}
+
+Refusal Session::answer(std::size_t button) {
+  return state_->holding.answer(button);
 }
 
 Refusal Session::cancel(const std::string& reason) {

@@ -311,7 +311,7 @@ asio::awaitable<void> Session::State::finish() {
   if (settings.continuation && spool->extent().finished) {
     result.parked = true;
     co_await link.drain();
-    co_return co_await end_reports();
+    co_return co_await hand_back();
   }
   gcode::Chunk chunk;
   try {
@@ -331,14 +331,17 @@ asio::awaitable<void> Session::State::finish() {
   co_await send(chunk);
   co_await link.drain();
   places.record_progress();
-  co_await end_reports();
+  co_await hand_back();
 }
 
-/// The next program that opens the port may not expect temperatures that it has not asked for.
-asio::awaitable<void> Session::State::end_reports() {
-  if (settings.link.temperatures.count() == 0 || !link.identity().can("AUTOREPORT_TEMP")) co_return;
-  std::vector<std::string> lines(1, "M155 S0");
-  co_await places.interpose(std::move(lines));
+/// The printer is as it was: the next program that opens the port may not expect temperatures that it has not
+/// asked for.
+asio::awaitable<void> Session::State::hand_back() {
+  co_await holding.guard_again();
+  if (settings.link.temperatures.count() > 0 && link.identity().can("AUTOREPORT_TEMP")) {
+    std::vector<std::string> lines(1, "M155 S0");
+    co_await places.interpose(std::move(lines));
+  }
   co_await link.drain();
 }
 
@@ -364,7 +367,7 @@ asio::awaitable<void> Session::State::send_end(gcode::Chunk chunk) {
   result.parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
   co_await send(chunk);
   co_await link.drain();
-  co_await end_reports();
+  co_await hand_back();
 }
 
 asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
@@ -432,7 +435,7 @@ LookaheadOptions paced(LookaheadOptions options, const std::shared_ptr<Clock>& c
 LinkOptions link_options(const Profile& profile, const std::optional<std::filesystem::path>& log) {
   LinkOptions options;
   options.receive_buffer = profile.receive_buffer - 1;  // in a ring, one place always stays free
-  options.temperatures = std::chrono::seconds(2);
+  options.temperatures = std::chrono::seconds(1);
   if (log) options.log = std::make_shared<SerialLog>(*log);
   return options;
 }

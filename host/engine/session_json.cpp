@@ -50,6 +50,7 @@ json to_json(const SessionStatus& s) {
   add(status, "queue_fill", s.queue);
   if (!s.mixture.empty()) status["mixture"] = s.mixture;
   if (!s.reason.empty()) status["reason"] = s.reason;
+  if (s.prompt) status["prompt"] = {{"text", s.prompt->text}, {"answers", s.prompt->answers}};
   return status;
 }
 

@@ -69,6 +69,7 @@ SessionStatus Session::State::status() const {
   status.elapsed = seconds(clock->now() - began);
   status.temperatures = printer.temperatures;
   status.mixture = printer.mixture;
+  if (printer.prompt.shown()) status.prompt = {printer.prompt.text(), printer.prompt.buttons()};
   const Waiting waiting = source.waiting();
   status.lookahead = waiting.seconds;
   status.lookahead_layers = waiting.layers;

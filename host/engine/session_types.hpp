@@ -119,6 +119,12 @@ struct SessionStatus {
   std::optional<double> queue;       ///< fill of the printer's queue of moves, 0…1; absent if not reported
   double speed_percent = 100, flow_percent = 100;
   std::vector<std::string> warnings;  ///< one sentence each
+  /// What the printer asks a person, and the answers to choose from; made safe to show.
+  struct Prompt {
+    std::string text;
+    std::vector<std::string> answers;
+  };
+  std::optional<Prompt> prompt;  ///< absent unless it waits for an answer
 };
 
 struct SessionEvent {

@@ -256,6 +256,7 @@ asio::awaitable<void> LinkState::limit_wait([[maybe_unused]] std::shared_ptr<Lin
   while (!failure && ledger.slow_in_flight()) {
     if (!co_await signal.wait(TimePoint::max(), waiting) || failure || !waits()) co_return;
     if (co_await signal.wait(now() + cooling_patience, over)) continue;
+    cut_wait_short = true;
     fail(
         "the printer does not end its wait, since its firmware reads nothing meanwhile; it was stopped at "
         "once");

@@ -7,6 +7,7 @@
 //   //action:prompt_button Continue         (answered by M876 S1)
 //   //action:prompt_show
 //
+// A prompt that can only be dismissed ("Resuming") is not a question. Texts are made safe to show.
 // "prompt_choice" instead of "prompt_button" is OctoPrint's older word. No I/O.
 #pragma once
 
@@ -35,6 +36,8 @@ class HostPrompt {
   const std::vector<std::string>& buttons() const { return buttons_; }
   /// The button that lets the print go on; absent if none is known to.
   std::optional<std::size_t> going_on() const;
+  /// Whether that button also switches the printer's filament sensor off (Marlin's "DisableRunout").
+  bool going_on_is_unguarded() const;
   /// The question with its answers, a sentence.
   std::string sentence() const;
 

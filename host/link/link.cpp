@@ -91,6 +91,14 @@ void Link::end_wait_for_user() noexcept {
   state_->end_wait_for_user();
 }
 
+void Link::answer_prompt(std::size_t button) noexcept {
+  state_->answer_prompt(button);
+}
+
+bool Link::cut_wait_short() const {
+  return state_->cut_wait_short;
+}
+
 void Link::emergency_stop() noexcept {
   state_->emergency_stop();
 }

@@ -86,8 +86,13 @@ class Link {
   void cool_down() noexcept;
   /// Whether the printer reports that it waits for a person. It executes nothing meanwhile.
   bool waits_for_user() const;
-  /// Out of band: ends that wait (M108).
+  /// Out of band: ends that wait, by M108, or by the button that lets the printer go on. No effect unless it
+  /// waits.
   void end_wait_for_user() noexcept;
+  /// Out of band: presses a button of the question that the printer asks, counted from 0 (M876 S).
+  void answer_prompt(std::size_t button) noexcept;
+  /// Whether the link has stopped the printer at once after cool_down(), since it did not end its heating.
+  bool cut_wait_short() const;
   /// Out of band, at once: M112 ahead of every queue. Best effort; every later send() and drain() throws.
   void emergency_stop() noexcept;
 

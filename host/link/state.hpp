@@ -69,6 +69,8 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   void wait_for_port();
   void cool_down() noexcept;
   void end_wait_for_user() noexcept;
+  void answer_prompt(std::size_t button) noexcept;
+  void write_past_queue(const std::string& line);
   void emergency_stop() noexcept;
   void close();
 
@@ -190,6 +192,7 @@ struct LinkState : std::enable_shared_from_this<LinkState> {
   std::uint64_t oks = 0, refusals = 0, lines_heard = 0, waits_heard = 0, places_heard = 0;
   bool about_heat = false;      ///< Whether the line that is being handled reports a temperature.
   bool heard_busy = false;      ///< Whether it has ever reported that it is busy.
+  bool cut_wait_short = false;  ///< The printer did not end its heating and was stopped.
   bool waits_for_user = false;  ///< According to the printer's last message.
   HostPrompt prompt;            ///< What it asks a person.
   TimePoint last_ok = now();

@@ -108,18 +108,32 @@ void LinkState::cool_down() noexcept {
   }
 }
 
+/// The ok of this line looks like that of a numbered line; therefore `doubt` makes drain() probe at the end.
+void LinkState::write_past_queue(const std::string& line) {
+  waits_for_user = false;
+  doubt = out_of_band = true;
+  prompt.answered();
+  write(line + "\n");
+  signal.notify();
+}
+
 void LinkState::end_wait_for_user() noexcept {
   try {
     if (failure || phase == Phase::greeting || !waits_for_user) return;
-    waits_for_user = false;
-    doubt = out_of_band = true;
     // M108 does not end the wait for a choice.
     const auto button = prompt.shown() ? prompt.going_on() : std::nullopt;
-    prompt.answered();
-    write(button ? "M876 S" + std::to_string(*button) + "\n" : "M108\n");
-    signal.notify();
+    write_past_queue(button ? "M876 S" + std::to_string(*button) : "M108");
   } catch (...) {
     // The printer's own button can still end it.
+  }
+}
+
+void LinkState::answer_prompt(std::size_t button) noexcept {
+  try {
+    if (failure || phase == Phase::greeting) return;
+    write_past_queue("M876 S" + std::to_string(button));
+  } catch (...) {
+    // The printer's own button can still answer.
   }
 }
 

@@ -71,6 +71,7 @@ constexpr std::array kinds{
     KindFacts{K::filament_change, "filamentchange", Value::none,
               "a feeder runs out of filament; the printer parks and waits for a person"},
     KindFacts{K::say, "say", Value::text, "the printer says TEXT"},
+    KindFacts{K::display, "display", Value::text, "a person gives the command TEXT at the printer's display"},
     KindFacts{K::fatal, "fatal", Value::text, "the firmware stops itself with the error TEXT"},
     KindFacts{K::stopped, "stopped", Value::none,
               "the firmware acknowledges moves and does none of them until M999"},

@@ -61,6 +61,7 @@ enum class FaultKind {
   runout,
   filament_change,
   say,
+  display,
   fatal,
   stopped,
   silent_work,

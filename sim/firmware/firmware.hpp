@@ -104,6 +104,8 @@ class Firmware {
   void stall(double seconds) { stalled_until_ = now_ + seconds; }
   /// Stops for good, with `reason` as an error message.
   virtual void die(const std::string& reason);
+  /// A command is given at its display, or by itself: it comes next, and nobody waits for its ok.
+  void enter(std::string command);
   /// From now on it takes so long to boot, s.
   void set_boot_seconds(double seconds) { personality_.boot_seconds = seconds; }
   /// From now on a command of this word ("G29") takes `seconds` longer. Meanwhile the firmware reports probed

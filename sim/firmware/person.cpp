@@ -90,8 +90,12 @@ void Firmware::run_out(std::string script) {
   say("//action:out_of_filament T0");
   say("//action:paused filament_runout 0");
   show_prompt("FilamentRunout T0", {"Continue"});
+  enter(std::move(script));
+}
+
+void Firmware::enter(std::string command) {
   const auto behind_running = queue_.begin() + (running_ ? 1 : 0);
-  queue_.insert(behind_running, Line{std::nullopt, std::move(script), true});
+  queue_.insert(behind_running, Line{std::nullopt, std::move(command), true});
   settle();
 }
 

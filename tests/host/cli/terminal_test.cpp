@@ -110,6 +110,26 @@ TEST_CASE("a print is paused, changed, resumed and stopped from its terminal") {
   CHECK(lines.rfind("M104 S0") > lines.rfind("G1 X"));
 }
 
+TEST_CASE("a question of the printer is answered from the terminal") {
+  const test::TempFolder folder;
+  folder.write("bench.toml", test::sample_profile + std::string("\n[gcode]\nstart = \"M0\"\n"));
+  folder.write("plate.svg", test::sample_drawing);
+  folder.write("job.toml", test::sample_job);
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  Child printer({"simulate", "--profile", path("bench.toml"), "--link", path("port"), "--speed", "100",
+                 "--personality", "marlin-host"});
+  test::await([&] { return std::filesystem::exists(folder / "port"); }, printer);
+  Terminal terminal({"print", path("job.toml"), "--port", path("port"), "--spool", path("spool")});
+  terminal.await("the printer asks \"M0 Stop\": answer 0 (Continue)");
+  terminal.type("answer 1.5\n");
+  terminal.await("an answer is a number from 0 to 9");
+  terminal.type("answer 7\n");
+  terminal.await("7 is not one of its answers");
+  terminal.type("answer 0\n");
+  terminal.await("printing layer 1");
+  CHECK(terminal.wait() == 0);
+}
+
 TEST_CASE("a print goes on to its end while its terminal is halted with Ctrl-S") {
   const test::TempFolder folder;
   folder.write("bench.toml", test::sample_profile);

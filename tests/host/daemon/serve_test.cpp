@@ -107,6 +107,36 @@ TEST_CASE("a print is paused and steered by the daemon's commands") {
   CHECK(last(lines, "M140 S0") > last(lines, "M140 S57"));
 }
 
+TEST_CASE("a question of the daemon's printer is shown in its status, and answered by command and by API") {
+  DaemonBench bench;
+  bench.start_printer("100", {"--personality", "marlin-host", "--fault", "filamentchange@line=300"});
+  bench.serve();
+  CHECK(bench.command({"answer", "0"}).err.find("nothing is being printed") != std::string::npos);
+  const int id = add(bench, "0:0");
+  REQUIRE(bench.command({"start"}).code == 0);
+  const auto asks = [&](const std::string& text) {
+    await(
+        [&] {
+          const nlohmann::json print =
+              bench.ask("GET", "/api/status").value("print", nlohmann::json::object());
+          return print.contains("prompt") && print["prompt"]["text"] == text && print["state"] == "paused";
+        },
+        bench.daemon());
+  };
+  asks("Nozzle Parked");
+  CHECK(bench.command({"status"}).out.find("  unicursal answer 0: Continue\n") != std::string::npos);
+  CHECK(bench.command({"answer", "ten"}).code == 2);
+  CHECK(bench.command({"answer", "9"}).err.find("is not one of its answers") != std::string::npos);
+  CHECK(bench.status(bench.request("POST", "/api/print/answer", "{}")) == 400);
+  CHECK(bench.status(bench.request("POST", "/api/print/answer", "{\"button\": -1}")) == 400);
+  CHECK(bench.status(bench.request("POST", "/api/print/answer", "{\"button\": 4294967296}")) == 409);
+  REQUIRE(bench.command({"answer", "0"}).code == 0);
+  asks("Paused");
+  CHECK(bench.status(bench.request("POST", "/api/print/answer", "{\"button\": 1}")) == 202);
+  bench.await_job(id, "done");
+  CHECK(bench.status(bench.request("POST", "/api/print/answer", "{\"button\": 1}")) == 409);
+}
+
 TEST_CASE("clients come and go without disturbing the print") {
   DaemonBench bench;
   bench.start_printer("100");

@@ -55,7 +55,7 @@ Watched print_with(const std::string& firmware, const std::vector<std::string>& 
   std::vector<std::string> options{"--personality", firmware};
   for (const std::string& fault : faults) options.insert(options.end(), {"--fault", fault + "@t=180"});
   SessionBench bench(options, "", tall(firmware));
-  bench.settings.link.temperatures = std::chrono::seconds(2);
+  bench.settings.link.temperatures = std::chrono::seconds(1);
   Watched seen;
   seen.result = bench.print([&](Session& session, const SessionEvent& event) {
     const SessionStatus status = session.status();
@@ -118,7 +118,7 @@ TEST_CASE(
     if (!noticed) CHECK_FALSE(session.cancel());
   });
   CHECK(seen.paused_after > 0);
-  CHECK(seen.paused_after <= 15);
+  CHECK(seen.paused_after <= 10);
   CHECK(seen.why.find("nozzle has fallen to") != std::string::npos);
   CHECK(seen.result.ending == (noticed ? Ending::failed : Ending::stopped));
   CHECK((seen.killed || seen.cold));
@@ -141,4 +141,49 @@ TEST_CASE("A nozzle that cannot be switched off holds the print, and the firmwar
   const Watched unnoticed = print_with("marlin", {"runaway", "unguarded"}, [](Session& s) { s.cancel(); });
   CHECK(unnoticed.why.find("becomes hotter") != std::string::npos);
   CHECK(unnoticed.result.ending == Ending::stopped);
+}
+
+TEST_CASE(
+    "A bed that is switched off at the printer's display is mentioned, and the print goes on without it") {
+  const auto at = [](double t) { return TimePoint(duration(t)); };
+  HeatWatch watch;
+  unicursal::gcode::Temperatures now;
+  now.nozzle = now.nozzle_target = 210, now.bed = now.bed_target = 60;
+  CHECK_FALSE(watch.note(at(0), now, 210, 60));
+  now.bed_target = 0;
+  CHECK_FALSE(watch.note(at(2), now, 210, 60));
+  const auto trouble = watch.note(at(4), now, 210, 60);
+  REQUIRE(trouble);
+  CHECK(trouble->meant);
+  for (double t = 6; t < 100; t += 2) {
+    now.bed = 60 - t / 2;
+    CHECK_FALSE(watch.note(at(t), now, 210, 0));
+  }
+  // A firmware that switches both off has a reason.
+  HeatWatch other;
+  now.nozzle = now.nozzle_target = 210, now.bed = now.bed_target = 60;
+  CHECK_FALSE(other.note(at(0), now, 210, 60));
+  now.nozzle_target = now.bed_target = 0;
+  CHECK_FALSE(other.note(at(2), now, 210, 60));
+  REQUIRE(other.note(at(4), now, 210, 60));
+  CHECK_FALSE(HeatWatch().note(at(4), now, 210, 60));
+  HeatWatch third;
+  now.nozzle_target = 210, now.bed_target = 60;
+  third.note(at(0), now, 210, 60);
+  now.nozzle_target = now.bed_target = 0;
+  third.note(at(2), now, 210, 60);
+  CHECK_FALSE(third.note(at(4), now, 210, 60)->meant);
+}
+
+TEST_CASE("A print whose bed is switched off at the display is completed with a warning, without its heat") {
+  SessionBench bench({"--fault", "display:M140 S0@t=180"}, "", tall("marlin"));
+  bench.settings.link.temperatures = std::chrono::seconds(2);
+  const StreamResult result = bench.print();
+  CHECK(result.ending == Ending::completed);
+  CHECK(result.pauses == 0);
+  const auto& warnings = bench.last().warnings;
+  const auto mentions = [](const std::string& one) {
+    return one.find("switched off at the printer") != std::string::npos;
+  };
+  CHECK(std::count_if(warnings.begin(), warnings.end(), mentions) == 1);
 }

@@ -579,3 +579,16 @@ TEST_CASE("A stop while a firmware without emergency parser heats ends within a 
   CHECK(result.ending == Ending::stopped);
   CHECK(bench.last().elapsed - asked < 60);
 }
+
+TEST_CASE("A cable that is pulled during a stop is reported, since nobody knows whether the printer cools") {
+  SessionBench bench({"--personality", "marlin-8bit", "--fault", "disconnect@t=20"});
+  bool stopped = false;
+  const StreamResult result = bench.print([&](Session& session, const SessionEvent&) {
+    const SessionStatus status = session.status();
+    if (status.state != SessionState::heating || status.elapsed < 10 || std::exchange(stopped, true)) return;
+    CHECK_FALSE(session.cancel());
+  });
+  CHECK(stopped);
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.reason.find("connection to the printer was lost") != std::string::npos);
+}
