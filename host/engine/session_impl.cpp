@@ -26,6 +26,12 @@ constexpr std::size_t batch = 16;
 
 constexpr auto late_answer = std::chrono::seconds(1);  ///< after the ok, of a printer that answers later
 
+// A nozzle at the end of a print, °C.
+constexpr double harmless = 60;
+constexpr double cooler = 3;   ///< than at the end: its heater is off
+constexpr double hotter = 15;  ///< than at the end: its heater is on
+constexpr auto cooling_patience = std::chrono::seconds(60);
+
 constexpr auto fell_behind =
     "planning has fallen behind; the print continues by itself when the next layer is planned";
 
@@ -334,10 +340,30 @@ asio::awaitable<void> Session::State::finish() {
   co_await hand_back();
 }
 
+/// Nobody looks at a printer whose print is done, so a heater that is stuck on must show before. It takes
+/// some seconds.
+asio::awaitable<void> Session::State::see_it_cool() {
+  const std::optional<double>& nozzle = printer.temperatures.nozzle;
+  if (settings.link.temperatures.count() == 0 || !nozzle || *nozzle < harmless || printer.expected.nozzle > 0)
+    co_return;
+  const double hot = *nozzle;
+  const std::function<bool()> clear = [&] { return *nozzle <= hot - cooler || *nozzle >= hot + hotter; };
+  if (!co_await wake.wait(clock->now() + cooling_patience, clear))
+    announcer.warn(
+        fmt::format("the nozzle is still at {:.0f} °C, although its heater is off: look after it", *nozzle));
+  if (*nozzle < hot + hotter) co_return;
+  throw LinkError(fmt::format(
+      "the nozzle is at {:.0f} °C and becomes hotter, although its heater was switched off: switch the "
+      "printer off by its own switch",
+      *nozzle));
+}
+
 /// The printer is as it was: the next program that opens the port may not expect temperatures that it has not
 /// asked for.
 asio::awaitable<void> Session::State::hand_back() {
   co_await holding.guard_again();
+  co_await link.drain();
+  co_await see_it_cool();
   if (settings.link.temperatures.count() > 0 && link.identity().can("AUTOREPORT_TEMP")) {
     std::vector<std::string> lines(1, "M155 S0");
     co_await places.interpose(std::move(lines));

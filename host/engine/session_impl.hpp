@@ -57,6 +57,7 @@ struct Session::State {
   asio::awaitable<void> wait_until(TimePoint ready);
   asio::awaitable<void> finish();
   asio::awaitable<void> park();
+  asio::awaitable<void> see_it_cool();
   asio::awaitable<void> hand_back();
   [[noreturn]] void refuse(const std::string& why);
   asio::awaitable<void> send_end(gcode::Chunk chunk);

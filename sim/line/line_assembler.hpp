@@ -3,7 +3,7 @@
 // the first 95 characters are kept, and the rest of a longer line is dropped, its checksum included.
 //
 // Repetier's differs in two points: `(` starts a comment as well, and a line of 96 characters without an end
-// is thrown away, whereupon what follows is a line of its own (Repetier-Firmware 1.0.4, gcode.cpp).
+// is thrown away, whereupon what follows is a line of its own (Repetier-Firmware 1.0.4, class GCode).
 #pragma once
 
 #include <cstddef>

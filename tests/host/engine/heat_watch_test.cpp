@@ -140,7 +140,8 @@ TEST_CASE("A nozzle that cannot be switched off holds the print, and the firmwar
   CHECK(noticed.result.reason.find("MAXTEMP") != std::string::npos);
   const Watched unnoticed = print_with("marlin", {"runaway", "unguarded"}, [](Session& s) { s.cancel(); });
   CHECK(unnoticed.why.find("becomes hotter") != std::string::npos);
-  CHECK(unnoticed.result.ending == Ending::stopped);
+  CHECK(unnoticed.result.ending == Ending::failed);
+  CHECK(unnoticed.result.reason.find("although its heater was switched off") != std::string::npos);
 }
 
 TEST_CASE(
@@ -186,4 +187,18 @@ TEST_CASE("A print whose bed is switched off at the display is completed with a 
     return one.find("switched off at the printer") != std::string::npos;
   };
   CHECK(std::count_if(warnings.begin(), warnings.end(), mentions) == 1);
+}
+
+TEST_CASE("A heater that sticks when it is switched off fails the print, also if the part is done") {
+  const std::string firmware = GENERATE("marlin", "repetier", "repetier-0.92");
+  // At this line the last layer is laid; the firmware does not look at a heater that is off.
+  SampleFiles sample;
+  if (firmware != "marlin") sample.profile = replaced(sample.profile, "\"marlin\"", "\"repetier\"");
+  SessionBench bench(
+      {"--personality", firmware, "--fault", "runaway@command=M107", "--fault", "unguarded@t=1"}, "", sample);
+  bench.settings.link.temperatures = std::chrono::seconds(1);
+  const StreamResult result = bench.print();
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.reason.find("although its heater was switched off") != std::string::npos);
+  CHECK(result.parked);
 }
