@@ -289,6 +289,10 @@ std::optional<RegionCurve> fill_with_perimeters(const FillableRegion& part,
                                                 IslandWork& work) {
   RegionCurve sum;
   const FillFunction fill = [&](const FillableRegion& region) -> std::optional<Curve> {
+    const FillThick none = [](const FillableRegion&) -> std::optional<RegionCurve> { return std::nullopt; };
+    if (std::optional<RegionCurve> thin = fill_thin(region.region, work, none)) {
+      if (thin->one_way.empty()) return std::move(thin->curve);
+    }
     std::optional<RegionCurve> filled = faired_curve(region, work);
     if (!filled || !filled->faired) return std::nullopt;
     add_figures(sum, *filled);

@@ -12,7 +12,9 @@ namespace unicursal::core {
 namespace {
 
 // In bead widths.
-constexpr double thin_width = 3.6;   ///< a place up to this wide gets one, two or four strands
+constexpr double thin_width = 3.6;  ///< a place up to this wide gets one, two or four strands
+// With two contours or more, four strands are just these, and between them is no room for others.
+constexpr double thin_width_of_contours = 4.85;
 constexpr double most_single = 1.5;  ///< a ring up to this wide gets a single strand
 
 StrandWidths strand_widths(const PlanOptions& options) {
@@ -29,7 +31,7 @@ std::optional<RegionCurve> fill_thin(const Polygon& region, IslandWork& work, co
   ThinPlaces places;
   {
     const Stopwatch watch(work.plan.graph);
-    places = thin_places(region, w, thin_width * w);
+    places = thin_places(region, w, (work.options.perimeters < 2 ? thin_width : thin_width_of_contours) * w);
   }
   if (places.thin.empty()) return std::nullopt;
   RegionCurve whole;

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/geometry/border_index.hpp"
+#include "core/geometry/region.hpp"
 #include "core/geometry/segment.hpp"
 #include "core/stopping.hpp"
 
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double most_grid = 1e6;           ///< grid steps per mm, that of region.hpp, for parts below 1 m
 constexpr double most_steps = 1e9;          ///< of the grid along an axis: Boost.Polygon works on 32 bits
+constexpr double inset = 2e-3;              ///< steps; how far inside the border the diagram is built
 constexpr std::size_t most_pieces = 10000;  ///< of one edge of the diagram
 
 using Point = boost::polygon::point_data<std::int32_t>;
@@ -148,7 +151,18 @@ class AxisBuilder {
 }  // namespace
 
 MedialAxis medial_axis(const Polygon& polygon, double step) {
-  return AxisBuilder(polygon, step).build();
+  // Rings may touch in points, which the diagram does not allow; a little inside the border they do not.
+  const double aside = inset * step;
+  MedialAxis all;
+  for (const Polygon& piece : offset({polygon}, -aside, aside / 10)) {
+    const std::size_t first = all.size();
+    for (AxisNode& node : AxisBuilder(piece, step).build()) {
+      node.radius += aside;
+      for (std::size_t& next : node.next) next += first;
+      all.push_back(std::move(node));
+    }
+  }
+  return all;
 }
 
 }  // namespace unicursal::core

@@ -22,6 +22,9 @@ constexpr double most_of_two = 1.2;  ///< half the width of a place that two str
 constexpr double shortest_four = 3.5;  ///< length of a place of four strands
 constexpr double shortest_inner = 2;   ///< length of what is left of it between cuts
 constexpr double apart = 0.02;         ///< distance of two strands on an axis from it
+constexpr double growth = 0.003;       ///< by which the whole is grown and shrunk again
+constexpr double growth_tolerance = 0.0005;
+constexpr double speck = 1e-3;         ///< a smaller piece of the whole is left out
 constexpr double pocket = 0.4;         ///< a smaller hole of the whole is filled
 constexpr double bend = 0.002;         ///< by which simplification may move the curve
 constexpr double longest_side = 0.75;  ///< of the curve in thin places
@@ -269,8 +272,9 @@ class Strands {
       for (std::size_t k = 1; k + 1 < way.size(); ++k) {
         if (is_corner(way[k])) add_cap(way[k]);
       }
-      if (axis_.degree(first) > 2 && ring_[first] == 0) add_cap(first);
-      if (axis_.degree(last) > 2 && ring_[last] == 0) add_cap(last);
+      for (const std::size_t n : {first, last}) {
+        if (axis_.degree(n) > 1 && ring_[n] == 0 && is_corner(n)) add_cap(n);
+      }
       return;
     }
     // It would close a ring: two bands end at a place far from its corners.
@@ -394,17 +398,20 @@ class Strands {
     if (added_.empty()) return std::nullopt;
     Region sum = enclosed(added_, FillRule::non_zero);
     if (!removed_.empty()) sum = subtract(sum, enclosed(removed_, FillRule::non_zero));
-    std::erase_if(sum, [&](const Polygon& piece) { return area(piece) < 1e-4 * w_ * w_; });
-    if (sum.size() != 1) return std::nullopt;
-    for (const Ring& hole : sum.front().holes) {
-      if (-signed_area(hole) > pocket * w_ * w_) return std::nullopt;
-    }
-    std::vector<Curve> loops{cleaned(sum.front().outer)};
-    if (!inner_.empty()) {
-      for (const Polygon& piece : enclosed(inner_, FillRule::non_zero)) {
-        if (!piece.holes.empty()) return std::nullopt;
-        loops.push_back(cleaned(piece.outer));
+    // Where the border meets itself in a point, a little growth makes it pass.
+    sum = offset(offset(sum, growth * w_, growth_tolerance * w_), -growth * w_, growth_tolerance * w_);
+    std::erase_if(sum, [&](const Polygon& piece) { return area(piece) < speck * w_ * w_; });
+    // One ring, if no band was missing and none closed a ring in spite of the cuts, as caps may do.
+    std::vector<Curve> loops;
+    const auto add_loops = [&](const Polygon& piece) {
+      loops.push_back(cleaned(piece.outer));
+      for (const Ring& hole : piece.holes) {
+        if (-signed_area(hole) > pocket * w_ * w_) loops.push_back(cleaned(hole));
       }
+    };
+    for (const Polygon& piece : sum) add_loops(piece);
+    if (!inner_.empty()) {
+      for (const Polygon& piece : enclosed(inner_, FillRule::non_zero)) add_loops(piece);
     }
     std::optional<Curve> whole = joined(std::move(loops), region_, w_);
     if (!whole) return std::nullopt;

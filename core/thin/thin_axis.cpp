@@ -12,8 +12,9 @@ namespace unicursal::core {
 namespace {
 
 // In bead widths.
-constexpr double step = 0.25;      ///< between the nodes of the axis
-constexpr double rounding = 0.02;  ///< by which a place may be narrower than the least width
+constexpr double step = 0.25;        ///< between the nodes of the axis
+constexpr double rounding = 0.02;    ///< by which a place may be narrower than the least width
+constexpr double least_waist = 0.1;  ///< least radius anywhere
 constexpr double least_reach =
     0.3;  ///< a branch that reaches less far out of the disc at its foot is left out
 // As a share of that disc's radius: 0.41 in a right angle, 0.56 in one of 80°.
@@ -101,11 +102,23 @@ ThinAxis thin_axis(const Polygon& region, const Region& thin, double bead_width,
     }
   }
   prune(axis, w);
+  // Dead ends are shortened to where a bead fits. A waist that is a little too narrow keeps its strand, so
+  // that the curve passes.
   for (std::size_t k = 0; k < n; ++k) {
-    if (2 * whole[k].radius >= least_width - rounding * w) continue;
+    if (axis.nodes[k].radius >= least_waist * w) continue;
     const std::vector<std::size_t> neighbours = axis.nodes[k].next;
     for (const std::size_t other : neighbours) disconnect(axis.nodes, k, other);
     axis.used[k] = axis.mouth[k] = 0;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t end = k; axis.used[end] && !axis.mouth[end] && axis.degree(end) <= 1 &&
+                              2 * axis.nodes[end].radius < least_width - rounding * w;) {
+      axis.used[end] = 0;
+      if (axis.nodes[end].next.empty()) break;
+      const std::size_t next = axis.nodes[end].next.front();
+      disconnect(axis.nodes, end, next);
+      end = next;
+    }
   }
   return axis;
 }

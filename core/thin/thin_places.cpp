@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/geometry/segment.hpp"
@@ -10,13 +11,14 @@
 namespace unicursal::core {
 namespace {
 
-// In bead widths, or their squares.
+// A smaller thick piece, in areas of the disc that just fits into a thin place, belongs to its neighbours.
+constexpr double least_thick = 1.4;
+// In bead widths.
 constexpr double arc_tolerance = 0.005;  ///< of rounded offsets
 constexpr double hair = 0.02;            ///< half the width of differences that are rounding
 constexpr double depth_step = 0.5;       ///< between the points of its border that are looked at
 constexpr double least_depth = 1.0;  ///< a thin place that reaches less far out of a thick one is a corner
-constexpr double least_thick = 14;   ///< area of a smaller thick piece, which belongs to its neighbours …
-constexpr double thick_reach = 0.5;  ///< … if no disc larger by this fits
+constexpr double thick_reach = 0.5;  ///< by how much a larger disc must fit into a small thick piece
 
 /// The part of a region that a disc reaches, without the hairs along edges that rounding leaves.
 Region disc_reach(const Region& region, double radius, double w) {
@@ -52,8 +54,9 @@ ThinPlaces thin_places(const Polygon& region, double bead_width, double width) {
   places.thick =
       disc_reach(subtract({region}, offset(places.thin, hair * w, arc_tolerance * w)), hair * w, w);
   const std::size_t all = places.thick.size();
+  const double disc = std::numbers::pi / 4 * width * width;
   std::erase_if(places.thick, [&](const Polygon& piece) {
-    return area(piece) < least_thick * w * w &&
+    return area(piece) < least_thick * disc &&
            offset({piece}, -width / 2 - thick_reach * w, arc_tolerance * w).empty();
   });
   if (places.thick.size() < all) {

