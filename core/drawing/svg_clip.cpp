@@ -114,9 +114,9 @@ Region Scene::mask_region(const pugi::xml_node& mask, const pugi::xml_node& node
   const Vec2 corner(side("x", whole.x(), -0.1), side("y", whole.y(), -0.1));
   const Vec2 size(side("width", whole.x(), 1.2), side("height", whole.y(), 1.2));
   if (!(size.minCoeff() > 0)) return {};
-  Ring frame{corner, corner + Vec2(size.x(), 0), corner + size, corner + Vec2(0, size.y())};
   const Eigen::Affine2d& to_part = entered.context.to_part;
-  for (Vec2& p : frame) p = to_part * (frame_shares ? shares_of(box) * p : p);
+  const Eigen::Affine2d frame_map = frame_shares ? to_part * shares_of(box) : to_part;
+  const Region frame = mapped_box(frame_map, {corner, corner + size});
   inner.context.to_part = to_part;
   if (by_box(mask, "maskContentUnits", false)) inner.context.to_part = to_part * shares_of(box);
   if (inner.context.to_part.linear().determinant() == 0) return {};
@@ -140,7 +140,7 @@ Region Scene::mask_region(const pugi::xml_node& mask, const pugi::xml_node& node
       region = subtract(region, piece.region);
     }
   }
-  region = intersect(region, enclosed({frame}, FillRule::non_zero));
+  region = intersect(region, frame);
   if (soft) notes_.add(Finding::soft_mask, document_.where(node));
   if (!inner.style.mask.empty()) {
     Entered same = entered;

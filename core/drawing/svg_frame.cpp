@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/drawing/outline.hpp"
+#include "core/geometry/clip.hpp"
 #include "core/text/malformed.hpp"
 #include "core/text/number_scanner.hpp"
 
@@ -94,6 +96,19 @@ Eigen::Affine2d fitted(const Box& view, const Vec2& size, std::string_view prese
   const Vec2 free = size - scale.cwiseProduct(view.size());
   const Vec2 corner = how.uniform ? Vec2(free.cwiseProduct(how.share)) : Vec2(0, 0);
   return Eigen::Translation2d(corner) * Eigen::Scaling(scale) * Eigen::Translation2d(-view.min);
+}
+
+Region mapped_box(const Eigen::Affine2d& map, const Box& box) {
+  Ring ring{box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}};
+  for (Vec2& p : ring) {
+    p = map * p;
+    if (!p.allFinite()) throw Malformed("it lies too far away");
+  }
+  ring = clipped(ring, Side::right, -farthest_coordinate);
+  ring = clipped(ring, Side::left, farthest_coordinate);
+  ring = clipped(ring, Side::above, -farthest_coordinate);
+  ring = clipped(ring, Side::below, farthest_coordinate);
+  return ring.size() < 3 ? Region{} : enclosed({ring}, FillRule::non_zero);
 }
 
 Page page(const PageAttributes& attributes, Warnings& warnings) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/geometry/polygon.hpp"
+#include "core/geometry/region.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {
@@ -34,6 +35,10 @@ std::optional<Box> view_box(std::string_view text);
 
 /// Maps `view` into a viewport of the size `size` with its corner in the origin, by preserveAspectRatio.
 Eigen::Affine2d fitted(const Box& view, const Vec2& size, std::string_view preserve_aspect_ratio);
+
+/// A box as an area of the part's frame. What lies farther than 100 m away is left out. Throws Malformed if
+/// the map overflows.
+Region mapped_box(const Eigen::Affine2d& map, const Box& box);
 
 /// The attributes of the root element that place the drawing; empty where absent.
 struct PageAttributes {

@@ -340,12 +340,7 @@ void Scene::marker(const pugi::xml_node& marker, const Entered& entered, const V
   inner.context.depth = entered.context.depth + 1;
   if (inner.context.to_part.linear().determinant() == 0) return;
   if (!inner.style.overflow_visible) {
-    Ring ring{seen_box.min,
-              {seen_box.max.x(), seen_box.min.y()},
-              seen_box.max,
-              {seen_box.min.x(), seen_box.max.y()}};
-    for (Vec2& p : ring) p = inner.context.to_part * p;
-    narrow(inner.context, enclosed({ring}, FillRule::non_zero));
+    narrow(inner.context, mapped_box(inner.context.to_part, seen_box));
   }
   const Opened opened(open_, marker);
   children(marker, inner.context);

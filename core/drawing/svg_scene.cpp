@@ -95,12 +95,9 @@ void Scene::walk(const Page& page, const Eigen::Matrix2d& turn) {
   root_font_size_ = entered->style.font.size;
   context.names = nullptr;  // the page's own name would match everything
   if (page.known && !entered->style.overflow_visible) {
-    const Vec2 &p = page.paper, origin(0, 0);
-    Ring ring{origin, {p.x(), 0}, p, {0, p.y()}};
-    for (Vec2& corner : ring) corner = turn * corner;
-    narrow(context, enclosed({ring}, FillRule::non_zero));
+    narrow(context, mapped_box(Eigen::Affine2d(turn), {{0, 0}, page.paper}));
     page_clip_ = context.clip;
-    around_page_ = bounds(ring);
+    if (!page_clip_->empty()) around_page_ = bounds(*page_clip_);
     around_page_.min -= Vec2::Constant(page_tolerance);
     around_page_.max += Vec2::Constant(page_tolerance);
   }
@@ -223,9 +220,7 @@ void Scene::viewport(const pugi::xml_node& node, const Style& style, Context con
   if (!(size.x() > 0 && size.y() > 0)) return;
   const Eigen::Affine2d placed = context.to_part * Eigen::Translation2d(corner);
   if (!style.overflow_visible && purpose_ == Purpose::paint) {
-    Ring ring{{0, 0}, {size.x(), 0}, size, {0, size.y()}};
-    for (Vec2& p : ring) p = placed * p;
-    narrow(context, enclosed({ring}, FillRule::non_zero));
+    narrow(context, mapped_box(placed, {{0, 0}, size}));
   }
   context.to_part = placed;
   context.viewport = size;

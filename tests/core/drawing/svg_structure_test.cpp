@@ -175,6 +175,19 @@ TEST_CASE("a vocabulary that an element declares holds for what is inside of it"
                 "height='9'/></g>") == Approx(9));
 }
 
+TEST_CASE("viewports, masks and pages as large as a country are read") {
+  CHECK(area_of("<svg x='-1e9' y='-1e9' width='2e9' height='2e9'><rect x='1e9' y='1e9' width='9' "
+                "height='9'/></svg>") == Approx(81));
+  CHECK(area_of("<mask id='m' x='-9e9' y='-9e9' width='99e9' height='99e9'><rect width='9' height='80' "
+                "fill='#fff'/>"
+                "</mask><rect width='20' height='10' mask='url(#m)'/>") == Approx(90));
+  CHECK(
+      read("<svg width='1e15mm' height='1e15mm' viewBox='0 0 1 1'><rect width='1e-15' height='1e-15'/></svg>")
+          .shapes.size() <= 1);
+  CHECK_THAT(notes_of("<g transform='scale(1e300) scale(1e300)'><svg width='9' height='9'><rect/></svg></g>"),
+             Contains("too far away"));
+}
+
 TEST_CASE("what lies outside of the page is cut off with a note") {
   CHECK(area_of("<rect x='90' width='20' height='10'/>") == Approx(100));
   CHECK_THAT(notes_of("<rect x='90' width='20' height='10'/>"), Contains("outside of the page"));
