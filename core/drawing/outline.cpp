@@ -50,7 +50,7 @@ Vec2 Outline::checked(const Vec2& user) const {
 void Outline::add(const Vec2& part_point, bool corner) {
   subpaths_.back().points.push_back(part_point);
   subpaths_.back().corner.push_back(corner);
-  ++points_;
+  if (++points_ > most_outline_points) throw TooFar("it has more than 5 million points");
 }
 
 void Outline::depart(const Vec2& direction) {

@@ -32,7 +32,10 @@ struct PathVertex {
   Vec2 in{0, 0}, out{0, 0};  ///< directions of arrival and departure; zero if the path begins or ends here
 };
 
-/// A point that lies beyond ±farthest_coordinate.
+/// Greatest number of points of one outline.
+inline constexpr std::size_t most_outline_points = 5'000'000;
+
+/// A point that lies beyond ±farthest_coordinate, or beyond the number of points.
 class TooFar : public Malformed {
  public:
   using Malformed::Malformed;
@@ -41,7 +44,7 @@ class TooFar : public Malformed {
 /// The number of chords for `turn` radians of a circle of `radius` mm.
 int arc_chords(double radius, double turn);
 
-/// Every drawing command throws TooFar if a point lies beyond ±farthest_coordinate.
+/// Every drawing command throws TooFar if a point lies beyond ±farthest_coordinate, or if they are too many.
 class Outline {
  public:
   explicit Outline(const Eigen::Affine2d& to_part) : to_part_(to_part) {}

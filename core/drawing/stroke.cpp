@@ -15,6 +15,7 @@ using std::numbers::pi;
 constexpr double same_point = 1e-7;     ///< mm: points closer than this have no direction
 constexpr double dot = 1e-5;            ///< mm: length of a dash of length zero, which gives it a direction
 constexpr double farthest_miter = 1e4;  ///< mm
+constexpr std::size_t most_ring_points = 2'000'000;
 constexpr std::size_t most_dashes = 1'000'000;
 
 /// A line whose points all differ from their neighbours.
@@ -53,7 +54,10 @@ class Edge {
  public:
   Edge(const StrokeStyle& style, Ring& ring) : style_(style), half_(style.width / 2), ring_(ring) {}
 
-  void add(const Vec2& point) { ring_.push_back(point); }
+  void add(const Vec2& point) {
+    ring_.push_back(point);
+    if (ring_.size() > most_ring_points) throw Malformed("its stroke has more than 2 million points");
+  }
 
   /// Turns about `at` from the direction `from` to `to`, at the right side.
   void join(const Vec2& at, const Vec2& from, const Vec2& to, bool corner) {
@@ -247,7 +251,10 @@ std::vector<Subpath> dashed(const std::vector<Subpath>& line, const StrokeStyle&
 std::vector<Ring> stroke_rings(const std::vector<Subpath>& line, const StrokeStyle& style) {
   std::vector<Ring> rings;
   if (!(style.width > 0)) return rings;
+  std::size_t points = 0, counted = 0;
   for (const Subpath& path : line) {
+    for (; counted < rings.size(); ++counted) points += rings[counted].size();
+    if (points > most_ring_points) throw Malformed("its strokes have more than 2 million points");
     if (path.points.empty()) continue;
     const Line clean = without_repeats(path);
     if (clean.points.size() == 1) {

@@ -25,7 +25,8 @@ struct StrokeStyle {
 std::vector<Subpath> dashed(const std::vector<Subpath>& line, const StrokeStyle& style);
 
 /// Closed rings; the stroke is where their winding numbers are not zero. Curves of the pen's edge are within
-/// `flattening` of their chords. The dashes of `style` are not applied.
+/// `flattening` of their chords. The dashes of `style` are not applied. Throws Malformed if
+/// the rings have more than 2 million points.
 std::vector<Ring> stroke_rings(const std::vector<Subpath>& line, const StrokeStyle& style);
 
 }  // namespace unicursal::core

@@ -125,6 +125,16 @@ TEST_CASE("strokes of random lines are as large as those of their pieces togethe
   }
 }
 
+TEST_CASE("a pen as wide as a street does not round a hundred thousand corners") {
+  std::string path = "M0 0";
+  for (int i = 0; i < 100000; ++i) path += i % 2 == 0 ? "h9" : "v9";
+  CHECK_THROWS_AS(area_of(path, pen(5e4, Cap::butt, Join::round)), Malformed);
+  path = "M0 0";
+  for (int i = 0; i < 2000; ++i) path += "C9e4 0 -9e4 9e4 0 0";
+  Outline outline(Eigen::Affine2d::Identity());
+  CHECK_THROWS_AS(draw_path(path, outline), TooFar);
+}
+
 TEST_CASE("a million dashes are refused") {
   StrokeStyle style = pen(1);
   style.dashes = {1e-4, 1e-4};
