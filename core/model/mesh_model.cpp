@@ -45,9 +45,13 @@ std::uint32_t main_tint(const MeshBody& body, const std::vector<std::uint32_t>& 
 
 MeshModel divided_by_tint(MeshBody body, const std::vector<std::uint32_t>& tints,
                           const std::vector<Tint>& palette) {
+  static const Tint none;
+  const auto tint = [&](std::uint32_t index) -> const Tint& {
+    return index < palette.size() ? palette[index] : none;
+  };
   if (body.triangles.empty()) return {};
   if (std::all_of(tints.begin(), tints.end(), [&](auto t) { return t == tints.front(); })) {
-    body.tint = palette[tints.front()];
+    body.tint = tint(tints.front());
     return {std::move(body)};
   }
   // Pieces with the same main tint are one body, in the order of their first triangles.
@@ -55,21 +59,27 @@ MeshModel divided_by_tint(MeshBody body, const std::vector<std::uint32_t>& tints
   const auto piece_of = pieces_of(body.triangles);
   for (std::uint32_t t = 0; t < tints.size(); ++t) pieces[piece_of[t]].push_back(t);
   std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> groups;
+  std::map<std::uint32_t, std::size_t> group_of;  // by main tint
   std::vector<std::vector<std::uint32_t>> in_order;
   for (auto& [piece, members] : pieces) in_order.push_back(std::move(members));
   std::sort(in_order.begin(), in_order.end());
   for (const auto& members : in_order) {
     const std::uint32_t main = main_tint(body, tints, members);
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == main; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {main, {}});
-    group->second.insert(group->second.end(), members.begin(), members.end());
+    const auto [known, added] = group_of.try_emplace(main, groups.size());
+    if (added) groups.push_back({main, {}});
+    auto& group = groups[known->second].second;
+    group.insert(group.end(), members.begin(), members.end());
   }
   MeshModel result;
   for (auto& [main, members] : groups) {
-    MeshBody part{body.names, palette[main], body.role, body.object, {}, palette, {}};
+    MeshBody part{body.names, tint(main), body.role, body.object, {}, {}, {}};
+    std::map<std::uint32_t, std::uint32_t> paint_of;  // by tint
     for (const auto t : members) {
-      if (tints[t] != main && palette[tints[t]] != Tint{})
-        part.painted.push_back({std::uint32_t(part.triangles.size()), tints[t]});
+      if (tints[t] != main && tint(tints[t]) != none) {
+        const auto [known, added] = paint_of.try_emplace(tints[t], std::uint32_t(part.paints.size()));
+        if (added) part.paints.push_back(tint(tints[t]));
+        part.painted.push_back({std::uint32_t(part.triangles.size()), known->second});
+      }
       part.triangles.push_back(body.triangles[t]);
     }
     result.push_back(std::move(part));

@@ -50,8 +50,8 @@ inline constexpr std::size_t most_bodies = 10000;
 inline constexpr std::size_t most_triangles = 10000000;
 
 /// Divides a body whose triangles have tints of their own. `tints`: one for each triangle, an index into
-/// `palette`. Connected pieces of one tint become bodies of their own; in other pieces the tint with most
-/// area is the body's, and the others are paint.
+/// `palette`, or its size: none. Connected pieces of one tint become bodies of their own; in other pieces the
+/// tint with most area is the body's, and the others are paint.
 MeshModel divided_by_tint(MeshBody body, const std::vector<std::uint32_t>& tints,
                           const std::vector<Tint>& palette);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/model/edge_pairing.hpp"
-#include "core/model/height_index.hpp"
+#include "core/model/ray_index.hpp"
 #include "core/stopping.hpp"
 
 namespace unicursal::core {
@@ -111,7 +111,7 @@ bool ray_passes(const ClosedMesh& mesh, std::uint32_t f, const Vec3& p) {
 class Nesting {
  public:
   Nesting(const ClosedMesh& mesh, const std::vector<Shell>& shells)
-      : mesh_(mesh), shells_(shells), owner_(mesh.facets.size()), index_(height_spans(mesh)) {
+      : mesh_(mesh), shells_(shells), owner_(mesh.facets.size()), index_(mesh) {
     for (std::uint32_t s = 0; s < shells.size(); ++s) {
       for (const auto f : shells[s].facets) owner_[f] = s;
     }
@@ -139,7 +139,7 @@ class Nesting {
  private:
   std::vector<std::uint32_t> containing(const Vec3& p, std::uint32_t but) const {
     std::vector<std::uint32_t> crossed;
-    for (const auto f : index_.at(p.z())) {
+    for (const auto f : index_.near(p.y(), p.z())) {
       if (owner_[f] != but && ray_passes(mesh_, f, p)) crossed.push_back(owner_[f]);
     }
     std::sort(crossed.begin(), crossed.end());
@@ -155,7 +155,7 @@ class Nesting {
   const ClosedMesh& mesh_;
   const std::vector<Shell>& shells_;
   std::vector<std::uint32_t> owner_;
-  HeightIndex index_;
+  RayIndex index_;
 };
 
 }  // namespace

@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <string_view>
+#include <vector>
 
 #include "core/drawing/css_colour.hpp"
 #include "core/error.hpp"
@@ -111,6 +116,60 @@ void read_prusa_colours(ZipArchive& archive, SlicerProject& project) {
   }
 }
 
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// The mean of filaments' colours by these weights, counted from filament 1; empty if one of them has none.
+std::string blend(const std::vector<std::string>& colours, const std::map<std::size_t, double>& weights) {
+  std::array<double, 3> sum{};
+  double whole = 0;
+  for (const auto& [filament, weight] : weights) {
+    if (filament == 0 || filament > colours.size() || colours[filament - 1].empty()) return "";
+    const unsigned long rgb = std::stoul(colours[filament - 1].substr(1), nullptr, 16);
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * double(rgb >> (16 - 8 * i) & 255);
+    whole += weight;
+  }
+  if (!(whole > 0)) return "";
+  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(sum[0] / whole), std::lround(sum[1] / whole),
+                     std::lround(sum[2] / whole));
+}
+
+/// Slicers that blend filaments layer by layer number the blends behind the filaments. A blend is a row such
+/// as "1,2,1,1,13,…,d0,…,1424": filaments, whether it is in use, percent of the second one; d1 if it was
+/// deleted; a sequence of filaments, if it has one, counts more. Other fields say how it is laid.
+void add_blends(SlicerProject& project, std::string_view definitions) {
+  const std::vector<std::string> filaments = project.colours;
+  for (const std::string_view row : split(definitions, ';')) {
+    const std::vector<std::string_view> fields = split(row, ',');
+    if (fields.size() < 5 || fields[2] != "1" ||
+        std::find(fields.begin(), fields.end(), "d1") != fields.end())
+      continue;
+    std::map<std::size_t, double> weights;
+    try {
+      const double second = xml_number(fields[4]) / 100;
+      weights[xml_index(fields[0])] += 1 - second;
+      weights[xml_index(fields[1])] += second;
+    } catch (const Malformed&) {
+      weights.clear();
+    }
+    const std::string_view sequence = fields.back();
+    constexpr std::size_t plain_fields = 7;
+    if (fields.size() > plain_fields && !sequence.empty() &&
+        sequence.find_first_not_of("0123456789") == std::string_view::npos) {
+      weights.clear();
+      for (const char filament : sequence) weights[std::size_t(filament - '0')] += 1;
+    }
+    add_colour(project, blend(filaments, weights));
+  }
+}
+
 void read_bambu_colours(ZipArchive& archive, SlicerProject& project) {
   const std::optional<std::string> text = archive.content("Metadata/project_settings.config");
   if (!text || text->size() > largest_settings) return;
@@ -119,6 +178,8 @@ void read_bambu_colours(ZipArchive& archive, SlicerProject& project) {
   if (!settings.is_object() || list == settings.end() || !list->is_array()) return;
   for (const nlohmann::json& colour : *list)
     add_colour(project, colour.is_string() ? colour.get<std::string>() : "");
+  const auto blends = settings.find("mixed_filament_definitions");
+  if (blends != settings.end() && blends->is_string()) add_blends(project, blends->get<std::string>());
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ using Affine = Eigen::Affine3d;
 constexpr int deepest_components = 32;   ///< of objects within objects
 constexpr double farthest_vertex = 1e5;  ///< mm
 constexpr std::size_t most_tints = 10'000;
+constexpr std::size_t most_paint_digits = 50'000'000;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 struct Component {
@@ -402,21 +403,22 @@ class Reader {
                                                      [](std::size_t tint) { return tint != none; });
     // The filaments of a slicer's project count for more than colours, which it does not print.
     if (tinted && body.tint.names.empty()) {
-      std::vector<Tint> palette = palette_;
-      palette.emplace_back();
       std::vector<std::uint32_t> tints;
       for (std::size_t t = begin; t < end; ++t) {
         std::size_t tint = object.tints[t];
-        if (tint == none) tint = inherited > 0 ? inherited - 1 : palette.size() - 1;
+        if (tint == none) tint = inherited > 0 ? inherited - 1 : palette_.size();
         tints.push_back(std::uint32_t(tint));
       }
-      for (MeshBody& divided : divided_by_tint(std::move(body), tints, palette))
+      for (MeshBody& divided : divided_by_tint(std::move(body), tints, palette_))
         model_.push_back(std::move(divided));
       return;
     }
     std::map<std::size_t, std::uint32_t> paint_of;  // by filament
-    for (const Paint& paint : object.paints) {
-      if (paint.triangle < begin || paint.triangle >= end) continue;
+    auto next =
+        std::lower_bound(object.paints.begin(), object.paints.end(), begin,
+                         [](const Paint& paint, std::size_t first) { return paint.triangle < first; });
+    for (; next != object.paints.end() && next->triangle < end; ++next) {
+      const Paint& paint = *next;
       for (const PaintedLeaf& leaf : leaves(paint)) {
         const Tint tint = project_ ? project_->tint(leaf.filament) : SlicerProject{}.tint(leaf.filament);
         if (tint == body.tint) continue;
@@ -435,10 +437,10 @@ class Reader {
 
   std::vector<PaintedLeaf> leaves(const Paint& paint) {
     try {
-      std::vector<PaintedLeaf> result = painted_leaves(paint.code);
-      leaves_ += result.size();
-      if (leaves_ > most_triangles) throw Malformed("its paint has more than ten million pieces");
-      return result;
+      // Each piece takes a digit at least, also one without paint. Objects are read once for each place.
+      digits_ += paint.code.size();
+      if (digits_ > most_paint_digits) throw Malformed("its paint has more than fifty million pieces");
+      return painted_leaves(paint.code);
     } catch (const Malformed& problem) {
       throw ModelError(file_, fmt::format("triangle {}", paint.triangle + 1), problem.what(),
                        "save the project again, or remove the paint");
@@ -453,7 +455,7 @@ class Reader {
   std::map<std::string, std::unique_ptr<Part>> parts_;
   const std::set<std::pair<std::size_t, std::size_t>>* plate_ = nullptr;
   MeshModel model_;
-  std::size_t objects_ = 0, placed_ = 0, triangles_ = 0, leaves_ = 0;
+  std::size_t objects_ = 0, placed_ = 0, triangles_ = 0, digits_ = 0;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "host/cli/preparation.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
 #include "core/error.hpp"
@@ -25,16 +27,24 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return !error && real_a == real_b;
 }
 
-/// Islands and layers that would begin in the air. Slicing takes long for large parts, so that it ends after
-/// a while.
+/// What would be printed in the air. Slicing takes long for large parts, so that the look ends after a while;
+/// the report of the print has all.
 std::vector<std::string> hanging_places(const PreparedJob& prepared) {
   constexpr auto longest = std::chrono::seconds(5);
   if (core::is_drawing_file(prepared.job.source.files.front())) return {};  // all layers are alike
   const auto end = std::chrono::steady_clock::now() + longest;
-  core::HangingCheck check;
-  for (std::size_t i = 0; i < prepared.count && std::chrono::steady_clock::now() < end; ++i)
-    check.add(prepared.part->layer(prepared.first + i));
-  return check.sentences();
+  core::HangingCheck check(prepared.job.bead_width);
+  std::size_t seen = 0;
+  for (; seen < prepared.count && std::chrono::steady_clock::now() < end; ++seen)
+    check.add(prepared.part->layer(prepared.first + seen));
+  std::vector<std::string> sentences = check.sentences();
+  if (seen < prepared.count) {
+    sentences.push_back(
+        fmt::format("only {} of {} layers were searched for places in the air before the start, since the "
+                    "part is large; --report lists all of them",
+                    seen, prepared.count));
+  }
+  return sentences;
 }
 
 }  // namespace

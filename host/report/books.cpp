@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/model/hanging.hpp"
+#include "core/model/read_part.hpp"
 #include "host/report/peak_memory.hpp"
 #include "host/report/target.hpp"
 
@@ -34,6 +36,26 @@ nlohmann::json layer_entry(const PlannedLayer& planned, const gcode::PlacedLayer
 void forget_times(nlohmann::json& figures) {
   figures.erase("seconds");
   figures.erase("cpu_seconds");
+}
+
+nlohmann::json to_json(const std::vector<core::HangingPlace>& places) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const core::HangingPlace& place : places) {
+    nlohmann::json entry = {
+        {"kind", word(place.kind)}, {"layer", place.layer}, {"layers", place.layers}, {"z_mm", place.z}};
+    if (place.kind != core::HangingPlace::Kind::empty_layers)
+      entry.update({{"x_mm", place.place.x()}, {"y_mm", place.place.y()}, {"area_mm2", place.area}});
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+/// Slices the layers of the print once more, which takes little beside their planning.
+std::vector<core::HangingPlace> places_in_the_air(const PreparedJob& prepared) {
+  if (core::is_drawing_file(prepared.job.source.files.front())) return {};  // all layers are alike
+  core::HangingCheck check(prepared.job.bead_width);
+  for (std::size_t i = 0; i < prepared.count; ++i) check.add(prepared.part->layer(prepared.first + i));
+  return check.places();
 }
 
 }  // namespace
@@ -136,6 +158,7 @@ void Books::write_report(const nlohmann::json& extra) {
       {"profile", maker_.prepared().job.profile.file.string()},
       {"printer", maker_.prepared().job.profile.printer.name},
       {"warnings", maker_.warnings()},
+      {"in_the_air", to_json(places_in_the_air(maker_.prepared()))},
       {"bead_width_mm", maker_.prepared().job.bead_width},
       {"flow_mm3_s", maker_.flow()},
       {"layer_height_mm", maker_.prepared().job.source.layer_height},

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.hpp"
+#include "core/model/inspect_model.hpp"
 #include "packages.hpp"
 
 using namespace unicursal::core;
@@ -162,6 +163,27 @@ TEST_CASE("paint of both sides meets in the middle of a thin wall") {
   const auto areas = areas_at(*part({file}, {"#222222", "#ffffff", "#111111"}, 0.2), 5);
   CHECK(areas[1] == Approx(20).epsilon(0.05));
   CHECK(areas[2] == Approx(20).epsilon(0.05));
+}
+
+TEST_CASE("blends of filaments are numbered behind them, without those that are deleted or not in use") {
+  const TempFolder folder;
+  const auto painted = [&](int filament) {
+    const auto file = write_3mf(
+        folder, model_xml(object(1, mesh_xml(box)), "<item objectid='1'/>"),
+        {{"Metadata/project_settings.config",
+          R"({"filament_colour": ["#0000FF", "#FF0000", "#FFFFFF"], "mixed_filament_definitions":
+             "1,2,0,0,50,0,g,w,m2,d1,o1,u1;1,2,1,1,20,0,g,w,m2,d0,o0,u2;1,3,1,1,50,0,g,d1,u3;)"
+          R"(1,2,1,1,0,0,g,w,m2,d0,o0,u4,1333;1,7,1,1,50;x,y,1,1,z"})"},
+         {"Metadata/model_settings.config",
+          fmt::format("<config><object id='1'><metadata key='extruder' value='{}'/></object></config>",
+                      filament)}});
+    return inspect_model({file}).zones.at(0);
+  };
+  CHECK(painted(3).select == "#ffffff");
+  CHECK(painted(4).select == "#3300cc");  // four parts of blue, one of red
+  CHECK(painted(5).select == "#bfbfff");  // one layer of blue, three of white
+  CHECK(painted(6).select == "filament 6");
+  CHECK(painted(7).colour.empty());
 }
 
 TEST_CASE("PrusaSlicer's volumes have filaments and roles of their own") {

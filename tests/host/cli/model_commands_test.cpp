@@ -1,5 +1,6 @@
 // Commands on models, run as real processes.
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
@@ -96,14 +97,22 @@ TEST_CASE("new writes a job that plans, and never over a file") {
   CHECK(run({"new", (folder / "bench.toml").string(), "-o", (folder / "other.toml").string()}).code == 2);
 }
 
-TEST_CASE("What begins in the air is told with its layer and place") {
+TEST_CASE("What begins in the air is reported with its layer and place, before the print and in the report") {
   const TempFolder folder;
   const std::string profile = folder.write("bench.toml", test::sample_profile).string();
   const Outcome outcome = run({"plan", folder.write("two.stl", boxes(2)).string(), "--profile", profile, "-o",
-                               (folder / "x.gcode").string()});
+                               (folder / "x.gcode").string(), "--report", (folder / "r.json").string()});
   CHECK(outcome.code == 0);
-  CHECK_THAT(outcome.err,
-             Contains("layers are empty from layer 3 on") && Contains("begins in the air at z = 3.00 mm"));
+  CHECK_THAT(outcome.err, Contains("layers are empty from layer 3 on") &&
+                              Contains("begins in the air in layer 10, at z = 3.00 mm"));
+  const auto places = nlohmann::json::parse(test::read_text(folder / "r.json")).at("in_the_air");
+  REQUIRE(places.size() == 2);
+  CHECK(places[0].at("kind") == "empty layers");
+  CHECK(places[0].at("layers") == 7);
+  CHECK(places[1].at("kind") == "island");
+  CHECK(places[1].at("layer") == 10);
+  CHECK(places[1].at("area_mm2") == Approx(64));
+  CHECK(places[1].at("x_mm") == Approx(4));
 }
 
 }  // namespace unicursal
