@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "core/planner/bare.hpp"
 #include "core/planner/plan_island.hpp"
 #include "tests/core/support/plan_faults.hpp"
 #include "tests/core/support/shapes.hpp"
@@ -100,6 +101,19 @@ TEST_CASE(
     CHECK(share_out_of_range(path) < 0.06);
     CHECK(barest(path, outline) < 1.2 * w);
   }
+}
+
+TEST_CASE("what strands leave bare is measured over the island as it is") {
+  // A strand along the middle of the left half of a bar.
+  const Polygon bar = rectangle(20, 1);
+  IslandPlan plan;
+  CHECK(look_for_bare(plan, bar, w, least).area == 20);
+  plan.curves.resize(1);
+  plan.curves[0].path.beads = {{{0.4, 0.5}, 10, 0}, {{10, 0.5}, 0, 0}};
+  const Bare bare = look_for_bare(plan, bar, w, least);
+  CHECK(bare.area == Approx(20 - 10 - 0.75 * w).epsilon(0.02));
+  // The axis ends half a width before the bar's end, in two branches into its corners.
+  CHECK(bare.axis_length == Approx(20 - 10 - 0.75 * w - 0.5 + 2 * 0.45).epsilon(0.1));
 }
 
 TEST_CASE("a wall that is too narrow for two beads gets one that is as wide as it, and an empty way back") {

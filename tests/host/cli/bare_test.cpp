@@ -1,0 +1,69 @@
+// Places that stay without plastic: warned of, refused, or allowed.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal {
+namespace {
+
+using nlohmann::json;
+using test::Outcome;
+using test::run;
+using test::TempFolder;
+
+/// A wedge that is 60 mm long, and a job for it. The least bead is 0.4 mm wide.
+struct WedgeJob {
+  explicit WedgeJob(const std::string& end) {
+    folder.write("bench.toml", test::sample_profile);
+    folder.write("wedge.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='60mm' height='" + end +
+                                  "mm' viewBox='0 0 60 " + end + "'><path d='M0 0L60 " + end +
+                                  "H0Z'/></svg>");
+    job = folder
+              .write("job.toml",
+                     "printer = \"bench.toml\"\n[part]\nfile = \"wedge.svg\"\nheight = 0.2\n"
+                     "layer_height = 0.2\nbead_width = 0.8\nflow = 2.0\n"
+                     "[[zone]]\nselect = \"#000000\"\npattern = \"isotropic\"\nmixture = \"a\"\n"
+                     "[mixture]\na = [1, 1, 1]\n")
+              .string();
+  }
+  Outcome plan(const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> all{
+        "plan", job, "-o", (folder / "o.gcode").string(), "--report", (folder / "r.json").string()};
+    all.insert(all.end(), options.begin(), options.end());
+    return run(all);
+  }
+
+  TempFolder folder;
+  std::string job;
+};
+
+TEST_CASE("A plan warns of a layer of which more than 5 % stay without plastic, and says how much") {
+  const WedgeJob wedge("1.2");
+  const Outcome outcome = wedge.plan();
+  CHECK(outcome.code == 0);
+  // A third of the length is narrower than 0.4 mm, and 0.6 mm of it are near the last bead: (19.4 ÷ 60)².
+  CHECK(outcome.err.find("warning: layer 1 (z = 0.20 mm) leaves 10 %") != std::string::npos);
+  const json report = json::parse(test::read_text(wedge.folder / "r.json"));
+  const json& bare = report["bare"];
+  CHECK(bare["area_mm2"].get<double>() == Approx(4.0).margin(0.4));
+  CHECK(bare["share"].get<double>() == Approx(0.11).margin(0.012));
+  CHECK(bare["walls_mm"].get<double>() == 0);
+  CHECK(bare["layers_warned_of"] == 1);
+}
+
+TEST_CASE("A plan of a part that is mostly too thin is refused, unless that is allowed") {
+  const Outcome refused = WedgeJob("0.5").plan();
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("leaves 6") != std::string::npos);
+  CHECK(refused.err.find("--allow-bare") != std::string::npos);
+  CHECK(WedgeJob("0.5").plan({"--allow-bare"}).code == 0);
+  CHECK(WedgeJob("4").plan().err.find("warning") == std::string::npos);
+}
+
+}  // namespace
+}  // namespace unicursal
