@@ -78,7 +78,7 @@ std::optional<std::size_t> BodyZones::zone_of(const Selectable& thing) {
     if (rank > best) best = rank, found = i;
   }
   const auto offer = [&](const std::string& choice) {
-    if (std::find(choices_.begin(), choices_.end(), choice) == choices_.end()) choices_.push_back(choice);
+    if (known_choices_.insert(choice).second) choices_.push_back(choice);
   };
   if (!thing.paint) offer(in_quotes(thing.file.filename().string()));
   for (const std::string& name : thing.names) offer(in_quotes(name));
@@ -92,6 +92,12 @@ void BodyZones::refuse_unmatched() const {
   if (unused == used_.end()) return;
   throw ModelError("", "select = " + in_quotes(zones_[std::size_t(unused - used_.begin())].select),
                    "this matches nothing in the files", "choose among " + choices());
+}
+
+void BodyZones::mark_matched(std::vector<bool>& matched) const {
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    if (used_[i]) matched.at(i) = true;
+  }
 }
 
 std::string BodyZones::choices() const {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class BodyZones {
   std::optional<std::size_t> zone_of(const Selectable& thing);
   /// Throws ModelError if a zone has selected nothing so far.
   void refuse_unmatched() const;
+  /// Sets what belongs to the zones that have selected something.
+  void mark_matched(std::vector<bool>& matched) const;
   /// Everything that could be selected, for messages.
   std::string choices() const;
 
@@ -47,6 +50,7 @@ class BodyZones {
   const std::vector<Zone>& zones_;
   std::vector<bool> used_;
   std::vector<std::string> choices_;
+  std::set<std::string> known_choices_;
 };
 
 }  // namespace unicursal::core

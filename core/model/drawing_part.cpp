@@ -95,6 +95,14 @@ void refuse_unmatched(const PartSource& source, const std::vector<Shape>& shapes
   }
 }
 
+void mark_matched(const PartSource& source, const std::vector<Shape>& shapes, std::vector<bool>& matched) {
+  for (std::size_t i = 0; i < source.zones.size(); ++i) {
+    if (std::any_of(shapes.begin(), shapes.end(),
+                    [&](const Shape& s) { return selects(source.zones[i], s, source.files.front()); }))
+      matched.at(i) = true;
+  }
+}
+
 std::optional<std::size_t> zone_of(const Shape& shape, const PartSource& source) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < source.zones.size(); ++i) {
@@ -108,6 +116,28 @@ std::optional<std::size_t> zone_of(const Shape& shape, const PartSource& source)
     found = i;
   }
   return found;
+}
+
+/// mm; 0 if there is no shape.
+double width_of(const std::vector<Shape>& shapes) {
+  std::vector<Polygon> all;
+  for (const Shape& shape : shapes) all.insert(all.end(), shape.region.begin(), shape.region.end());
+  return all.empty() ? 0 : bounds(all).size().x();
+}
+
+/// Reads the drawing in its pose. A width is reached by reading it twice, so that curves are as smooth as in
+/// a drawing of that size.
+std::vector<Shape> read_posed(const PartSource& source, const Pose& pose, Warnings& warnings) {
+  const std::filesystem::path& file = source.files.front();
+  DrawingOptions options;
+  options.strokes_are_contours = source.strokes_are_contours;
+  options.turn = (pose.rotation * pose.scale.asDiagonal()).topLeftCorner<2, 2>();
+  if (pose.width > 0) {
+    Warnings ignored;
+    const double width = width_of(read_svg(file, ignored, options).shapes);
+    if (width > 0) options.turn *= pose.width / width;
+  }
+  return read_drawing(file, warnings, options).shapes;
 }
 
 void refuse_unclaimed(const std::filesystem::path& file, const std::vector<Unclaimed>& unclaimed) {
@@ -132,14 +162,17 @@ void warn_of_covered(const std::vector<Zone>& zones, const std::vector<Island>& 
   }
 }
 
-std::unique_ptr<const Part> read_with_notes(const PartSource& source, Warnings& warnings) {
+std::unique_ptr<const Part> read_with_notes(const PartSource& source, const Pose& pose,
+                                            std::vector<bool>* matched, Warnings& warnings) {
   const std::filesystem::path& file = source.files.front();
   const LayerStack stack =
       layers_of_drawing(source.height, source.layer_height, source.first_layer_height, warnings);
-  DrawingOptions options;
-  options.strokes_are_contours = source.strokes_are_contours;
-  const std::vector<Shape> shapes = read_drawing(file, warnings, options).shapes;
-  refuse_unmatched(source, shapes);
+  const std::vector<Shape> shapes = read_posed(source, pose, warnings);
+  if (matched) {
+    mark_matched(source, shapes, *matched);
+  } else {
+    refuse_unmatched(source, shapes);
+  }
   std::vector<Painted> painted;
   for (const Shape& shape : shapes) painted.push_back({shape.region, zone_of(shape, source), label(shape)});
   Zoning zoning = zoned(painted);
@@ -148,7 +181,7 @@ std::unique_ptr<const Part> read_with_notes(const PartSource& source, Warnings& 
     throw ModelError(file.string(), "", "the drawing's shapes are too small to print",
                      "check its width and height");
   }
-  warn_of_covered(source.zones, zoning.islands, warnings);
+  if (!matched) warn_of_covered(source.zones, zoning.islands, warnings);
   return std::make_unique<DrawingPart>(std::move(zoning.islands), stack, source.zones, warnings.sentences());
 }
 
@@ -165,10 +198,11 @@ Drawing read_drawing(const std::filesystem::path& file, Warnings& warnings, cons
                    "fill its shapes, or give them strokes that are wide enough to print");
 }
 
-std::unique_ptr<const Part> read_drawing_part(const PartSource& source) {
+std::unique_ptr<const Part> read_drawing_part(const PartSource& source, const Pose& pose,
+                                              std::vector<bool>* matched) {
   Warnings warnings;
   try {
-    return read_with_notes(source, warnings);
+    return read_with_notes(source, pose, matched, warnings);
   } catch (const ModelError& refusal) {
     throw NotedError(refusal, warnings.sentences());
   }

@@ -6,6 +6,7 @@
 
 #include "core/drawing/svg_reader.hpp"
 #include "core/model/part.hpp"
+#include "core/model/pose.hpp"
 
 namespace unicursal::core {
 
@@ -13,7 +14,8 @@ namespace unicursal::core {
 Drawing read_drawing(const std::filesystem::path& file, Warnings& warnings,
                      const DrawingOptions& options = {});
 
-/// Precondition: `source.files` holds one SVG. Throws FileError or NotedError.
-std::unique_ptr<const Part> read_drawing_part(const PartSource& source);
+/// Precondition: `source.files` holds one SVG. `matched`: see read_part(). Throws FileError or NotedError.
+std::unique_ptr<const Part> read_drawing_part(const PartSource& source, const Pose& pose,
+                                              std::vector<bool>* matched);
 
 }  // namespace unicursal::core

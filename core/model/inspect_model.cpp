@@ -15,16 +15,24 @@
 namespace unicursal::core {
 namespace {
 
-void add(std::vector<ZoneOffer>& zones, const ZoneOffer& offer) {
-  const auto known =
-      std::find_if(zones.begin(), zones.end(), [&](const ZoneOffer& z) { return z.select == offer.select; });
-  if (known == zones.end()) {
-    zones.push_back(offer);
-  } else {
-    known->amount += offer.amount;
-    known->paint = known->paint && offer.paint;
+/// Zones that are offered, each select once.
+class Offers {
+ public:
+  void add(const ZoneOffer& offer) {
+    const auto [known, added] = index_.try_emplace(offer.select, zones_.size());
+    if (added) {
+      zones_.push_back(offer);
+    } else {
+      zones_[known->second].amount += offer.amount;
+      zones_[known->second].paint = zones_[known->second].paint && offer.paint;
+    }
   }
-}
+  std::vector<ZoneOffer> take() { return std::move(zones_); }
+
+ private:
+  std::vector<ZoneOffer> zones_;
+  std::map<std::string, std::size_t> index_;
+};
 
 std::string tint_select(const Tint& tint) {
   return tint.colour.empty() && !tint.names.empty() ? tint.names.front() : tint.colour;
@@ -41,7 +49,7 @@ std::vector<ZoneOffer> zones_of(const std::vector<MendedBody>& bodies) {
     if (!body.name.names.empty()) ++uses[body.name.names.front()];
     tinted = tinted || !tint_select(body.name.tint).empty();
   }
-  std::vector<ZoneOffer> zones;
+  Offers offers;
   for (const MendedBody& body : bodies) {
     const std::string tint = tint_select(body.name.tint);
     if (body.role == BodyRole::negative || (body.role == BodyRole::modifier && tint.empty())) continue;
@@ -51,19 +59,20 @@ std::vector<ZoneOffer> zones_of(const std::vector<MendedBody>& bodies) {
       select = unique ? body.name.names.front() : body.name.number;
       if (solids == 1 && !tinted) select = body.name.file.filename().string();
     }
-    add(zones, {select, body.name.tint.colour, volume(body.mesh), false});
+    offers.add({select, body.name.tint.colour, volume(body.mesh), false});
     for (std::size_t i = 0; i < body.shells.size(); ++i) {
       if (!body.shells[i].facets.empty())
-        add(zones, {tint_select(body.paints[i]), body.paints[i].colour, volume(body.shells[i]), true});
+        offers.add({tint_select(body.paints[i]), body.paints[i].colour, volume(body.shells[i]), true});
     }
   }
-  return zones;
+  return offers.take();
 }
 
-ModelContents contents_of_meshes(const std::vector<std::filesystem::path>& files) {
+ModelContents contents_of_meshes(const std::vector<std::filesystem::path>& files, double paint_depth) {
   Warnings warnings;
   std::vector<MendedBody> bodies;
   BodyOptions options;
+  options.paint_depth = paint_depth;
   options.shells_are_bodies = files.size() == 1;
   for (const auto& file : files) add_bodies(bodies, file, options, warnings);
   ModelContents contents;
@@ -116,7 +125,7 @@ ModelContents contents_of_drawing(const std::filesystem::path& file, Warnings& w
 
 }  // namespace
 
-ModelContents inspect_model(const std::vector<std::filesystem::path>& files) {
+ModelContents inspect_model(const std::vector<std::filesystem::path>& files, double paint_depth) {
   if (files.size() == 1 && is_drawing_file(files.front())) {
     Warnings warnings;
     try {
@@ -131,7 +140,7 @@ ModelContents inspect_model(const std::vector<std::filesystem::path>& files) {
                        "name one .svg file, or some .stl, .3mf, .obj and .amf files");
     }
   }
-  return contents_of_meshes(files);
+  return contents_of_meshes(files, paint_depth);
 }
 
 }  // namespace unicursal::core

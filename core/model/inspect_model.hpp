@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/model/pose.hpp"
+
 namespace unicursal::core {
 
 /// A part of the model that could be a zone.
@@ -28,7 +30,8 @@ struct ModelContents {
   std::vector<std::string> notes;
 };
 
-/// Throws FileError or ModelError.
-ModelContents inspect_model(const std::vector<std::filesystem::path>& files);
+/// `paint_depth`: how deep the colour of a painted surface reaches, mm. Throws FileError or ModelError.
+ModelContents inspect_model(const std::vector<std::filesystem::path>& files,
+                            double paint_depth = usual_paint_depth);
 
 }  // namespace unicursal::core

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/model/closed_mesh.hpp"
 #include "core/model/edge_pairing.hpp"
 #include "core/model/mesh_shells.hpp"
@@ -15,6 +16,27 @@
 
 namespace unicursal::core {
 namespace {
+
+/// Mirrored triangles change the order of two corners, so that they face outwards again.
+void rescale(MeshBody& body, const Vec3& scale, const std::filesystem::path& file) {
+  if (scale == Vec3::Ones()) return;
+  constexpr double farthest = 1e5;  // mm, as the readers allow
+  const bool mirrored = scale.prod() < 0;
+  for (Triangle& triangle : body.triangles) {
+    for (Vec3& corner : triangle) {
+      corner = corner.cwiseProduct(scale);
+      if (corner.cwiseAbs().maxCoeff() <= farthest) continue;
+      throw ModelError(file.string(), "", "its unit and scale put a vertex more than 100 m away",
+                       "write smaller ones");
+    }
+    if (mirrored) std::swap(triangle[1], triangle[2]);
+  }
+  if (!mirrored) return;
+  for (PaintedPiece& piece : body.painted) {
+    for (Vec3& corner : piece.corners) std::swap(corner[1], corner[2]);
+    std::swap(piece.corners[1], piece.corners[2]);
+  }
+}
 
 ClosedMesh only(const ClosedMesh& mesh, std::vector<std::uint32_t> facets) {
   std::sort(facets.begin(), facets.end());
@@ -54,6 +76,7 @@ void add_bodies(std::vector<MendedBody>& bodies, const std::filesystem::path& fi
   const std::size_t objects = bodies.empty() ? 0 : bodies.back().object + 1;
   std::size_t number = 0;
   for (MeshBody& body : model) {
+    rescale(body, options.scale, file);
     MendedBody mended;
     mended.name = {file, "", body.names, body.tint, false};
     mended.role = body.role;

@@ -7,6 +7,7 @@
 #include "core/model/body_zones.hpp"
 #include "core/model/half_edge_mesh.hpp"
 #include "core/model/mesh_model.hpp"
+#include "core/model/pose.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {
@@ -20,12 +21,10 @@ struct MendedBody {
   std::vector<ClosedMesh> shells;  ///< per paint, the space that it colours
 };
 
-/// mm: about two beads of a usual nozzle.
-inline constexpr double usual_paint_depth = 1.2;
-
 inline constexpr std::size_t most_shell_bodies = 100;
 
 struct BodyOptions {
+  Vec3 scale{1, 1, 1};                     ///< of each axis; negative: mirrored
   double paint_depth = usual_paint_depth;  ///< mm
   /// Whether the shells of a file that names no bodies, such as an STL file, are bodies of their own. A file
   /// with more than `most_shell_bodies` of them is one body.

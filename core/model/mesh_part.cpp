@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/model/file_kind.hpp"
+#include "core/model/largest_face.hpp"
 #include "core/model/layer_stack.hpp"
 #include "core/model/mesh_bodies.hpp"
 #include "core/model/slicer.hpp"
@@ -39,6 +41,25 @@ Eigen::AlignedBox3d box_of(const ClosedMesh& mesh) {
     for (const auto v : facet) box.extend(mesh.vertices[v]);
   }
   return box;
+}
+
+void turn(std::vector<MendedBody>& bodies, const Pose& pose) {
+  Eigen::Matrix3d rotation = pose.rotation;
+  if (pose.on_largest_face) {
+    std::vector<Vec3> corners;
+    for (const MendedBody& body : bodies) {
+      if (body.role == BodyRole::solid)
+        corners.insert(corners.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+    }
+    rotation *= largest_face_down(corners);
+  }
+  if (rotation == Eigen::Matrix3d::Identity()) return;
+  for (MendedBody& body : bodies) {
+    for (Vec3& vertex : body.mesh.vertices) vertex = rotation * vertex;
+    for (ClosedMesh& shell : body.shells) {
+      for (Vec3& vertex : shell.vertices) vertex = rotation * vertex;
+    }
+  }
 }
 
 /// Adds the sections of an object's bodies and of their paint; the later ones cover the earlier ones.
@@ -108,12 +129,14 @@ class MeshPart final : public Part {
 
 class Builder {
  public:
-  Builder(const PartSource& source, Warnings& warnings)
-      : source_(source), warnings_(warnings), zones_(source.zones) {}
+  Builder(const PartSource& source, const Shaping& shaping, Warnings& warnings)
+      : source_(source), shaping_(shaping), warnings_(warnings), zones_(source.zones) {}
 
-  void add_file(const std::filesystem::path& file) {
+  void add_files() {
     std::vector<MendedBody> bodies;
-    add_bodies(bodies, file, {usual_paint_depth, selects_by_number(source_.zones)}, warnings_);
+    const BodyOptions options{shaping_.pose.scale, shaping_.paint_depth, selects_by_number(source_.zones)};
+    for (const std::filesystem::path& file : source_.files) add_bodies(bodies, file, options, warnings_);
+    turn(bodies, shaping_.pose);
     std::map<std::size_t, std::size_t> object_of;
     for (MendedBody& body : bodies) {
       const auto [known, added] = object_of.try_emplace(body.object, objects.size());
@@ -123,8 +146,12 @@ class Builder {
     }
   }
 
-  void finish() const {
-    zones_.refuse_unmatched();
+  void finish(std::vector<bool>* matched) const {
+    if (matched) {
+      zones_.mark_matched(*matched);
+    } else {
+      zones_.refuse_unmatched();
+    }
     if (unclaimed_) {
       throw ModelError(unclaimed_->file.string(), "",
                        by_file_ ? "no zone selects this file" : "no zone selects " + unclaimed_->label(),
@@ -160,6 +187,7 @@ class Builder {
   }
 
   const PartSource& source_;
+  const Shaping& shaping_;
   Warnings& warnings_;
   BodyZones zones_;
   std::optional<Selectable> unclaimed_;
@@ -168,33 +196,37 @@ class Builder {
 
 /// STL and OBJ files do not say their unit. A part that is too small for any bead was probably drawn in
 /// another one.
-void warn_of_unit(const std::vector<std::filesystem::path>& files, const Eigen::Vector3d& size,
+void warn_of_unit(const PartSource& source, const Pose& pose, const Eigen::Vector3d& size,
                   Warnings& warnings) {
-  constexpr double smallest = 3;  // mm
-  const auto names_no_unit = [](const std::filesystem::path& file) {
-    const std::string ending = lower(file.extension().string());
-    return ending == ".stl" || ending == ".obj";
+  constexpr double smallest = 3, largest_in_metres = 1000;  // mm
+  if (size.maxCoeff() >= smallest || !pose.unchanged()) return;
+  if (!std::all_of(source.files.begin(), source.files.end(), is_unitless_file)) return;
+  const auto suspect = [&](const char* unit, const char* key, double factor) {
+    return fmt::format("units = \"{}\" if its file is in {}, which makes {:.4g} x {:.4g} x {:.4g} mm", key,
+                       unit, factor * size.x(), factor * size.y(), factor * size.z());
   };
-  if (size.maxCoeff() >= smallest || !std::all_of(files.begin(), files.end(), names_no_unit)) return;
-  const bool metres = 25.4 * size.maxCoeff() < smallest;
-  const Eigen::Vector3d real = (metres ? 1000 : 25.4) * size;
-  warnings.add(
-      fmt::format("the part is only {:.3g} x {:.3g} x {:.3g} mm; if its file is in {}, so that it should be "
-                  "{:.4g} x {:.4g} x "
-                  "{:.4g} mm, export it in millimetres",
-                  size.x(), size.y(), size.z(), metres ? "metres" : "inches", real.x(), real.y(), real.z()));
+  std::string remedies = suspect("inches", "inch", 25.4);
+  const bool metres = 1000 * size.maxCoeff() < largest_in_metres;
+  if (25.4 * size.maxCoeff() < smallest) {
+    remedies = suspect("metres", "m", 1000);
+  } else if (metres) {
+    remedies += ", or " + suspect("metres", "m", 1000);
+  }
+  warnings.add(fmt::format("the part is only {:.3g} x {:.3g} x {:.3g} mm; write {}", size.x(), size.y(),
+                           size.z(), remedies));
 }
 
 }  // namespace
 
-std::unique_ptr<const Part> read_mesh_part(const PartSource& source) {
+std::unique_ptr<const Part> read_mesh_part(const PartSource& source, const Shaping& shaping,
+                                           std::vector<bool>* matched) {
   Warnings warnings;
   layers_of_mesh(0, source.layer_height,
                  source.first_layer_height);  // refuses a bad layer height before the files are read
-  Builder builder(source, warnings);
-  for (const std::filesystem::path& file : source.files) builder.add_file(file);
-  builder.finish();
-  warn_of_unit(source.files, builder.box.sizes(), warnings);
+  Builder builder(source, shaping, warnings);
+  builder.add_files();
+  builder.finish(matched);
+  warn_of_unit(source, shaping.pose, builder.box.sizes(), warnings);
   const LayerStack stack =
       layers_of_mesh(builder.box.sizes().z(), source.layer_height, source.first_layer_height);
   return std::make_unique<MeshPart>(std::move(builder.objects), builder.box, stack, source.zones,

@@ -5,10 +5,13 @@
 #include <memory>
 
 #include "core/model/part.hpp"
+#include "core/model/pose.hpp"
 
 namespace unicursal::core {
 
-/// Precondition: `source.files` holds files of meshes, at least one. Throws FileError or ModelError.
-std::unique_ptr<const Part> read_mesh_part(const PartSource& source);
+/// Precondition: `source.files` holds files of meshes, at least one. `matched`: see read_part(). Throws
+/// FileError or ModelError.
+std::unique_ptr<const Part> read_mesh_part(const PartSource& source, const Shaping& shaping,
+                                           std::vector<bool>* matched);
 
 }  // namespace unicursal::core

@@ -1,7 +1,5 @@
 #include "core/model/read_mesh_model.hpp"
 
-#include <algorithm>
-#include <array>
 #include <string>
 
 #include "core/model/amf_reader.hpp"
@@ -11,11 +9,6 @@
 #include "core/text/file_bytes.hpp"
 
 namespace unicursal::core {
-
-bool is_mesh_file(const std::filesystem::path& file) {
-  static constexpr std::array endings{".stl", ".3mf", ".obj", ".amf"};
-  return std::find(endings.begin(), endings.end(), lower(file.extension().string())) != endings.end();
-}
 
 MeshModel read_mesh_model(const std::filesystem::path& file, Warnings& warnings) {
   const std::string ending = lower(file.extension().string());

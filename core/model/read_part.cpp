@@ -12,14 +12,6 @@
 
 namespace unicursal::core {
 
-bool is_drawing_file(const std::filesystem::path& file) {
-  return lower(file.extension().string()) == ".svg";
-}
-
-bool is_model_file(const std::filesystem::path& file) {
-  return is_drawing_file(file) || is_mesh_file(file);
-}
-
 std::vector<std::filesystem::path> companion_files(const std::filesystem::path& file) {
   std::error_code error;
   if (lower(file.extension().string()) != ".obj" || !std::filesystem::is_regular_file(file, error)) return {};
@@ -29,15 +21,17 @@ std::vector<std::filesystem::path> companion_files(const std::filesystem::path& 
   return files;
 }
 
-std::unique_ptr<const Part> read_part(const PartSource& source) {
+std::unique_ptr<const Part> read_part(const PartSource& source, const Shaping& shaping,
+                                      std::vector<bool>* matched) {
   const auto& files = source.files;
   if (files.empty())
     throw ModelError("", "file", "the part names no file", "name one drawing or some files of meshes");
   if (source.zones.empty()) {
     throw ModelError(files.front().string(), "", "the part has no zone", "add a zone that selects it");
   }
-  if (std::all_of(files.begin(), files.end(), is_mesh_file)) return read_mesh_part(source);
-  if (files.size() == 1 && is_drawing_file(files.front())) return read_drawing_part(source);
+  if (std::all_of(files.begin(), files.end(), is_mesh_file)) return read_mesh_part(source, shaping, matched);
+  if (files.size() == 1 && is_drawing_file(files.front()))
+    return read_drawing_part(source, shaping.pose, matched);
   throw ModelError(files.back().string(), "file",
                    "a part is one .svg file, or some .stl, .3mf, .obj and .amf files",
                    "export the model in one of these formats");

@@ -35,6 +35,7 @@ std::unique_ptr<Command> make_simulate();
 std::unique_ptr<Command> make_inspect();
 std::unique_ptr<Command> make_new();
 
+std::unique_ptr<Command> make_setup();
 std::unique_ptr<Command> make_ports();
 std::unique_ptr<Command> make_doctor();
 std::unique_ptr<Command> make_tune();

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <asio/co_spawn.hpp>
-#include <asio/io_context.hpp>
-#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/arguments.hpp"
@@ -17,23 +14,6 @@
 
 namespace unicursal::host {
 namespace {
-
-Examination examine_port(int port, const LinkOptions& options) {
-  asio::io_context loop{1};
-  Link link(loop.get_executor(), port, options);
-  Examination found;
-  std::exception_ptr failure;
-  asio::co_spawn(
-      loop,
-      [&]() -> asio::awaitable<void> { found = co_await examine(link, loop.get_executor(), options.clock); },
-      [&](std::exception_ptr thrown) {
-        failure = thrown;
-        loop.stop();
-      });
-  loop.run();
-  if (failure) std::rethrow_exception(failure);
-  return found;
-}
 
 class Doctor final : public Command {
  public:

@@ -31,7 +31,8 @@ bool same_file(const fs::path& a, const fs::path& b) {
 /// the report of the print has all.
 std::vector<std::string> hanging_places(const PreparedJob& prepared) {
   constexpr auto longest = std::chrono::seconds(5);
-  if (core::is_drawing_file(prepared.job.source.files.front())) return {};  // all layers are alike
+  if (!is_plate(prepared.job) && core::is_drawing_file(prepared.job.source.files.front()))
+    return {};  // all layers are alike
   const auto end = std::chrono::steady_clock::now() + longest;
   core::HangingCheck check(prepared.job.bead_width);
   std::size_t seen = 0;
@@ -74,17 +75,16 @@ std::vector<fs::path> present(std::initializer_list<std::optional<fs::path>> pat
   return given;
 }
 
-PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs) {
-  Job job = load_job_or_model(options.job, options.profile);
+PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs,
+                             UnnamedPrinter unnamed) {
+  Job job = load_job_or_model(options.job, options.profile, unnamed);
   job.print.look_ahead = options.look_ahead;
   job.full_quality = options.full_quality;
-  PreparedJob prepared = prepare(std::move(job), options.layers);
+  PreparedJob prepared = prepare(std::move(job), options.layers, show_note);
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more_outputs;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
   check_outputs(files_of(prepared.job).all(), outputs);
-  for (const std::string& warning : prepared.job.warnings) show_note(warning);
-  for (const std::string& warning : prepared.part->warnings()) show_note(warning);
   for (const std::string& sentence : hanging_places(prepared)) show_note(sentence);
   return prepared;
 }

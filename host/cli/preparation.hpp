@@ -8,6 +8,7 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/engine/prepared_job.hpp"
+#include "host/job/load_job.hpp"
 
 namespace unicursal::host {
 
@@ -24,6 +25,7 @@ void show_note(const std::string& sentence);
 /// Loads, checks and places a job, and shows its warnings on standard error. Also checks the outputs of the
 /// options and `more_outputs` (check_outputs). Throws core::DataError.
 PreparedJob prepare_and_warn(const JobOptions& options,
-                             const std::vector<std::filesystem::path>& more_outputs = {});
+                             const std::vector<std::filesystem::path>& more_outputs = {},
+                             UnnamedPrinter unnamed = UnnamedPrinter::assume_common_frame);
 
 }  // namespace unicursal::host

@@ -2,8 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "core/model/read_part.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/foreground.hpp"
@@ -27,7 +25,7 @@ class PrintCommand final : public Command {
 };
 
 CLI::App& PrintCommand::declare(CLI::App& program) {
-  CLI::App& app = add_command(program, "print", "Print", "Print a job on a printer, over USB.",
+  CLI::App& app = add_command(program, "print", "Print", "Print a job or a model on a printer, over USB.",
                               "unicursal print leaf.toml --port /dev/ttyUSB0");
   job_.declare(app);
   job_.declare_full_quality(app);
@@ -41,11 +39,7 @@ CLI::App& PrintCommand::declare(CLI::App& program) {
 }
 
 Exit PrintCommand::run() {
-  if (core::is_model_file(job_.job)) {
-    throw core::DataError(job_.job.string(), "", "is a model, not a job",
-                          "write a job for it with `unicursal new`, which can be kept for a resume");
-  }
-  Print print(prepare_and_warn(job_, present({options_.log})), options_);
+  Print print(prepare_and_warn(job_, present({options_.log}), UnnamedPrinter::refuse), options_);
   Books books(print.maker(), "print", job_.outputs);
   print.connect();
   const StreamResult result = stream_with_progress(print, display_);

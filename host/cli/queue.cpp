@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/model/read_part.hpp"
 #include "core/text/file_bytes.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
@@ -43,9 +44,18 @@ std::string free_folder(const Client& client, const std::string& name) {
   return folder;
 }
 
+/// The job with the files that it names, or the model with those that belong to it. The daemon's profile
+/// decides how a model is printed.
+std::vector<fs::path> files_to_send(const fs::path& file) {
+  if (!core::is_model_file(file)) return files_of(load_job(file)).all();
+  std::vector<fs::path> files = core::companion_files(file);
+  files.insert(files.begin(), file);
+  return files;
+}
+
 /// Sends the job and its files. Returns the name of the job in the daemon.
 std::string upload(const Client& client, const fs::path& file) {
-  const std::vector<fs::path> files = files_of(load_job(file)).all();
+  const std::vector<fs::path> files = files_to_send(file);
   for (const fs::path& one : files) check_beside(file, one);
   const std::string folder = free_folder(client, file.stem().string());
   for (const fs::path& one : files) {
@@ -76,9 +86,9 @@ CLI::App& Queue::declare(CLI::App& program) {
                               "unicursal queue --add leaf.toml");
   add_note(app, "Without options the command lists the queue.");
   app.add_flag("--jobs", list_jobs_, "List the jobs in the daemon's folders, which can be added.");
-  CLI::Option& add = add_value(app, "--add", add_, "JOB", "Add a job from the daemon's folders.");
+  CLI::Option& add = add_value(app, "--add", add_, "JOB", "Add a job or a model from the daemon's folders.");
   add_value(app, "--upload", upload_, "FILE",
-            "Send a job of your own with the files that it names, and add it.")
+            "Send a job of your own with the files that it names, or a model, and add it.")
       .excludes(&add);
   declare_layers(app, layers_, "Print only these layers of the job: A to B, counted from 0, both included.");
   add_value(app, "--remove", remove_, "NUMBER", "Remove the job of this number.")

@@ -8,6 +8,7 @@
 #include <asio/use_awaitable.hpp>
 #include <utility>
 
+#include "core/model/file_kind.hpp"
 #include "core/stopping.hpp"
 #include "core/text/printable.hpp"
 #include "host/daemon/elsewhere.hpp"
@@ -156,9 +157,9 @@ JobCheck Daemon::check_of(const std::string& name, const std::optional<LayerRang
 }
 
 /// Throws Refused for a job that cannot be printed. Jobs in the daemon's own folders are trusted more, and
-/// may still get their models.
+/// may still get their models; models are read at once, which may take long.
 asio::awaitable<void> Daemon::check(std::string name, std::optional<LayerRange> layers) {
-  if (JobFiles::is_upload(name)) {
+  if (JobFiles::is_upload(name) || core::is_model_file(name)) {
     const std::string problem = co_await check_in_child(check_of(name, layers), {});
     if (!problem.empty()) throw Refused(Why::bad_job, problem);
     co_return;

@@ -243,7 +243,8 @@ asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop
 void check_here(const JobCheck& check) {
   take_on(check.limits);
   try {
-    const PreparedJob prepared = prepare(load_job(check.job, check.profile), check.layers);
+    const PreparedJob prepared =
+        prepare(load_job_or_model(check.job, check.profile, UnnamedPrinter::refuse), check.layers);
     check_beginning(prepared);
     if (check.limits.time) probe(prepared, *check.limits.time / 2);
   } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/model/file_kind.hpp"
 #include "core/text/printable.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/daemon/state_folder.hpp"
@@ -27,8 +28,9 @@ Refused no_such(const std::string& name) {
   return {Why::not_found, "there is no job \"" + core::printable(name) + "\"; see `unicursal queue --jobs`"};
 }
 
+/// Whether a file can be printed: a job, or a model that is printed with the usual settings.
 bool is_job(const fs::path& path) {
-  return path.extension() == ".toml";
+  return path.extension() == ".toml" || core::is_model_file(path);
 }
 
 /// Whether `path` is below `folder`; both canonical.
@@ -44,7 +46,7 @@ void check_name(const std::string& name) {
   for (const fs::path& part : path) sound = sound && part != ".." && part != "." && !part.empty();
   if (!sound)
     throw Refused(Why::bad_name,
-                  "a job is named by its file in one of the daemon's folders, such as leaf.toml");
+                  "a job is named by its file in one of the daemon's folders, such as leaf.toml or leaf.svg");
 }
 
 void check_texts(const toml::node& node) {
@@ -127,11 +129,12 @@ fs::path JobFiles::find_upload(const std::string& name) const {
   const std::string upload = inside.substr(0, slash);
   const std::string file = slash == std::string::npos ? "" : inside.substr(slash + 1);
   if (!is_plain_name(upload) || !is_plain_name(file) || !is_job(file))
-    throw Refused(Why::bad_name, "an uploaded job is named as in upload:leaf/job.toml");
+    throw Refused(Why::bad_name,
+                  "an uploaded job is named as in upload:leaf/job.toml or upload:leaf/leaf.3mf");
   const fs::path path = uploads_ / upload / file;
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) throw no_such(name);
-  check_uploaded_job(path);
+  if (!core::is_model_file(path)) check_uploaded_job(path);
   return path;
 }
 

@@ -111,7 +111,8 @@ PrintOptions Daemon::print_options(const std::string& job) const {
 
 /// Reads files and opens the port; blocks.
 std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
-  PreparedJob prepared = prepare(load_job(files_.find(job.name), options_.profile), job.layers);
+  PreparedJob prepared =
+      prepare(load_job_or_model(files_.find(job.name), options_.profile, UnnamedPrinter::refuse), job.layers);
   auto print = std::make_unique<Print>(std::move(prepared), print_options(job.name));
   print->connect();
   try {

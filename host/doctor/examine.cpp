@@ -1,7 +1,10 @@
 #include "host/doctor/examine.hpp"
 
 #include <algorithm>
+#include <asio/co_spawn.hpp>
+#include <asio/io_context.hpp>
 #include <charconv>
+#include <exception>
 #include <string_view>
 
 #include "firmware_gcode/reply/phrases.hpp"
@@ -206,6 +209,23 @@ asio::awaitable<Examination> examine(Link& link, asio::any_io_executor executor,
   found.temperatures = link.temperatures();
   found.queues = link.queues();
   co_return found;
+}
+
+Examination examine_port(int port, const LinkOptions& options) {
+  asio::io_context loop{1};
+  Link link(loop.get_executor(), port, options);
+  Examination found;
+  std::exception_ptr failure;
+  asio::co_spawn(
+      loop,
+      [&]() -> asio::awaitable<void> { found = co_await examine(link, loop.get_executor(), options.clock); },
+      [&](std::exception_ptr thrown) {
+        failure = thrown;
+        loop.stop();
+      });
+  loop.run();
+  if (failure) std::rethrow_exception(failure);
+  return found;
 }
 
 }  // namespace unicursal::host

@@ -45,4 +45,7 @@ struct Examination {
 asio::awaitable<Examination> examine(Link& link, asio::any_io_executor executor,
                                      std::shared_ptr<Clock> clock);
 
+/// The same on an open port, in a loop of its own. Throws LinkError.
+Examination examine_port(int port, const LinkOptions& options);
+
 }  // namespace unicursal::host

@@ -1,11 +1,14 @@
 #include "host/engine/prepared_job.hpp"
+#include "core/model/plate.hpp"
 #include "core/model/read_part.hpp"
+#include "core/text/wording.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace unicursal::host {
 namespace {
@@ -35,9 +38,68 @@ double underside(const core::PartSource& source, std::size_t layer) {
   return first_layer_height(source) + static_cast<double>(layer - 1) * source.layer_height;
 }
 
+using Size = std::array<double, 3>;  // mm
+
+bool fits(const Size& size, const Size& bed) {
+  return size[0] <= bed[0] && size[1] <= bed[1] && size[2] <= bed[2];
+}
+
+/// Degrees about x, y and z that make a box fit which does not fit as it is: a turn about z, if possible a
+/// quarter or half of one, or laid down.
+std::optional<std::array<int, 3>> fitting_turn(const Size& size, const Size& bed, bool may_lie_down) {
+  const std::array<std::array<int, 2>, 3> laid{{{0, 0}, {90, 0}, {0, 90}}};
+  for (const auto& [about_x, about_y] : laid) {
+    if (!may_lie_down && about_x + about_y > 0) break;
+    Size lying = size;
+    if (about_x > 0) std::swap(lying[1], lying[2]);
+    if (about_y > 0) std::swap(lying[0], lying[2]);
+    for (const int about_z : {0, 90, 45, 5, 10, 15, 20, 25, 30, 35, 40, 50, 55, 60, 65, 70, 75, 80, 85}) {
+      const double angle = about_z * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+      if (fits({c * lying[0] + s * lying[1], s * lying[0] + c * lying[1], lying[2]}, bed))
+        return std::array{about_x, about_y, about_z};
+    }
+  }
+  return std::nullopt;
+}
+
 [[noreturn]] void refuse(const Job& job, const std::string& place, const std::string& problem,
                          const std::string& remedy) {
   throw JobError(job.file.string(), place, problem, remedy);
+}
+
+/// How a part that is too large could be made to fit: in another unit, turned, or smaller.
+std::string remedy_of_size(const Job& job, const Size& size) {
+  const auto& bed = job.profile.printer.bed;
+  const core::PartSource& source = job.source;
+  const bool drawing = core::is_drawing_file(source.files.front());
+  const bool unitless = std::all_of(source.files.begin(), source.files.end(), core::is_unitless_file);
+  std::string upright;
+  if (job.shaping.pose.unchanged()) {
+    constexpr double microns_from = 10000;  // mm
+    if (unitless && *std::max_element(size.begin(), size.end()) >= microns_from &&
+        fits({size[0] / 1000, size[1] / 1000, size[2] / 1000}, bed))
+      return "write units = \"micron\" if its file is in micrometres";
+    if (const auto turn = fitting_turn(size, bed, !drawing)) {
+      const auto& [about_x, about_y, about_z] = *turn;
+      if (about_x + about_y == 0) return fmt::format("write rotate = {}, with which it fits", about_z);
+      const double height = about_x > 0 ? size[1] : size[0];
+      const std::string turned = fmt::format("rotate = [{}, {}, {}]", about_x, about_y, about_z);
+      if (height <= size[2]) return "write " + turned + ", with which it fits";
+      upright = "or " + turned + " to stand it up, ";
+    }
+  }
+  double factor = std::min(bed[0] / size[0], bed[1] / size[1]);
+  if (!drawing) factor = std::min(factor, bed[2] / size[2]);
+  if (drawing && size[2] > bed[2]) return "lower height, or choose a larger printer with --profile";
+  constexpr double steps = 1000;
+  factor = std::floor(factor * steps) / steps;
+  if (!(factor > 0)) return "check the unit of its file, or choose a larger printer with --profile";
+  const char* const larger = "cut the part, or choose a larger printer with --profile";
+  if (job.shaping.pose.width > 0)
+    return fmt::format("write width = {:.1f}, {}", job.shaping.pose.width * factor, larger);
+  if (job.shaping.pose.scale == core::Pose{}.scale)
+    return fmt::format("write scale = {:.3g}, {}{}", factor, upright, larger);
+  return fmt::format("make the part {:.3g} times as large with scale, {}", factor, larger);
 }
 
 void check_fit(const PreparedJob& prepared, double height) {
@@ -50,7 +112,7 @@ void check_fit(const PreparedJob& prepared, double height) {
     refuse(job, "part",
            fmt::format("is {:.1f} x {:.1f} x {:.1f} mm, larger than the bed of {:.1f} x {:.1f} x {:.1f} mm",
                        size.x(), size.y(), height, bed[0], bed[1], bed[2]),
-           "scale or cut the part, or choose a larger printer with --profile");
+           remedy_of_size(job, {size.x(), size.y(), height}));
   }
   const core::Vec2 low = extent.min + prepared.offset, high = extent.max + prepared.offset;
   if (low.minCoeff() < -fit_tolerance || high.x() > bed[0] + fit_tolerance ||
@@ -153,6 +215,62 @@ gcode::PrintFrame frame_of(const PreparedJob& prepared) {
   return frame;
 }
 
+/// The corners of all copies, part by part. Throws JobError with the number of copies that fit, if one part
+/// is copied.
+std::vector<core::Vec2> corners_on(const Job& job, const std::vector<core::Vec2>& sizes,
+                                   const std::vector<std::size_t>& copies) {
+  const core::Vec2 bed(job.profile.printer.bed[0], job.profile.printer.bed[1]);
+  const auto corners_of = [&](std::size_t first) {
+    std::vector<core::Vec2> all;
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      all.insert(all.end(), sizes.size() == 1 ? first : copies[i], sizes[i]);
+    return core::arranged(all, bed, job.gap);
+  };
+  if (const auto corners = corners_of(copies.front())) return *corners;
+  std::size_t fitting = 0;
+  if (sizes.size() == 1) {
+    for (std::size_t low = 1, high = copies.front(); low < high;) {
+      const std::size_t middle = (low + high) / 2;
+      if (corners_of(middle))
+        fitting = middle, low = middle + 1;
+      else
+        high = middle;
+    }
+  }
+  refuse(
+      job, "part",
+      fmt::format("does not fit on the bed of {:.1f} x {:.1f} mm together with its copies or the other parts",
+                  bed.x(), bed.y()),
+      fitting > 0 ? fmt::format("write copies = {}, or a smaller gap", fitting)
+                  : "take parts away, turn them, or write a smaller gap");
+}
+
+std::unique_ptr<const core::Part> read_plate(const Job& job) {
+  std::vector<bool> matched(job.source.zones.size(), false);
+  std::vector<std::shared_ptr<const core::Part>> parts{core::read_part(job.source, job.shaping, &matched)};
+  std::vector<std::size_t> copies{job.copies};
+  for (const PlatePart& part : job.more) {
+    parts.push_back(core::read_part(part.source, part.shaping, &matched));
+    copies.push_back(part.copies);
+  }
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    if (!matched[i])
+      refuse(
+          job, "zone",
+          fmt::format("select = {} matches nothing in any part", core::in_quotes(job.source.zones[i].select)),
+          "see what zones can select with `unicursal inspect`");
+  }
+  std::vector<core::Vec2> sizes;
+  for (const auto& part : parts) sizes.push_back(part->extent().size());
+  const std::vector<core::Vec2> corners = corners_on(job, sizes, copies);
+  std::vector<core::PlateItem> items;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t n = 0; n < copies[i]; ++n)
+      items.push_back({parts[i], corners[items.size()] - parts[i]->extent().min});
+  }
+  return core::plate_of(std::move(items));
+}
+
 bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
   const core::PlanOptions plan = lookahead_options(prepared).plan;
   return std::any_of(layer.islands.begin(), layer.islands.end(),
@@ -161,10 +279,18 @@ bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
 
 }  // namespace
 
-PreparedJob prepare(Job job, const std::optional<LayerRange>& layers) {
+PreparedJob prepare(Job job, const std::optional<LayerRange>& layers,
+                    const std::function<void(const std::string&)>& note) {
   PreparedJob prepared;
   prepared.job = std::move(job);
-  prepared.part = core::read_part(prepared.job.source);
+  if (note) {
+    for (const std::string& warning : prepared.job.warnings) note(warning);
+  }
+  prepared.part = is_plate(prepared.job) ? read_plate(prepared.job)
+                                         : core::read_part(prepared.job.source, prepared.job.shaping);
+  if (note) {
+    for (const std::string& warning : prepared.part->warnings()) note(warning);
+  }
   prepared.planner = std::make_shared<const core::IslandPlanner>(prepared.part->zones());
   choose_layers(prepared, layers);
   prepared.offset = offset_on_bed(prepared.job.place, prepared.part->extent(), prepared.job.profile.printer);
@@ -234,9 +360,11 @@ void check_beginning(const PreparedJob& prepared) {
     if (index == prepared.first) return;
     throw core::DataError(
         prepared.job.file.string(), "part",
-        fmt::format("the first {} layers hold nothing that can be printed; printing would "
-                    "begin in the air at z = {:.2f} mm",
-                    index - prepared.first, layer.top - layer.height - prepared.lowered),
+        fmt::format("{} nothing that can be printed; printing would begin in the air at z = {:.2f} mm",
+                    index - prepared.first == 1
+                        ? "the first layer holds"
+                        : fmt::format("the first {} layers hold", index - prepared.first),
+                    layer.top - layer.height - prepared.lowered),
         fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", layer.index));
   }
   throw core::DataError(

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -34,8 +35,10 @@ struct PreparedJob {
 };
 
 /// `layers`: print these only; absent: all. Throws core::DataError, for example if the part does not fit on
-/// the bed or the range names no layer. A core::StopScope around it is obeyed.
-PreparedJob prepare(Job job, const std::optional<LayerRange>& layers = {});
+/// the bed or the range names no layer. `note` gets the warnings of job and part, also if a refusal follows.
+/// A core::StopScope around it is obeyed.
+PreparedJob prepare(Job job, const std::optional<LayerRange>& layers = {},
+                    const std::function<void(const std::string&)>& note = {});
 
 /// Throws core::DataError if the first layer is nowhere wide enough for a curve: the print would begin in the
 /// air, or be empty.

@@ -28,9 +28,9 @@ constexpr auto late_answer = std::chrono::seconds(1);  ///< after the ok, of a p
 
 // A nozzle at the end of a print, °C.
 constexpr double harmless = 60;
-constexpr double cooler = 3;   ///< than at the end: its heater is off
-constexpr double hotter = 15;  ///< than at the end: its heater is on
-constexpr auto cooling_patience = std::chrono::seconds(60);
+constexpr double cooler = 3;          ///< than at the end: its heater is off
+constexpr double hotter = 15;         ///< than at the end: its heater is on
+constexpr int cooling_patience = 60;  ///< s
 
 constexpr auto fell_behind =
     "planning has fallen behind; the print continues by itself when the next layer is planned";
@@ -347,8 +347,14 @@ asio::awaitable<void> Session::State::see_it_cool() {
   if (settings.link.temperatures.count() == 0 || !nozzle || *nozzle < harmless || printer.expected.nozzle > 0)
     co_return;
   const double hot = *nozzle;
-  const std::function<bool()> clear = [&] { return *nozzle <= hot - cooler || *nozzle >= hot + hotter; };
-  if (!co_await wake.wait(clock->now() + cooling_patience, clear))
+  const auto clear = [&] { return *nozzle <= hot - cooler || *nozzle >= hot + hotter; };
+  for (int second = 0; second < cooling_patience && !clear(); ++second) {
+    std::vector<std::string> wait(1, "G4 S1");
+    wait.emplace_back("M105");
+    co_await places.interpose(std::move(wait));
+    co_await link.drain();
+  }
+  if (!clear())
     announcer.warn(
         fmt::format("the nozzle is still at {:.0f} °C, although its heater is off: look after it", *nozzle));
   if (*nozzle < hot + hotter) co_return;

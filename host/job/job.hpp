@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/model/part.hpp"
+#include "core/model/pose.hpp"
 #include "firmware_gcode/print/print_settings.hpp"
 #include "host/job/job_error.hpp"
 #include "host/job/profile.hpp"
@@ -22,9 +23,21 @@ struct Placement {
   core::Vec2 point{0, 0};  ///< mm on the bed, the centre of the part's extent, for Kind::at
 };
 
+/// A further part on the plate.
+struct PlatePart {
+  core::PartSource source;  ///< with the zones and layers of the first part
+  core::Shaping shaping;
+  std::size_t copies = 1;
+};
+
 struct Job {
   std::filesystem::path file;
+  std::string text;  ///< of a job that was written for a model, which is `file` then; empty: the file's own
   core::PartSource source;  ///< zones name materials by their index in `print.materials`
+  core::Shaping shaping;
+  std::size_t copies = 1;       ///< of the part of `source`
+  std::vector<PlatePart> more;  ///< further parts
+  double gap = 5;               ///< mm between parts and copies
   double bead_width = 0;
   std::optional<double> seed_distance;
   int perimeters = 0;                ///< contours around the fill
@@ -38,7 +51,8 @@ struct Job {
 
 /// The files that a print of a job is made from.
 struct JobInputs {
-  std::filesystem::path job, profile;
+  std::filesystem::path job;  ///< empty for a job that was written for a model
+  std::filesystem::path profile;
   std::vector<std::filesystem::path> models;
   std::vector<std::filesystem::path> fields;  ///< direction file of each zone, empty for zones without one
 
@@ -47,5 +61,11 @@ struct JobInputs {
 };
 
 JobInputs files_of(const Job& job);
+
+/// Whether the job prints several parts, or copies of one.
+bool is_plate(const Job& job);
+
+/// The names of all models, part by part, to be changed.
+std::vector<std::filesystem::path*> model_names(Job& job);
 
 }  // namespace unicursal::host

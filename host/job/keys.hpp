@@ -10,11 +10,36 @@ namespace unicursal::host::keys {
 using Keys = std::vector<std::string>;
 
 inline const Keys job = {"printer", "part", "zone", "mixture"};
-inline const Keys part = {
-    "file",       "height",        "outline",     "layer_height", "first_layer_height",
-    "bead_width", "seed_distance", "flow",        "speed",        "first_layer_speed",
-    "perimeters", "deposit",       "place",       "seam",         "change_before_border",
-    "skirt",      "fan",           "temperatures"};
+inline const Keys part = {"file",
+                          "copies",
+                          "gap",
+                          "units",
+                          "scale",
+                          "mirror",
+                          "lie_on",
+                          "rotate",
+                          "width",
+                          "height",
+                          "outline",
+                          "layer_height",
+                          "first_layer_height",
+                          "bead_width",
+                          "seed_distance",
+                          "paint_depth",
+                          "flow",
+                          "speed",
+                          "first_layer_speed",
+                          "perimeters",
+                          "deposit",
+                          "place",
+                          "seam",
+                          "change_before_border",
+                          "skirt",
+                          "fan",
+                          "temperatures"};
+/// Of the parts behind the first one; all other keys are those of the whole print.
+inline const Keys more_part = {"file",  "units",  "scale",   "mirror",      "lie_on", "rotate",
+                               "width", "height", "outline", "paint_depth", "copies"};
 inline const Keys deposit = {"width"};
 inline const Keys skirt = {"loops", "distance"};
 inline const Keys fan = {"percent", "from"};
@@ -32,8 +57,9 @@ inline const Keys printer = {"name",           "firmware",
                              "jerk",           "junction_deviation",
                              "acceleration"};
 inline const Keys extruder = {
-    "feeders", "filament_diameter", "max_flow",     "floor_share", "retraction_length", "retraction_speed",
-    "z_hop",   "steps_per_mm",      "flow_factors", "max_speed",   "max_acceleration",  "jerk"};
+    "feeders",          "filament_diameter", "max_flow", "floor_share",  "retraction_length",
+    "retraction_speed", "filaments",         "z_hop",    "steps_per_mm", "flow_factors",
+    "max_speed",        "max_acceleration",  "jerk"};
 inline const Keys temperature = {"nozzle", "bed"};
 inline const Keys transition = {"dead_volume", "mixing_volume", "tanks", "overshoot"};
 inline const Keys gcode = {"start", "end"};

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/model/read_part.hpp"
 #include "host/job/keys.hpp"
 #include "host/job/model_job.hpp"
+#include "host/job/placing.hpp"
 #include "host/job/print_keys.hpp"
 #include "host/job/settings_file.hpp"
 #include "host/job/usual_profile.hpp"
@@ -62,14 +64,11 @@ double read_layer_height(const Section& part, const char* key, double nozzle) {
   return height;
 }
 
-core::PartSource read_source(const Section& part, double nozzle) {
+/// What each part has of its own.
+core::PartSource read_shape(const Section& part) {
   core::PartSource source;
   source.files = read_files(part);
   const Range length{0, greatest_length, true, "mm"};
-  source.layer_height = read_layer_height(part, "layer_height", nozzle);
-  if (part.has("first_layer_height")) {
-    source.first_layer_height = read_layer_height(part, "first_layer_height", nozzle);
-  }
   const bool drawing = std::any_of(source.files.begin(), source.files.end(), core::is_drawing_file);
   if (const toml::node* outline = part.find("outline")) {
     if (!drawing) part.fail("outline", "is for drawings, but the part is made of meshes", "remove it");
@@ -80,6 +79,23 @@ core::PartSource read_source(const Section& part, double nozzle) {
         part.number("height", length, "write how high the drawing is to become, for example height = 1.0");
   }
   return source;
+}
+
+core::PartSource read_source(const Section& part, double nozzle) {
+  core::PartSource source = read_shape(part);
+  source.layer_height = read_layer_height(part, "layer_height", nozzle);
+  if (part.has("first_layer_height")) {
+    source.first_layer_height = read_layer_height(part, "first_layer_height", nozzle);
+  }
+  return source;
+}
+
+std::size_t read_copies(const Section& part) {
+  constexpr double most = 1000;
+  const char* const remedy = "write a whole number, for example copies = 4";
+  const double copies = part.number_or("copies", 1, between(1, most, ""), remedy);
+  if (copies != std::floor(copies)) part.fail("copies", "is not a whole number", remedy);
+  return static_cast<std::size_t>(copies);
 }
 
 Placement read_place(const Section& part) {
@@ -142,6 +158,11 @@ void read_bead_width(const Section& part, Job& job) {
   if (job.seed_distance) check_seed_distance(part, *job.seed_distance, job.bead_width);
 }
 
+double read_paint_depth(const Section& part, double bead_width) {
+  return part.number_or("paint_depth", usual_paint_depth(bead_width), {0, greatest_length, true, "mm"},
+                        "write how deep painted colours reach, in mm");
+}
+
 void read_flow(const Section& part, Job& job) {
   const double greatest = job.profile.printer.max_flow;
   job.print.flow = std::min(job.print.flow, greatest);
@@ -198,18 +219,78 @@ double bead_width_from_seed_distance(double d) {
 
 namespace {
 
+constexpr const char* part_remedy = "write [part] and below it file, layer_height and bead_width";
+
+/// The tables of the parts: [part], or several [[part]].
+std::vector<Section> part_sections(const Section& root) {
+  constexpr std::size_t most_parts = 100;
+  const toml::node* node = root.find("part");
+  const toml::array* list = node ? node->as_array() : nullptr;
+  if (!list) return {root.section("part", keys::part, part_remedy)};
+  if (list->empty() || !list->is_homogeneous<toml::table>())
+    root.fail("part", "is not a list of parts", part_remedy);
+  if (list->size() > most_parts)
+    root.fail("part", fmt::format("has more than {} parts", most_parts), "print them in several jobs");
+  std::vector<Section> sections;
+  for (const toml::node& item : *list) {
+    const std::string name = fmt::format("part[{}]", sections.size());
+    const toml::table& table = *item.as_table();
+    if (sections.empty()) {
+      sections.emplace_back(root.file(), table, name, keys::part);
+      continue;
+    }
+    const Section any(root.file(), table, name, keys::part);
+    for (const std::string& key : keys::part) {
+      if (any.has(key) &&
+          std::find(keys::more_part.begin(), keys::more_part.end(), key) == keys::more_part.end())
+        any.fail(key, "is given for a further part, but holds for the whole print",
+                 "write it in the first [[part]]");
+    }
+    sections.push_back(any);
+  }
+  return sections;
+}
+
+void read_more_parts(const std::vector<Section>& sections, Job& job) {
+  for (std::size_t i = 1; i < sections.size(); ++i) {
+    PlatePart part{read_shape(sections[i]), {}, read_copies(sections[i])};
+    part.source.layer_height = job.source.layer_height;
+    part.source.first_layer_height = job.source.first_layer_height;
+    part.shaping = {read_pose(sections[i], part.source), read_paint_depth(sections[i], job.bead_width)};
+    part.source.zones = job.source.zones;
+    job.more.push_back(std::move(part));
+  }
+}
+
+/// Directions from a file, and a part's own coordinates, mean one part.
+void check_plate(const Section& part, const Job& job) {
+  if (!is_plate(job)) return;
+  if (job.place.kind == Placement::Kind::as_is)
+    part.fail("place", "is \"as-is\", but several parts are arranged on the bed",
+              "write \"center\" or a point");
+  for (const core::Zone& zone : job.source.zones) {
+    if (zone.pattern.kind != core::PatternKind::field) continue;
+    part.fail(job.copies > 1 ? "copies" : "file",
+              "makes several parts, but a zone takes its directions from a file, which is made for one",
+              "print one part, or choose another pattern");
+  }
+}
+
 Job read_job(const SettingsFile& file, const std::filesystem::path& path,
              const std::optional<std::filesystem::path>& profile) {
   const Section root = file.root(keys::job);
   Job job;
   job.file = path;
   job.profile = load_profile(profile_path(root, profile));
-  const Section part =
-      root.section("part", keys::part, "write [part] and below it file, layer_height and bead_width");
+  const std::vector<Section> parts = part_sections(root);
+  const Section& part = parts.front();
   job.source = read_source(part, job.profile.printer.nozzle);
   job.place = read_place(part);
   job.line_width = read_deposit(part, job.profile.printer);
   read_bead_width(part, job);
+  job.shaping = {read_pose(part, job.source), read_paint_depth(part, job.bead_width)};
+  job.copies = read_copies(part);
+  job.gap = part.number_or("gap", job.gap, between(0.5, 1000, "mm"), "write for example gap = 5.0");
   read_flow(part, job);
   read_print_keys(part, job);
   read_perimeters(part, job);
@@ -220,19 +301,27 @@ Job read_job(const SettingsFile& file, const std::filesystem::path& path,
   ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders);
   job.source.zones = std::move(zones.zones);
   job.print.materials = std::move(zones.materials);
+  read_more_parts(parts, job);
+  check_plate(part, job);
   return job;
 }
 
 /// A model is printed with the defaults of its own job.
-Job job_for_model(const std::filesystem::path& model, const std::optional<std::filesystem::path>& chosen) {
+Job job_for_model(const std::filesystem::path& model, const std::optional<std::filesystem::path>& chosen,
+                  UnnamedPrinter unnamed) {
   const std::optional<std::filesystem::path> own = chosen ? chosen : own_profile();
+  if (!own && unnamed == UnnamedPrinter::refuse) {
+    throw JobError(model.string(), "", "is a model, which does not say on which printer it is printed",
+                   "name a profile with --profile, or make your own with `unicursal setup`");
+  }
   const std::filesystem::path profile = own ? *own : common_frame();
   const ModelJob written = model_job({model}, load_profile(profile), model.parent_path());
   Job job = read_job(SettingsFile(model, written.text), model, profile);
+  job.text = written.text;
   if (!own) {
     job.warnings.push_back(
         "no profile is named: a common frame with a nozzle of 0.6 mm is assumed; name yours with --profile, "
-        "or keep it as unicursal/printer.toml in ~/.config");
+        "or make it with `unicursal setup`");
   }
   return job;
 }
@@ -246,9 +335,9 @@ Job load_job(const std::filesystem::path& path, const std::optional<std::filesys
   return read_job(SettingsFile(path), path, profile);
 }
 
-Job load_job_or_model(const std::filesystem::path& path,
-                      const std::optional<std::filesystem::path>& profile) {
-  return core::is_model_file(path) ? job_for_model(path, profile) : load_job(path, profile);
+Job load_job_or_model(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile,
+                      UnnamedPrinter unnamed) {
+  return core::is_model_file(path) ? job_for_model(path, profile, unnamed) : load_job(path, profile);
 }
 
 }  // namespace unicursal::host

@@ -12,10 +12,16 @@ namespace unicursal::host {
 /// to it. Throws JobError, core::FileError, core::DataError.
 Job load_job(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile = {});
 
+/// What to do for a model if neither a profile is named nor own_profile() exists.
+enum class UnnamedPrinter {
+  refuse,               ///< a real printer could be another one
+  assume_common_frame,  ///< to try a model
+};
+
 /// The same, and a model (a drawing or meshes) counts as the job that model_job() writes for it. Without
-/// `profile` it is printed with that of own_profile(), or with common_frame().
-Job load_job_or_model(const std::filesystem::path& file,
-                      const std::optional<std::filesystem::path>& profile = {});
+/// `profile` it is printed with that of own_profile().
+Job load_job_or_model(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile,
+                      UnnamedPrinter unnamed);
 
 /// The bead width that results from seeds at distance `d` (the paper's d), both in mm.
 double bead_width_from_seed_distance(double d);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/picture/filaments.hpp"
+#include "host/job/profile_draft.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -22,23 +23,6 @@ constexpr int share_steps = 20;    ///< mixtures are tried in steps of 1/20
 
 double rounded(double length) {
   return std::max(1.0, std::round(length / step)) * step;
-}
-
-/// As a basic string of TOML.
-std::string toml_text(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (code < 0x20 || code == 0x7f) {
-      result += fmt::format("\\u{:04X}", code);
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
 }
 
 std::string name_for(const fs::path& file, fs::path folder) {
@@ -121,11 +105,18 @@ std::string head(const std::vector<fs::path>& files, const Profile& profile, con
   if (model.drawing) {
     text +=
         fmt::format("height = {:.4g}        # mm, how far the drawing is extruded\n", drawing_layers * layer);
+    text += fmt::format("#width = {:.4g}       # mm, to which the drawing is scaled\n", model.size.x());
+  } else {
+    text += "#scale = 1.0\n#rotate = [0, 0, 0]  # degrees about x, y and z\n";
   }
   text += fmt::format("layer_height = {:.4g}  # mm\n", layer);
   text +=
       fmt::format("bead_width = {:.4g}   # mm, from fold to fold of the curve\n", usual_bead_width(printer));
   text += "#perimeters = 1     # contours around the fill\n";
+  if (std::any_of(model.zones.begin(), model.zones.end(), [](const auto& zone) { return zone.paint; })) {
+    text += fmt::format("paint_depth = {:.4g}  # mm, how deep painted colours reach\n",
+                        usual_paint_depth(usual_bead_width(printer)));
+  }
   return text;
 }
 
@@ -136,10 +127,20 @@ double usual_bead_width(const gcode::Printer& printer) {
                     printer.bead_width_range[1]);
 }
 
+double usual_paint_depth(double bead_width) {
+  return 2 * bead_width;
+}
+
 ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, const fs::path& folder) {
   ModelJob job;
-  job.contents = core::inspect_model(files);
-  std::string zones, mixtures = "\n[mixture]           # shares of the feeders\n";
+  job.contents = core::inspect_model(files, usual_paint_depth(usual_bead_width(profile.printer)));
+  std::string of_what = "the feeders";
+  if (!profile.filaments.empty()) {
+    std::vector<std::string> names;
+    for (const std::string& name : profile.filaments) names.push_back(toml_text(name));
+    of_what = fmt::format("{}", fmt::join(names, ", "));
+  }
+  std::string zones, mixtures = fmt::format("\n[mixture]           # shares of {}\n", of_what);
   std::set<std::string> keys;
   std::size_t uncoloured = 0;
   for (const core::ZoneOffer& offer : job.contents.zones) {

@@ -23,6 +23,9 @@ struct ModelJob {
 ModelJob model_job(const std::vector<std::filesystem::path>& files, const Profile& profile,
                    const std::filesystem::path& folder);
 
+/// How deep paint reaches if a job does not say it, mm.
+double usual_paint_depth(double bead_width);
+
 /// The bead width that model_job() chooses, mm.
 double usual_bead_width(const gcode::Printer& printer);
 

@@ -118,6 +118,25 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
   read_extruder_motion(section, printer.motion);
 }
 
+std::vector<std::string> read_filaments(const Section& section, int feeders) {
+  const toml::node* node = section.find("filaments");
+  if (!node) return {};
+  const char* const remedy = "write one name for each feeder, for example [\"red\", \"white\", \"blue\"]";
+  const toml::array* list = node->as_array();
+  if (!list) section.fail("filaments", "is not a list", remedy);
+  std::vector<std::string> names;
+  for (const toml::node& item : *list) {
+    const std::optional<std::string> name = item.value<std::string>();
+    if (!name) section.fail("filaments", "holds something that is not a text", remedy);
+    names.push_back(*name);
+  }
+  if (names.size() != static_cast<std::size_t>(feeders)) {
+    section.fail("filaments", fmt::format("has {} names, but there are {} feeders", names.size(), feeders),
+                 remedy);
+  }
+  return names;
+}
+
 void read_temperature(const Section& section, gcode::Printer& printer) {
   printer.nozzle_temperature = section.number_or("nozzle", printer.nozzle_temperature,
                                                  between(150, 450, "°C"), "write for example nozzle = 210");
@@ -143,21 +162,34 @@ void read_transition(const Section& section, gcode::Printer& printer) {
 
 }  // namespace
 
-Profile load_profile(const std::filesystem::path& path) {
-  const SettingsFile file(path);
+namespace {
+
+Profile read_profile(const SettingsFile& file, const std::filesystem::path& path) {
   Profile profile;
   profile.file = std::filesystem::absolute(path);
   const Section root = file.root(keys::profile);
   read_machine(root.section("printer", keys::printer,
                             "a profile describes the machine below [printer]; is this file a profile?"),
                profile);
-  read_extruder(root.section_or_empty("extruder", keys::extruder), profile.printer);
+  const Section extruder = root.section_or_empty("extruder", keys::extruder);
+  read_extruder(extruder, profile.printer);
+  profile.filaments = read_filaments(extruder, profile.printer.feeders);
   read_temperature(root.section_or_empty("temperature", keys::temperature), profile.printer);
   read_transition(root.section_or_empty("transition", keys::transition), profile.printer);
   const Section gcode = root.section_or_empty("gcode", keys::gcode);
   profile.printer.start_gcode = read_script(gcode, "start");
   profile.printer.end_gcode = read_script(gcode, "end");
   return profile;
+}
+
+}  // namespace
+
+Profile load_profile(const std::filesystem::path& path) {
+  return read_profile(SettingsFile(path), path);
+}
+
+Profile profile_in(const std::string& text, const std::filesystem::path& file) {
+  return read_profile(SettingsFile(file, text), file);
 }
 
 }  // namespace unicursal::host

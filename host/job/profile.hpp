@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "firmware_gcode/print/printer.hpp"
 
@@ -14,10 +15,13 @@ struct Profile {
   gcode::Printer printer;
   std::string port = "auto";  ///< "auto": the only serial port there is
   unsigned baud = 250000;
-  unsigned receive_buffer = 128;  ///< bytes, of the firmware
+  std::vector<std::string> filaments;  ///< their names, one for each feeder; empty: unknown
+  unsigned receive_buffer = 128;       ///< bytes, of the firmware
 };
 
 /// Throws core::FileError or JobError.
 Profile load_profile(const std::filesystem::path& file);
+/// A profile that has not been written to `file` yet. Throws JobError.
+Profile profile_in(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace unicursal::host

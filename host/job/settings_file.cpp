@@ -182,8 +182,9 @@ std::string Section::choice(std::string_view key, const toml::node& node,
   const std::optional<std::string> value = node.value<std::string>();
   if (!value) fail(key, fmt::format("is {}", kind_of(node)), "choose one of " + joined(choices));
   if (std::find(choices.begin(), choices.end(), *value) == choices.end()) {
+    const std::string meant = meant_by(*value, choices);
     fail(key, fmt::format("is \"{}\", which is none of {}", *value, joined(choices)),
-         fmt::format("did you mean \"{}\"?", nearest(*value, choices)));
+         meant.empty() ? "choose one of these" : fmt::format("did you mean \"{}\"?", meant));
   }
   return *value;
 }

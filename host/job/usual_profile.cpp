@@ -1,33 +1,26 @@
 #include "host/job/usual_profile.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/text/file_bytes.hpp"
 #include "host/files/state_home.hpp"
 #include "host/files/whole_file.hpp"
+#include "host/job/frames.hpp"
 
 namespace unicursal::host {
 namespace {
 
 namespace fs = std::filesystem;
 
-const char* const frame_text =
-    R"(# A common desktop frame with three feeders and one nozzle (Diamond hot end), to try models with.
-[printer]
-name = "common frame, 0.6 mm"
-bed = [200.0, 200.0, 200.0]
-nozzle = 0.6
-bead_width_range = [0.36, 1.6]
-
-[extruder]
-feeders = 3
-max_flow = 8.0
-)";
+constexpr std::string_view common = "diamond-0.6";
 
 }  // namespace
 
-std::optional<fs::path> own_profile() {
+std::optional<fs::path> own_profile_path() {
   fs::path folder;
   const char* const config = std::getenv("XDG_CONFIG_HOME");
   const char* const home = std::getenv("HOME");
@@ -38,9 +31,13 @@ std::optional<fs::path> own_profile() {
   } else {
     return std::nullopt;
   }
+  return folder / "unicursal" / "printer.toml";
+}
+
+std::optional<fs::path> own_profile() {
+  const std::optional<fs::path> file = own_profile_path();
   std::error_code error;
-  const fs::path file = folder / "unicursal" / "printer.toml";
-  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  if (!file || !fs::is_regular_file(*file, error)) return std::nullopt;
   return file;
 }
 
@@ -51,10 +48,10 @@ fs::path common_frame() {
                           "the folder of profiles is unknown, since neither XDG_STATE_HOME nor HOME is set",
                           "name a profile with --profile");
   }
-  const fs::path file = *state / "frames" / "common.toml";
+  const fs::path file = *state / "frames" / fmt::format("{}.toml", common);
+  const std::string_view text = frame_named(common)->text;
   std::error_code error;
-  if (fs::file_size(file, error) != std::string_view(frame_text).size() || error)
-    write_whole_file(file, frame_text);
+  if (!fs::is_regular_file(file, error) || core::file_bytes(file) != text) write_whole_file(file, text);
   return file;
 }
 

@@ -52,7 +52,8 @@ nlohmann::json to_json(const std::vector<core::HangingPlace>& places) {
 
 /// Slices the layers of the print once more, which takes little beside their planning.
 std::vector<core::HangingPlace> places_in_the_air(const PreparedJob& prepared) {
-  if (core::is_drawing_file(prepared.job.source.files.front())) return {};  // all layers are alike
+  if (!is_plate(prepared.job) && core::is_drawing_file(prepared.job.source.files.front()))
+    return {};  // all layers are alike
   core::HangingCheck check(prepared.job.bead_width);
   for (std::size_t i = 0; i < prepared.count; ++i) check.add(prepared.part->layer(prepared.first + i));
   return check.places();

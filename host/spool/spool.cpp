@@ -148,30 +148,48 @@ class Copies {
   }
   /// The same, beside the copy that was made last.
   std::string add_beside(const fs::path& file) {
-    check_text("a file of the job", file.filename().string());
-    const fs::path name = fs::path(std::to_string(count_ - 1)) / file.filename();
-    const fs::path copy = folder_ / name;
+    const fs::path copy = place_for(file.filename());
     std::error_code error;
-    for (const fs::path& folder : {folder_, copy.parent_path()}) {
-      if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) error.assign(errno, std::generic_category());
-    }
-    if (!error) fs::copy_file(file, copy, error);
+    fs::copy_file(file, copy, error);
     if (!error) fs::permissions(copy, fs::perms::owner_read | fs::perms::owner_write, error);
-    if (error) {
-      throw SpoolError(file.string(), "",
-                       "cannot be copied to " + folder_.string() + " (" + error.message() + ")",
-                       "check its permissions and that the disk is not full");
-    }
+    if (error) refuse(file, error.message());
     sync_file(copy);
-    sync_folder(copy.parent_path());
-    sync_folder(folder_);
-    sums_[name.string()] = checksum_of(copy);
-    return name.string();
+    return sealed(copy);
+  }
+  /// Keeps a text that is in no file.
+  std::string add_text(const std::string& name, const std::string& text) {
+    ++count_;
+    const fs::path copy = place_for(name);
+    write_whole_file(copy, text, WholeFile::Access::owner_only);
+    return sealed(copy);
   }
   /// The checksum of every copy, by its name.
   const json& sums() const { return sums_; }
 
  private:
+  /// Makes the folder.
+  fs::path place_for(const fs::path& filename) const {
+    check_text("a file of the job", filename.string());
+    const fs::path copy = folder_ / std::to_string(count_ - 1) / filename;
+    for (const fs::path& folder : {folder_, copy.parent_path()}) {
+      if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+        refuse(filename, std::error_code(errno, std::generic_category()).message());
+    }
+    return copy;
+  }
+  [[noreturn]] void refuse(const fs::path& file, const std::string& reason) const {
+    throw SpoolError(file.string(), "", "cannot be copied to " + folder_.string() + " (" + reason + ")",
+                     "check its permissions and that the disk is not full");
+  }
+  /// Puts the copy on record and returns its name.
+  std::string sealed(const fs::path& copy) {
+    sync_folder(copy.parent_path());
+    sync_folder(folder_);
+    const std::string name = copy.lexically_relative(folder_).string();
+    sums_[name] = checksum_of(copy);
+    return name;
+  }
+
   fs::path folder_;
   int count_ = 0;
   json sums_ = json::object();
@@ -180,7 +198,9 @@ class Copies {
 json copies_of(const Job& job, const fs::path& folder) {
   Copies copies(folder / "job");
   const JobInputs inputs = files_of(job);
-  json files = {{"job", copies.add(inputs.job)}, {"profile", copies.add(inputs.profile)}};
+  const std::string kept_job =
+      job.text.empty() ? copies.add(inputs.job) : copies.add_text("job.toml", job.text);
+  json files = {{"job", kept_job}, {"profile", copies.add(inputs.profile)}};
   for (const fs::path& model : inputs.models) {
     files["models"].push_back(copies.add(model));
     for (const fs::path& file : core::companion_files(model)) copies.add_beside(file);
@@ -439,13 +459,14 @@ Job Spool::job() const {
     const auto copy = [&](const json& name) { return copy_in(folder, name.get<std::string>()); };
     Job job = load_job(copy(files.at("job")), copy(files.at("profile")));
     const json fields = files.value("fields", json::array()), models = files.at("models");
-    if (models.size() != job.source.files.size() || fields.size() != job.source.zones.size()) {
+    const std::vector<fs::path*> names = model_names(job);
+    if (models.size() != names.size() || fields.size() != job.source.zones.size()) {
       throw SpoolError(order_file(folder).string(), "", "does not match the job beside it",
                        "start the print again from its job");
     }
     job.print.look_ahead = state_->record.at("look_ahead").get<bool>();
     job.full_quality = state_->record.at("full_quality").get<bool>();
-    for (std::size_t i = 0; i < models.size(); ++i) job.source.files[i] = copy(models[i]);
+    for (std::size_t i = 0; i < models.size(); ++i) *names[i] = copy(models[i]);
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i] != "") job.source.zones[i].pattern.field = copy(fields[i]);
     }

@@ -160,7 +160,11 @@ TEST_CASE("A plan has the lines that a dry run sends, and is the same twice") {
   for (std::string line; std::getline(lines, line);) commands += !line.empty() && line[0] != ';';
   CHECK(read_json(shop.path("r.json"))["lines"] == commands);
   constexpr std::size_t questions = 6;  // M163, M105, two T and M105 first; M155 at the end
-  CHECK(read_json(shop.path("d.json"))["link"]["lines"] == commands + questions);
+  const std::size_t sent = read_json(shop.path("d.json"))["link"]["lines"];
+  // Before that G4 and M105, once a second until the nozzle cools.
+  REQUIRE(sent > commands + questions);
+  CHECK((sent - commands - questions) % 2 == 0);
+  CHECK(sent - commands - questions <= 20);
 }
 
 TEST_CASE("The three files of a curve agree with its report") {

@@ -1,6 +1,8 @@
 // Commands on models, run as real processes.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
@@ -13,6 +15,9 @@ using Catch::Matchers::Contains;
 using test::Outcome;
 using test::run;
 using test::TempFolder;
+
+/// The profile of the user who runs the tests does not count.
+const int no_own_profile = setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
 
 /// Two boxes of 8 x 8 x 1 mm, one of them `gap` mm above the other, as facets of an STL file.
 std::string boxes(double gap) {
@@ -49,11 +54,28 @@ TEST_CASE("A model is printed without a job") {
   CHECK(test::read_text(folder / "plate.gcode").find("G1 ") != std::string::npos);
 }
 
-TEST_CASE("print asks for a job, which is kept with the print") {
+TEST_CASE("A model is not printed on a printer that nobody has named") {
   const TempFolder folder;
   const Outcome outcome = run({"print", folder.write("plate.svg", test::sample_drawing).string()});
   CHECK(outcome.code == 2);
-  CHECK_THAT(outcome.err, Contains("unicursal new"));
+  CHECK_THAT(outcome.err, Contains("on which printer") && Contains("unicursal setup"));
+}
+
+TEST_CASE("Notes about a part are shown also if it is refused") {
+  const TempFolder folder;
+  std::string facets;
+  for (const char* facet :
+       {"0 0 0 0 .1 0 .1 0 0", "0 0 0 .1 0 0 0 0 .1", "0 0 0 0 0 .1 0 .1 0", ".1 0 0 0 .1 0 0 0 .1"}) {
+    std::istringstream numbers(facet);
+    facets += "facet normal 0 0 0\nouter loop\n";
+    for (std::string x, y, z; numbers >> x >> y >> z;) facets += "vertex " + x + ' ' + y + ' ' + z + '\n';
+    facets += "endloop\nendfacet\n";
+  }
+  const Outcome outcome = run({"plan", folder.write("small.stl", "solid\n" + facets + "endsolid\n").string(),
+                               "-o", (folder / "x.gcode").string()});
+  CHECK(outcome.code == 2);
+  CHECK_THAT(outcome.err, Contains("note: the part is only 0.1 x 0.1 x 0.1 mm; write units = \"m\"") &&
+                              Contains("nowhere wide enough"));
 }
 
 TEST_CASE("inspect lists what zones can select, what was mended, and whether it fits") {

@@ -48,7 +48,9 @@ TEST_CASE("jobs in the folders are found by their names, and other files are not
   const Folders folders;
   fs::create_symlink(folders.folder / "secret.toml", folders.folder / "jobs/link.toml");
   fs::create_directory_symlink(folders.folder.path(), folders.folder / "jobs/up");
+  folders.folder.write("jobs/star.3MF", "a model");
   const JobFiles files = folders.files();
+  CHECK(refusal(files, "star.3MF") == std::nullopt);
   CHECK(files.find("leaf.toml") == fs::canonical(folders.folder / "jobs/leaf.toml"));
   CHECK(refusal(files, "animals/fish.toml") == std::nullopt);
   CHECK(refusal(files, "notes.txt") == Why::bad_name);
@@ -60,7 +62,7 @@ TEST_CASE("jobs in the folders are found by their names, and other files are not
   CHECK(refusal(files, "up/secret.toml") == Why::not_found);
   CHECK(refusal(files, std::string("leaf.toml\0.toml", 15)) == Why::bad_name);
   CHECK(refusal(files, "") == Why::bad_name);
-  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml"});
+  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml", "star.3MF"});
 }
 
 TEST_CASE("an upload is one folder of files, and its job can name no others") {

@@ -356,6 +356,28 @@ TEST_CASE("a user's own job is uploaded with its files") {
   CHECK(bench.command({"queue", "--upload", bench.path("far.toml")}).code == 2);
 }
 
+TEST_CASE("a model is queued like a job, and printed with the daemon's profile") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve({"--profile", bench.path("jobs/bench.toml.profile")});
+  bench.folder().write("plate.svg", test::sample_drawing);
+  bench.folder().write("jobs/own.svg", test::sample_drawing);
+  bench.folder().write("jobs/empty.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/>");
+  CHECK(bench.command({"queue", "--jobs"}).out.find("own.svg") != std::string::npos);
+  const Outcome sent = bench.command({"queue", "--upload", bench.path("plate.svg"), "--layers", "0:0"});
+  INFO(sent.err);
+  REQUIRE(sent.code == 0);
+  CHECK(sent.out == "1 upload:plate/plate.svg\n");
+  REQUIRE(bench.command({"queue", "--add", "own.svg", "--layers", "0:0"}).code == 0);
+  const Outcome empty = bench.command({"queue", "--add", "empty.svg"});
+  CHECK(empty.code == 2);
+  CHECK(empty.err.find("holds no area") != std::string::npos);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_job(1, "done");
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_job(2, "done");
+}
+
 TEST_CASE("names of files do not command the terminal, and stay legible") {
   DaemonBench bench;
   bench.folder().write(

@@ -5,6 +5,7 @@
 #include "core/model/read_part.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/job/load_job.hpp"
+#include "tests/host/support/mesh_files.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
 
@@ -15,25 +16,8 @@ using Catch::Matchers::Contains;
 using test::replaced;
 using test::TempFolder;
 
-/// A box of 10 x 10 x 3 mm in an OBJ file, from x on; `first`: the number of its first vertex.
 std::string box(double x, int first) {
-  std::string text;
-  for (const int z : {0, 3}) {
-    for (const int y : {0, 10}) {
-      for (const double dx : {0.0, 10.0})
-        text += "v " + std::to_string(x + dx) + ' ' + std::to_string(y) + ' ' + std::to_string(z) + '\n';
-    }
-  }
-  for (const char* const side : {"0132", "4576", "0154", "2376", "0264", "1375"}) {
-    const bool turned = side[0] == '0' && (side[1] == '1' && side[2] == '3');
-    std::string corners(side);
-    if (turned || side == std::string_view("2376") || side == std::string_view("0264"))
-      std::swap(corners[1], corners[3]);
-    text += "f";
-    for (const char c : corners) text += ' ' + std::to_string(first + (c - '0'));
-    text += '\n';
-  }
-  return text;
+  return test::box_obj({10, 10, 3}, x, first);
 }
 
 std::string refusal(const std::filesystem::path& job) {
@@ -83,7 +67,7 @@ TEST_CASE("A model is loaded like a job") {
   const auto profile = folder.write("bench.toml", test::sample_profile);
   folder.write("red.mtl", "newmtl r\nKd 1 0 0\n");
   const auto model = folder.write("one.obj", "mtllib red.mtl\nusemtl r\n" + box(0, 1));
-  const Job job = load_job_or_model(model, profile);
+  const Job job = load_job_or_model(model, profile, UnnamedPrinter::refuse);
   CHECK(job.source.zones.at(0).select == "#ff0000");
   CHECK_FALSE(prepare(job).part->layer(0).islands.empty());
   CHECK_THROWS_WITH(load_job(model), Contains("unicursal new"));
@@ -94,7 +78,7 @@ TEST_CASE("A key that resembles none is refused with the keys that there are") {
   folder.write("bench.toml", test::sample_profile);
   folder.write("plate.svg", test::sample_drawing);
   const auto job = folder.write("job.toml", replaced(test::sample_job, "flow = 3.0", "colour = 3"));
-  CHECK_THAT(refusal(job), Contains("the keys here are file, height") && !Contains("did you mean"));
+  CHECK_THAT(refusal(job), Contains("the keys here are file, copies") && !Contains("did you mean"));
 }
 
 }  // namespace unicursal::host

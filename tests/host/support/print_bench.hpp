@@ -101,7 +101,7 @@ class PrintBench {
       asks_for_tools = line == "M163 S99 P1" || (asks_for_tools && (line.starts_with('T') || line == "M105"));
       const bool question = asks_for_tools || line == "*" || line == "M115" || line == "M105" ||
                             line == "M114" || line.starts_with("M155") || line.starts_with("M110") ||
-                            line == "M567 P0";
+                            line == "M567 P0" || line == "G4 S1";  // until the nozzle cools
       if (!question) lines_.push_back(line);
     }
   }

@@ -1,0 +1,87 @@
+// The program in a real terminal, as a person sees it.
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/paths.hpp"
+
+namespace unicursal::test {
+
+/// The program in a terminal of its own.
+class Terminal {
+ public:
+  /// `config`: the folder of the user's settings.
+  explicit Terminal(std::vector<std::string> arguments, const std::string& config = "/nonexistent") {
+    arguments.insert(arguments.begin(), test::program());
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    id_ = forkpty(&master_, nullptr, nullptr, nullptr);
+    if (id_ < 0) throw std::runtime_error("no terminal");
+    if (id_ == 0) {
+      setenv("XDG_CONFIG_HOME", config.c_str(), 1);
+      execv(pointers[0], pointers.data());
+      _exit(127);
+    }
+    fcntl(master_, F_SETFL, O_NONBLOCK);
+  }
+  ~Terminal() {
+    if (id_ > 0) kill(id_, SIGKILL), waitpid(id_, nullptr, 0);
+    close(master_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  void type(const std::string& text) {
+    REQUIRE(write(master_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+  }
+  /// Waits until the screen shows the text after what was awaited before, two minutes at most.
+  void await(const std::string& text) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    for (std::size_t at = screen_.find(text); at == std::string::npos; at = screen_.find(text)) {
+      INFO(screen_);
+      REQUIRE(read_some());
+      REQUIRE(std::chrono::steady_clock::now() < end);
+    }
+    screen_.erase(0, screen_.find(text) + text.size());
+  }
+  /// Waits for the end of the program and returns its exit code.
+  int wait() {
+    while (read_some()) {
+    }
+    int status = 0;
+    waitpid(id_, &status, 0);
+    id_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  /// Returns false if the program has closed the terminal.
+  bool read_some() {
+    pollfd end{master_, POLLIN, 0};
+    poll(&end, 1, 100);
+    char bytes[4096];
+    const ssize_t count = read(master_, bytes, sizeof bytes);
+    if (count > 0) screen_.append(bytes, static_cast<std::size_t>(count));
+    return count > 0 || (count < 0 && errno == EAGAIN);
+  }
+
+  pid_t id_ = -1;
+  int master_ = -1;
+  std::string screen_;
+};
+
+}  // namespace unicursal::test
