@@ -118,7 +118,7 @@ std::optional<std::size_t> zone_of(const Shape& shape, const PartSource& source)
   return found;
 }
 
-/// mm; 0 if there is no shape.
+/// mm; 0 without a shape.
 double width_of(const std::vector<Shape>& shapes) {
   std::vector<Polygon> all;
   for (const Shape& shape : shapes) all.insert(all.end(), shape.region.begin(), shape.region.end());

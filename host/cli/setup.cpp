@@ -167,8 +167,7 @@ std::string frame_names() {
 const ShippedFrame& Setup::chosen_frame(const FoundPrinter* printer) const {
   if (frame_) {
     if (const ShippedFrame* named = frame_named(*frame_)) return *named;
-    throw core::DataError("", "--frame", "there is no shipped profile of that name",
-                          "choose among " + frame_names());
+    throw core::DataError("", "--frame", "no shipped profile has that name", "choose among " + frame_names());
   }
   const ShippedFrame* usual = printer ? frame_of_machine(printer->examination.identity.machine) : nullptr;
   if (!usual) usual = frame_named("diamond-0.4");

@@ -106,11 +106,7 @@ TEST_CASE("A plate of copies takes as much plastic as they do one by one") {
                    "--report", report.string()});
     INFO(outcome.err);
     CHECK(outcome.code == 0);
-    return nlohmann::json::parse(test::read_text(report))
-        .at("mixtures")
-        .at(0)
-        .at("part_mm3")
-        .get<double>();
+    return nlohmann::json::parse(test::read_text(report)).at("mixtures").at(0).at("part_mm3").get<double>();
   };
   CHECK(volume("copies = 3") == Approx(3 * volume("")).epsilon(0.01));
 }
