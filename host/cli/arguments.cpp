@@ -105,6 +105,9 @@ void JobOptions::declare(CLI::App& app) {
          "--no-look-ahead", [this] { look_ahead = false; },
          "Switch mixtures at the borders instead of ahead of them, for comparison.")
       ->group("Planning");
+  app.add_flag("--allow-bare", allow_bare,
+               "Accept layers of which more than half stays without plastic, because it is too thin.")
+      ->group("Job");
   add_value(app, "--threads", threads, "N",
             "Number of planning threads. Default: one for each core. The result does not depend on it.")
       .check(integer_between(1, most_threads))

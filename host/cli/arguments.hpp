@@ -71,6 +71,7 @@ struct JobOptions {
   std::optional<std::filesystem::path> profile;
   std::optional<LayerRange> layers;
   RunOutputs outputs;
+  bool allow_bare = false;    ///< accept layers that stay mostly without plastic
   std::size_t threads = 0;    ///< planning threads; 0: one for each core
   bool look_ahead = true;     ///< switch mixtures ahead of borders
   bool full_quality = false;  ///< never plan with less effort to keep up with the nozzle

@@ -61,6 +61,7 @@ Exit DryRun::run() {
   const Exit exit = show_ending(result.stream, display_);
   if (exit != Exit::success) return exit;
   show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
+  for (const std::string& warning : result.warnings) show(stderr, "warning: {}\n", warning);
   if (result.problem) show(stderr, "warning: {}\n", *result.problem);
   return result.comparison.lines_whole() ? Exit::success : Exit::failed;
 }

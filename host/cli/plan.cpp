@@ -8,7 +8,6 @@
 #include "host/cli/progress_line.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/files/whole_file.hpp"
-#include "host/report/bare_watch.hpp"
 #include "host/report/print_report.hpp"
 #include "host/report/summary.hpp"
 
@@ -29,8 +28,6 @@ class Plan final : public Command {
     add_value(app, "-o,--output", output_, "FILE", "The G-code file to write. Required.")
         .required()
         ->group("Output");
-    app.add_flag("--allow-bare", allow_bare_,
-                 "Accept layers of which more than half stays without plastic, because it is too thin.");
     return app;
   }
   Exit run() override;
@@ -38,7 +35,6 @@ class Plan final : public Command {
  private:
   JobOptions job_;
   std::filesystem::path output_;
-  bool allow_bare_ = false;
 };
 
 Exit Plan::run() {
@@ -48,25 +44,20 @@ Exit Plan::run() {
   check_beginning(prepared);
   WholeFile file(output_);
   write(file, maker.start());
-  BareWatch bare(prepared.job.bead_width, prepared.job.profile.printer.bead_width_range[0]);
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   {
     ProgressLine progress("planning", prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {
-      if (bare.look(*layer) > bare_share_to_refuse && !allow_bare_) {
-        throw core::DataError(prepared.job.file.string(), "part", bare.fault(),
-                              "choose a smaller bead_width, scale the part, or accept it with --allow-bare");
-      }
       write(file, maker.layer(std::move(*layer)).chunk);
+      check_bare(maker.bare(), prepared.job);
       progress.update(done, 1);
     }
   }
   write(file, maker.rest());
   write(file, maker.finish());
   file.publish();
-  books.write_report(
-      {{"ended", "completed"}, {"planning", planning_json(lookahead)}, {"bare", bare.to_json()}});
-  if (!bare.warning().empty()) show(stderr, "warning: {}\n", bare.warning());
+  books.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
+  show_late_warnings(maker);
   show(stdout, "{}written:   {}\n", summary(books.totals(), lookahead.effort()), output_.string());
   return Exit::success;
 }

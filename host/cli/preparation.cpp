@@ -75,11 +75,16 @@ std::vector<fs::path> present(std::initializer_list<std::optional<fs::path>> pat
   return given;
 }
 
+void show_late_warnings(const ChunkMaker& maker) {
+  for (const std::string& warning : maker.late_warnings()) show(stderr, "warning: {}\n", warning);
+}
+
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs,
                              UnnamedPrinter unnamed) {
   Job job = load_job_or_model(options.job, options.profile, unnamed);
   job.print.look_ahead = options.look_ahead;
   job.full_quality = options.full_quality;
+  job.allow_bare = job.allow_bare || options.allow_bare;
   PreparedJob prepared = prepare(std::move(job), options.layers, show_note);
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more_outputs;

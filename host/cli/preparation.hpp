@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/cli/arguments.hpp"
+#include "host/engine/chunk_maker.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/job/load_job.hpp"
 
@@ -21,6 +22,9 @@ std::vector<std::filesystem::path> present(std::initializer_list<std::optional<s
 
 /// Shows a note on standard error.
 void show_note(const std::string& sentence);
+
+/// Shows on standard error what became known while layers were made.
+void show_late_warnings(const ChunkMaker& maker);
 
 /// Loads, checks and places a job, and shows its warnings on standard error. Also checks the outputs of the
 /// options and `more_outputs` (check_outputs). Throws core::DataError.

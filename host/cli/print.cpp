@@ -51,6 +51,7 @@ Exit PrintCommand::run() {
     throw;
   }
   show_how_to_resume(print.spool(), result);
+  show_late_warnings(print.maker());
   if (result.ending == Ending::completed)
     show(message_stream(display_), "{}", summary(books.totals(), print.lookahead().effort()));
   return show_ending(result, display_);

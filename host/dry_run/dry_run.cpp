@@ -157,7 +157,9 @@ DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, 
             {"comparison", to_json(comparison)},
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
-  return {result, books.totals(), lookahead.effort(), comparison, motion, check.total(), check.problem()};
+  check_bare(maker.bare(), prepared.job);
+  return {result, books.totals(), lookahead.effort(),    comparison,
+          motion, check.total(),  maker.late_warnings(), check.problem()};
 }
 
 }  // namespace unicursal::host

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/session_types.hpp"
@@ -34,13 +35,15 @@ struct DryRunResult {
   Comparison comparison;
   MotionFindings motion;
   DepositFindings laid;
+  std::vector<std::string> warnings;   ///< that became known while layers were made
   std::optional<std::string> problem;  ///< why judging what was laid ended early, if it did
 };
 
 /// Streams a print to the port, whose descriptor it takes over (stream.hpp).
 using Streamer = std::function<StreamResult(int port, Source& source, const StreamSettings& settings)>;
 
-/// Also writes the report. Throws core::DataError, SimulatorError, and PrintError if the print has failed.
+/// Also writes the report. Throws core::DataError, also after it if a layer stays mostly without plastic and
+/// the job does not allow it, SimulatorError, and PrintError if the print has failed.
 DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream);
 
 }  // namespace unicursal::host

@@ -11,6 +11,13 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 
 }  // namespace
 
+void check_bare(const BareWatch& bare, const Job& job) {
+  if (bare.worst_share() <= bare_share_to_refuse || job.allow_bare) return;
+  throw core::DataError(job.file.string(), "part", bare.fault(),
+                        "choose a smaller bead_width, scale the part, or accept it with part.allow_bare = "
+                        "true or --allow-bare");
+}
+
 ChunkMaker::ChunkMaker(const PreparedJob& prepared)
     : prepared_(prepared),
       encoder_(prepared.job.profile.printer, print_settings(prepared)),
@@ -19,6 +26,9 @@ ChunkMaker::ChunkMaker(const PreparedJob& prepared)
 }
 
 ChunkMaker::Made ChunkMaker::layer(PlannedLayer planned) {
+  const bool first = bare_.layers() == 0;
+  bare_.look(planned);
+  if (first) check_bare(bare_, prepared_.job);
   Made made;
   made.layer = placed(prepared_, planned);
   made.chunk = encoder_.layer(made.layer);
@@ -55,7 +65,13 @@ double ChunkMaker::flow() const {
 std::vector<std::string> ChunkMaker::warnings() const {
   std::vector<std::string> all = prepared_.job.warnings;
   append(all, prepared_.part->warnings());
-  append(all, warnings_);
+  append(all, late_warnings());
+  return all;
+}
+
+std::vector<std::string> ChunkMaker::late_warnings() const {
+  std::vector<std::string> all = warnings_;
+  if (const std::string warning = bare_.warning(); !warning.empty()) all.push_back(warning);
   if (listener_) append(all, listener_->warnings());
   return all;
 }

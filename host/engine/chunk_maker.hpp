@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware_gcode/toolpath/encoder.hpp"
+#include "host/engine/bare_watch.hpp"
 #include "host/engine/prepared_job.hpp"
 
 namespace unicursal::host {
@@ -30,6 +31,9 @@ class ChunkListener {
   virtual std::vector<std::string> warnings() const = 0;
 };
 
+/// Throws core::DataError if a layer so far stays mostly without plastic and the job does not allow it.
+void check_bare(const BareWatch& bare, const Job& job);
+
 class ChunkMaker {
  public:
   struct Made {
@@ -43,6 +47,7 @@ class ChunkMaker {
   void listen(ChunkListener* listener) { listener_ = listener; }
 
   const gcode::Chunk& start() const { return start_; }
+  /// Throws core::DataError if the first layer stays mostly without plastic and the job does not allow it.
   Made layer(PlannedLayer planned);
   /// The chunk of a layer that was planned by an earlier run, of which only the bead paths are left. The
   /// listener does not hear of it.
@@ -55,8 +60,12 @@ class ChunkMaker {
   double flow() const;
   const PreparedJob& prepared() const { return prepared_; }
   const gcode::Encoder& encoder() const { return encoder_; }
+  /// What the layers so far leave without plastic.
+  const BareWatch& bare() const { return bare_; }
   /// About the job, the part and the print, one sentence each.
   std::vector<std::string> warnings() const;
+  /// Those of warnings() that became known while layers were made.
+  std::vector<std::string> late_warnings() const;
 
  private:
   void note_warnings(const gcode::Chunk& chunk);
@@ -65,6 +74,7 @@ class ChunkMaker {
   const PreparedJob& prepared_;
   gcode::Encoder encoder_;
   gcode::Chunk start_;
+  BareWatch bare_;
   std::vector<std::string> warnings_;  ///< of the encoder
   ChunkListener* listener_ = nullptr;
 };

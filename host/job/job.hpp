@@ -41,6 +41,7 @@ struct Job {
   double bead_width = 0;
   std::optional<double> seed_distance;
   int perimeters = 0;                ///< contours around the fill
+  bool allow_bare = false;           ///< layers may stay mostly without plastic, because they are too thin
   std::optional<double> line_width;  ///< of a thin line that shows the curve; absent: beads fill their area
   Placement place;
   gcode::PrintChoices print;  ///< `look_ahead` is set by the command line only

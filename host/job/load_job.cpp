@@ -294,6 +294,7 @@ Job read_job(const SettingsFile& file, const std::filesystem::path& path,
   read_flow(part, job);
   read_print_keys(part, job);
   read_perimeters(part, job);
+  job.allow_bare = part.flag_or("allow_bare", false, "write true or false");
   read_seam(part, job);
   job.print.change_before_border =
       part.number_or("change_before_border", 0.5, between(0.05, 0.95, ""),

@@ -152,6 +152,7 @@ struct Lookahead::State {
     run(lock, layer, time, [&] {
       layer.result.layer = part.layer(index);
       layer.result.plans.resize(layer.result.layer.islands.size());
+      layer.result.bare.resize(layer.result.plans.size());
     });
     layer.area = area_of(layer.result.layer);
     layer.print_seconds = foretold_seconds(layer.result.layer, options.flow);
@@ -169,8 +170,11 @@ struct Lookahead::State {
     plan.seed = island_seed(options.plan.seed, layer.result.layer.index, index);
     plan.threads = threads_for(layer);
     plan.budget_spent = [&] { return enough(layer, attempt, time); };
-    run(lock, layer, time,
-        [&] { layer.result.plans[index] = options.planner->plan(island, layer.result.layer.z, plan); });
+    run(lock, layer, time, [&] {
+      layer.result.plans[index] = options.planner->plan(island, layer.result.layer.z, plan);
+      layer.result.bare[index] = core::look_for_bare(layer.result.plans[index], island.outline,
+                                                     plan.bead_width, plan.min_bead_width);
+    });
     if (!layer.error) learn(layer, attempt, layer.result.plans[index].effort, time.now());
     ++layer.finished;
   }

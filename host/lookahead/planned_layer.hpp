@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/part.hpp"
+#include "core/planner/bare.hpp"
 #include "core/planner/island_plan.hpp"
 
 namespace unicursal::host {
@@ -12,6 +13,7 @@ namespace unicursal::host {
 struct PlannedLayer {
   core::Layer layer;
   std::vector<core::IslandPlan> plans;  ///< one per island, in the same order
+  std::vector<core::Bare> bare;         ///< what they leave without plastic, in the same order
   double cpu_seconds = 0;               ///< processor time of slicing and planning it
   /// The optimisers' steps as a share of those with full effort, weighted by area; 1 if all islands had full
   /// effort.

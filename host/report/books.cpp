@@ -159,6 +159,7 @@ void Books::write_report(const nlohmann::json& extra) {
       {"profile", maker_.prepared().job.profile.file.string()},
       {"printer", maker_.prepared().job.profile.printer.name},
       {"warnings", maker_.warnings()},
+      {"bare", maker_.bare().to_json()},
       {"in_the_air", to_json(places_in_the_air(maker_.prepared()))},
       {"bead_width_mm", maker_.prepared().job.bead_width},
       {"flow_mm3_s", maker_.flow()},

@@ -389,6 +389,7 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
                  {"layers", order.layers ? json{order.layers->first, order.layers->second} : json()},
                  {"look_ahead", job.print.look_ahead},
                  {"full_quality", job.full_quality},
+                 {"allow_bare", job.allow_bare},
                  {"files", copies_of(job, folder)}};
   record["checksum"] = checksum_in(record);
   auto state = std::make_unique<State>(folder, record, 0, 0);
@@ -466,6 +467,7 @@ Job Spool::job() const {
     }
     job.print.look_ahead = state_->record.at("look_ahead").get<bool>();
     job.full_quality = state_->record.at("full_quality").get<bool>();
+    job.allow_bare = state_->record.value("allow_bare", job.allow_bare);
     for (std::size_t i = 0; i < models.size(); ++i) *names[i] = copy(models[i]);
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i] != "") job.source.zones[i].pattern.field = copy(fields[i]);

@@ -122,7 +122,7 @@ TEST_CASE("a rule with a strange selector is skipped with a note, its neighbours
   CHECK(styles.matching(document.first_child(), "rect").size() == 1);
 }
 
-TEST_CASE("style sheets that would compare without end are given up") {
+TEST_CASE("style sheets that would compare without end are given up", "[optimised]") {
   std::string sheet, tree_text = "<svg>";
   sheet = "z ~ * ~ * ~ y{fill:red}";
   for (int i = 0; i < 3000; ++i) tree_text += "<y/>";

@@ -104,7 +104,7 @@ TEST_CASE("clones that lead back to themselves are left out with a note") {
   CHECK_THAT(notes_of("<use href='#nowhere'/>"), Contains("does not hold"));
 }
 
-TEST_CASE("clones that multiply without end are refused") {
+TEST_CASE("clones that multiply without end are refused", "[optimised]") {
   std::string text = "<defs><rect id='c0' width='1' height='1'/>";
   for (int i = 1; i < 40; ++i) {
     const std::string before = "<use href='#c" + std::to_string(i - 1) + "'/>";

@@ -143,7 +143,7 @@ TEST_CASE("bodies of an STL file are zones by number, voids with the solid aroun
   CHECK(zone_area(rest->layer(0), 0) == Approx(400).epsilon(1e-3));
 }
 
-TEST_CASE("thousands of shells that face inwards are turned, or are voids") {
+TEST_CASE("thousands of shells that face inwards are turned, or are voids", "[optimised]") {
   const TempFolder folder;
   // 40 x 40 voids in one block, and as many bodies beside it that are inside out.
   Mesh mesh = box_mesh({0, 0, 0}, {200, 200, 10});

@@ -195,7 +195,7 @@ TEST_CASE("a short visit shows completely, one that is too short is omitted") {
   CHECK(scheduled(palette, too_short, {chamber, 0.5, true}).size() == 1);
 }
 
-TEST_CASE("no choice of switches on a grid misplaces less, for short and long visits") {
+TEST_CASE("no choice of switches on a grid misplaces less, for short and long visits", "[optimised]") {
   const ChamberModel chamber{1.0, 2.0, 2};
   std::mt19937 random(23);
   std::uniform_real_distribution<double> volume(0.2, 3.0);

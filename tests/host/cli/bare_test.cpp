@@ -32,14 +32,22 @@ struct WedgeJob {
               .string();
   }
   Outcome plan(const std::vector<std::string>& options = {}) const {
-    std::vector<std::string> all{
-        "plan", job, "-o", (folder / "o.gcode").string(), "--report", (folder / "r.json").string()};
-    all.insert(all.end(), options.begin(), options.end());
-    return run(all);
+    return with_report({"plan", job, "-o", (folder / "o.gcode").string()}, options);
   }
+  Outcome dry_run(const std::vector<std::string>& options = {}) const {
+    return with_report({"dry-run", job}, options);
+  }
+  json bare() const { return json::parse(test::read_text(folder / "r.json"))["bare"]; }
 
   TempFolder folder;
   std::string job;
+
+ private:
+  Outcome with_report(std::vector<std::string> all, const std::vector<std::string>& options) const {
+    all.insert(all.end(), {"--report", (folder / "r.json").string()});
+    all.insert(all.end(), options.begin(), options.end());
+    return run(all);
+  }
 };
 
 TEST_CASE("A plan warns of a layer of which more than 5 % stay without plastic, and says how much") {
@@ -48,8 +56,7 @@ TEST_CASE("A plan warns of a layer of which more than 5 % stay without plastic, 
   CHECK(outcome.code == 0);
   // A third of the length is narrower than 0.4 mm, and 0.6 mm of it are near the last bead: (19.4 ÷ 60)².
   CHECK(outcome.err.find("warning: layer 1 (z = 0.20 mm) leaves 10 %") != std::string::npos);
-  const json report = json::parse(test::read_text(wedge.folder / "r.json"));
-  const json& bare = report["bare"];
+  const json bare = wedge.bare();
   CHECK(bare["area_mm2"].get<double>() == Approx(4.0).margin(0.4));
   CHECK(bare["share"].get<double>() == Approx(0.11).margin(0.012));
   CHECK(bare["walls_mm"].get<double>() == 0);
@@ -63,6 +70,31 @@ TEST_CASE("A plan of a part that is mostly too thin is refused, unless that is a
   CHECK(refused.err.find("--allow-bare") != std::string::npos);
   CHECK(WedgeJob("0.5").plan({"--allow-bare"}).code == 0);
   CHECK(WedgeJob("4").plan().err.find("warning") == std::string::npos);
+}
+
+TEST_CASE("A dry run warns of bare layers and refuses mostly bare ones as a plan does") {
+  const WedgeJob wedge("1.2");
+  const Outcome warned = wedge.dry_run();
+  CHECK(warned.code == 0);
+  CHECK(warned.err.find("warning: layer 1 (z = 0.20 mm) leaves 10 %") != std::string::npos);
+  const json bare = wedge.bare();
+  CHECK(wedge.plan().code == 0);
+  CHECK(wedge.bare() == bare);
+
+  const WedgeJob thin("0.5");
+  const Outcome refused = thin.dry_run();
+  CHECK(refused.code != 0);
+  CHECK(refused.err.find("leaves 6") != std::string::npos);
+  CHECK(refused.err.find("part.allow_bare") != std::string::npos);
+  CHECK(thin.dry_run({"--allow-bare"}).code == 0);
+}
+
+TEST_CASE("A job can allow bare layers") {
+  const WedgeJob thin("0.5");
+  const std::string text = test::read_text(thin.job);
+  thin.folder.write(
+      "job.toml", text.substr(0, text.find("flow")) + "allow_bare = true\n" + text.substr(text.find("flow")));
+  CHECK(thin.plan().code == 0);
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ std::size_t layers_of(const char* job) {
 
 }  // namespace
 
-TEST_CASE("leaf.toml: two colours, each crossed once a layer, and the volume of the drawing") {
+TEST_CASE("leaf.toml: two colours, each crossed once a layer, and the volume of the drawing", "[optimised]") {
   CHECK(layers_of("leaf.toml") == 5);
   const Planned planned = plan("leaf.toml", "0:1");
   check_figures(planned, leaf_area(), 2);

@@ -46,7 +46,7 @@ int print_file(const std::string& port, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("printcore prints a file that was planned: each command once, in order") {
+TEST_CASE("printcore prints a file that was planned: each command once, in order", "[optimised]") {
   if (!std::filesystem::exists(printcore)) {
     WARN("printcore is not installed");
     return;

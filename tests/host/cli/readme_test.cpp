@@ -149,7 +149,7 @@ TEST_CASE("The README is short, and its job is the example") {
   CHECK(outcome.code == 0);
 }
 
-TEST_CASE("The README's commands run") {
+TEST_CASE("The README's commands run", "[optimised]") {
   Desk desk;
   const auto all = commands();
   CHECK(all.size() > 15);

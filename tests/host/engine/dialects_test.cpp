@@ -64,7 +64,7 @@ TEST_CASE("The same job in every dialect leaves the same deposit, up to the shar
   }
 }
 
-TEST_CASE("The printing time is estimated within 2 % for every kind of job") {
+TEST_CASE("The printing time is estimated within 2 % for every kind of job", "[optimised]") {
   const auto [job, profile] = GENERATE(table<std::string, std::string>({
       {test::sample_job, marlin},
       {test::sample_job, repetier},
@@ -100,7 +100,7 @@ TEST_CASE("Events name the job's mixtures, in every dialect and with feeders tha
   CHECK(test::mixtures_named(outcome.out) == std::set<std::string>{"sea", "sun"});
 }
 
-TEST_CASE("The example with feeders that slip names its mixtures") {
+TEST_CASE("The example with feeders that slip names its mixtures", "[optimised]") {
   const std::string firmware = GENERATE("marlin", "repetier");
   const std::filesystem::path examples = test::source_folder() / "host/examples";
   const test::TempFolder folder;

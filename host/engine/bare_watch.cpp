@@ -1,30 +1,26 @@
-#include "host/report/bare_watch.hpp"
+#include "host/engine/bare_watch.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/planner/bare.hpp"
-
 namespace unicursal::host {
 
-double BareWatch::look(const PlannedLayer& planned) {
-  last_ = {planned.layer.index, planned.layer.top, 0, 0, 0};
+void BareWatch::look(const PlannedLayer& planned) {
+  Found found{planned.layer.index, planned.layer.top, 0, 0, 0};
   double whole = 0;
-  for (std::size_t i = 0; i < planned.layer.islands.size(); ++i) {
-    const core::Polygon& outline = planned.layer.islands[i].outline;
-    whole += area(outline);
-    const core::Bare bare = core::look_for_bare(planned.plans[i], outline, bead_width_, least_width_);
-    last_.area += bare.area;
-    last_.walls += bare.axis_length;
+  for (const core::Island& island : planned.layer.islands) whole += area(island.outline);
+  for (const core::Bare& bare : planned.bare) {
+    found.area += bare.area;
+    found.walls += bare.axis_length;
   }
-  last_.share = whole > 0 ? last_.area / whole : 0;
-  area_ += last_.area;
-  walls_ += last_.walls;
+  found.share = whole > 0 ? found.area / whole : 0;
+  area_ += found.area;
+  walls_ += found.walls;
   whole_ += whole;
-  if (last_.share > bare_share_to_warn_of) ++warned_of_;
-  if (last_.share > worst_.share) worst_ = last_;
-  return last_.share;
+  ++layers_;
+  if (found.share > bare_share_to_warn_of) ++warned_of_;
+  if (found.share > worst_.share) worst_ = found;
 }
 
 std::string BareWatch::warning() const {
@@ -40,8 +36,8 @@ std::string BareWatch::warning() const {
 }
 
 std::string BareWatch::fault() const {
-  return fmt::format("leaves {:.0f} % of layer {} (z = {:.2f} mm) without plastic", 100 * last_.share,
-                     last_.layer + 1, last_.top);
+  return fmt::format("leaves {:.0f} % of layer {} (z = {:.2f} mm) without plastic", 100 * worst_.share,
+                     worst_.layer + 1, worst_.top);
 }
 
 nlohmann::json BareWatch::to_json() const {

@@ -17,14 +17,13 @@ inline constexpr double bare_share_to_refuse = 0.5;
 
 class BareWatch {
  public:
-  /// `least_width` mm: of a bead.
-  BareWatch(double bead_width, double least_width) : bead_width_(bead_width), least_width_(least_width) {}
-
-  /// Measures a layer and returns the share of its area that stays bare.
-  double look(const PlannedLayer& planned);
+  void look(const PlannedLayer& planned);
+  std::size_t layers() const { return layers_; }  ///< that it has looked at
+  /// The greatest share of a layer's area that stays bare.
+  double worst_share() const { return worst_.share; }
   /// One sentence about all layers that are worth a warning; empty if none is.
   std::string warning() const;
-  /// "leaves 64 % of layer 1 (z = 0.20 mm) without plastic", of the last layer.
+  /// "leaves 64 % of layer 1 (z = 0.20 mm) without plastic", of the worst layer.
   std::string fault() const;
   /// The keys are explained in host/report/README.md.
   nlohmann::json to_json() const;
@@ -34,10 +33,9 @@ class BareWatch {
     std::size_t layer = 0;
     double top = 0, area = 0, walls = 0, share = 0;
   };
-  double bead_width_, least_width_;
   double area_ = 0, walls_ = 0, whole_ = 0;  ///< sums over all layers
-  std::size_t warned_of_ = 0;
-  Found last_, worst_;
+  std::size_t layers_ = 0, warned_of_ = 0;
+  Found worst_;
 };
 
 }  // namespace unicursal::host
