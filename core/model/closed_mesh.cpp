@@ -130,8 +130,8 @@ class Mender {
       note(counted(turned, "shell was", "shells were") + " inside out and turned");
     const bool solid = std::any_of(shells.begin(), shells.end(), [](const Shell& s) { return !s.thin(); });
     if (!solid) {
-      refuse("", "the mesh encloses no volume",
-             "give its surface a thickness in a modelling program, or export it again");
+      throw NothingEnclosed(name_, "", "the mesh encloses no volume",
+                            "give its surface a thickness in a modelling program, or export it again");
     }
     for (const Shell& shell : shells) {
       if (!shell.thin() || shell.area / 2 < least_sheet) continue;

@@ -17,13 +17,20 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/model/half_edge_mesh.hpp"
 #include "core/text/wording.hpp"
 
 namespace unicursal::core {
 
-/// `name`: the file, or the body in it, for notes and errors. Throws ModelError naming a place that cannot be
-/// mended.
+/// A surface that encloses no volume.
+class NothingEnclosed : public ModelError {
+ public:
+  using ModelError::ModelError;
+};
+
+/// `name`: the file, or the body in it, for notes and errors. Throws NothingEnclosed, or ModelError naming a
+/// place that cannot be mended.
 ClosedMesh closed_mesh(const std::vector<Triangle>& triangles, const std::string& name, Warnings& warnings);
 
 }  // namespace unicursal::core

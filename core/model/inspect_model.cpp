@@ -61,15 +61,17 @@ std::vector<ZoneOffer> zones_of(const std::vector<MendedBody>& bodies) {
     }
     offers.add({select, body.name.tint.colour, volume(body.mesh), false});
     for (std::size_t i = 0; i < body.shells.size(); ++i) {
-      if (!body.shells[i].facets.empty())
-        offers.add({tint_select(body.paints[i]), body.paints[i].colour, volume(body.shells[i]), true});
+      const std::string paint = tint_select(body.paints[i]);
+      // The same colour under another name is counted with the body. Shells in hollows can turn over.
+      if (!body.shells[i].facets.empty() && paint != select)
+        offers.add({paint, body.paints[i].colour, std::max(0.0, volume(body.shells[i])), true});
     }
   }
   return offers.take();
 }
 
-ModelContents contents_of_meshes(const std::vector<std::filesystem::path>& files, double paint_depth) {
-  Warnings warnings;
+ModelContents contents_of_meshes(const std::vector<std::filesystem::path>& files, double paint_depth,
+                                 Warnings& warnings) {
   std::vector<MendedBody> bodies;
   BodyOptions options;
   options.paint_depth = paint_depth;
@@ -126,21 +128,20 @@ ModelContents contents_of_drawing(const std::filesystem::path& file, Warnings& w
 }  // namespace
 
 ModelContents inspect_model(const std::vector<std::filesystem::path>& files, double paint_depth) {
-  if (files.size() == 1 && is_drawing_file(files.front())) {
-    Warnings warnings;
-    try {
-      return contents_of_drawing(files.front(), warnings);
-    } catch (const ModelError& refusal) {
-      throw NotedError(refusal, warnings.sentences());
-    }
-  }
+  const bool drawing = files.size() == 1 && is_drawing_file(files.front());
   for (const auto& file : files) {
-    if (is_drawing_file(file) || !is_model_file(file)) {
+    if (!drawing && (is_drawing_file(file) || !is_model_file(file))) {
       throw ModelError(file.string(), "", "this is not one of the files that make a part",
                        "name one .svg file, or some .stl, .3mf, .obj and .amf files");
     }
   }
-  return contents_of_meshes(files, paint_depth);
+  Warnings warnings;
+  try {
+    return drawing ? contents_of_drawing(files.front(), warnings)
+                   : contents_of_meshes(files, paint_depth, warnings);
+  } catch (const ModelError& refusal) {
+    throw NotedError(refusal, warnings.sentences());
+  }
 }
 
 }  // namespace unicursal::core

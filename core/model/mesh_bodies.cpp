@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -75,6 +76,8 @@ void add_bodies(std::vector<MendedBody>& bodies, const std::filesystem::path& fi
   MeshModel model = read_mesh_model(file, warnings);
   const std::size_t objects = bodies.empty() ? 0 : bodies.back().object + 1;
   std::size_t number = 0;
+  std::optional<NothingEnclosed> empty;
+  bool printable = false;
   for (MeshBody& body : model) {
     rescale(body, options.scale, file);
     MendedBody mended;
@@ -89,7 +92,19 @@ void add_bodies(std::vector<MendedBody>& bodies, const std::filesystem::path& fi
       label += ": " + mended.name.number;
       if (!body.names.empty()) label += " (" + in_quotes(body.names.front()) + ")";
     }
-    ClosedMesh mesh = closed_mesh(body.triangles, label, warnings);
+    ClosedMesh mesh;
+    Warnings notes;
+    try {
+      mesh = closed_mesh(body.triangles, label, notes);
+    } catch (const NothingEnclosed& refusal) {
+      if (model.size() == 1) throw;
+      if (!empty) empty = refusal;
+      warnings.add(label + ": it encloses no volume and was left out");
+      body = {};
+      continue;
+    }
+    for (std::string& note : notes.sentences()) warnings.add(std::move(note));
+    printable = printable || body.role == BodyRole::solid;
     if (!body.painted.empty()) mended.shells = painted_shells(body, mesh, options.paint_depth);
     if (!options.shells_are_bodies || model.size() > 1 || !body.names.empty() || !body.painted.empty()) {
       if (mended.name.number.empty()) mended.name.number = numbered();
@@ -105,6 +120,7 @@ void add_bodies(std::vector<MendedBody>& bodies, const std::filesystem::path& fi
     }
     body = {};
   }
+  if (empty && !printable) throw NothingEnclosed(*empty);
 }
 
 double volume(const ClosedMesh& mesh) {

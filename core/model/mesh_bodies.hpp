@@ -31,7 +31,8 @@ struct BodyOptions {
   bool shells_are_bodies = false;
 };
 
-/// Reads and mends a file, and adds its bodies. Throws FileError or ModelError.
+/// Reads and mends a file, and adds its bodies. Those that enclose no volume are left out with a note, unless
+/// no solid is left. Throws FileError or ModelError.
 void add_bodies(std::vector<MendedBody>& bodies, const std::filesystem::path& file,
                 const BodyOptions& options, Warnings& warnings);
 

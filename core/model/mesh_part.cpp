@@ -14,6 +14,7 @@
 #include "core/model/largest_face.hpp"
 #include "core/model/layer_stack.hpp"
 #include "core/model/mesh_bodies.hpp"
+#include "core/model/noted_error.hpp"
 #include "core/model/slicer.hpp"
 #include "core/model/zoning.hpp"
 
@@ -216,11 +217,8 @@ void warn_of_unit(const PartSource& source, const Pose& pose, const Eigen::Vecto
                            size.z(), remedies));
 }
 
-}  // namespace
-
-std::unique_ptr<const Part> read_mesh_part(const PartSource& source, const Shaping& shaping,
-                                           std::vector<bool>* matched) {
-  Warnings warnings;
+std::unique_ptr<const Part> read_with_notes(const PartSource& source, const Shaping& shaping,
+                                            std::vector<bool>* matched, Warnings& warnings) {
   layers_of_mesh(0, source.layer_height,
                  source.first_layer_height);  // refuses a bad layer height before the files are read
   Builder builder(source, shaping, warnings);
@@ -231,6 +229,18 @@ std::unique_ptr<const Part> read_mesh_part(const PartSource& source, const Shapi
       layers_of_mesh(builder.box.sizes().z(), source.layer_height, source.first_layer_height);
   return std::make_unique<MeshPart>(std::move(builder.objects), builder.box, stack, source.zones,
                                     warnings.sentences());
+}
+
+}  // namespace
+
+std::unique_ptr<const Part> read_mesh_part(const PartSource& source, const Shaping& shaping,
+                                           std::vector<bool>* matched) {
+  Warnings warnings;
+  try {
+    return read_with_notes(source, shaping, matched, warnings);
+  } catch (const ModelError& refusal) {
+    throw NotedError(refusal, warnings.sentences());
+  }
 }
 
 }  // namespace unicursal::core

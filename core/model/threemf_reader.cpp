@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +27,20 @@ constexpr int deepest_components = 32;   ///< of objects within objects
 constexpr double farthest_vertex = 1e5;  ///< mm
 constexpr std::size_t most_tints = 10'000;
 constexpr std::size_t most_paint_digits = 50'000'000;
+/// What objects can be made of instead of triangles, by the names of elements; and what to do about it.
+struct OtherShape {
+  std::string_view element, words, remedy;
+};
+constexpr const char* as_mesh = "turn it into a mesh in the program that made it";
+constexpr std::array<OtherShape, 5> other_shapes{{
+    {"beamlattice", "a lattice of beams", as_mesh},
+    {"slicestack", "slices", "save the model with its mesh"},
+    {"levelset", "a shape given by a function", as_mesh},
+    {"displacementmesh", "a surface displaced by a texture", as_mesh},
+    {"booleanshape", "objects to be united or cut", as_mesh},
+}};
+constexpr std::string_view encrypted = "%3McF";  ///< begins an encrypted part (secure content extension 1.0)
+
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 struct Component {
@@ -94,7 +109,10 @@ class Part {
     if (local_name(model) != "model") throw Malformed("it holds no 3MF model");
     unit_ = millimetres(attribute(model, "unit").value());
     const pugi::xml_node resources = child(model, "resources");
-    for (const pugi::xml_node& node : resources.children()) read_materials(node);
+    for (const pugi::xml_node& node : resources.children()) {
+      read_materials(node);
+      find_other_shape(node);
+    }
     for (const pugi::xml_node& node : resources.children()) {
       if (local_name(node) == "object") read_object(node);
     }
@@ -114,12 +132,25 @@ class Part {
   }
   const std::map<std::size_t, Object>& objects() const { return objects_; }
   const std::vector<Item>& items() const { return items_; }
+  /// Shapes that are not meshes, each once.
+  const std::vector<const OtherShape*>& others() const { return others_; }
 
  private:
   void note(const std::string& text) { warnings_.add(file_ + ": " + text); }
 
+  const OtherShape* find_other_shape(const pugi::xml_node& node) {
+    const auto* const found =
+        std::find_if(other_shapes.begin(), other_shapes.end(),
+                     [&](const OtherShape& shape) { return shape.element == local_name(node); });
+    if (found == other_shapes.end()) return nullptr;
+    if (std::find(others_.begin(), others_.end(), found) == others_.end()) others_.push_back(found);
+    return found;
+  }
+
   void read_materials(const pugi::xml_node& node) {
     const std::string_view kind = local_name(node);
+    if (kind == "color" || kind == "material")
+      note("materials of the 3MF draft of 2013 are not read; save the model again in a newer program");
     const bool bases = kind == "basematerials", colours = kind == "colorgroup";
     if (kind == "texture2d" || kind == "texture2dgroup")
       note("textures are not read; colour the model by triangles");
@@ -153,6 +184,12 @@ class Part {
     object.is_model = type.empty() || type == "model" || type == "surface";
     object.tint = tint(attribute(node, "pid"), attribute(node, "pindex"));
     if (const pugi::xml_node mesh = child(node, "mesh")) read_mesh(mesh, attribute(node, "pid"), object);
+    for (const pugi::xml_node& inner : node.children()) {
+      if (const OtherShape* const other = find_other_shape(inner))
+        note(fmt::format("{}: this is not read; {}", other->words, other->remedy));
+    }
+    if (std::string_view(attribute(node, "meshresolution").value()) == "lowres")
+      note("slices are not read; the coarse mesh beside them is printed");
     for (const pugi::xml_node& inner : child(node, "components").children()) {
       if (local_name(inner) == "component") object.components.push_back(component(inner));
     }
@@ -172,7 +209,10 @@ class Part {
                             xml_number(node.attribute("z").value()));
       vertices.back() *= unit_;
     }
-    if (child(mesh, "beamlattice")) note("beams of a lattice are not read; turn them into a mesh");
+    if (const pugi::xml_node lattice = child(mesh, "beamlattice")) {
+      find_other_shape(lattice);
+      note("beams of a lattice are not read; turn them into a mesh");
+    }
     for (const pugi::xml_node& node : child(mesh, "triangles").children()) {
       if (local_name(node) == "triangle") read_triangle(node, vertices, default_group, object);
     }
@@ -224,6 +264,7 @@ class Part {
   std::map<std::size_t, std::vector<std::size_t>> groups_;  ///< by id: indices into the palette
   std::map<std::size_t, Object> objects_;
   std::vector<Item> items_;
+  std::vector<const OtherShape*> others_;
 };
 
 class Reader {
@@ -246,14 +287,28 @@ class Reader {
       for (const auto& [id, object] : main.objects()) place_object({root, id, Affine::Identity()});
     }
     if (std::none_of(model_.begin(), model_.end(),
-                     [](const MeshBody& b) { return b.role == BodyRole::solid; })) {
-      throw ModelError(file_, "", "it holds no mesh to be printed",
-                       "save the model again, with its objects on the bed");
-    }
+                     [](const MeshBody& b) { return b.role == BodyRole::solid; }))
+      refuse_without_mesh();
     return std::move(model_);
   }
 
  private:
+  [[noreturn]] void refuse_without_mesh() const {
+    const std::vector<std::string> names = archive_.names();
+    if (std::any_of(names.begin(), names.end(), [](const auto& name) { return name.ends_with(".gcode"); })) {
+      throw ModelError(file_, "", "it holds G-code that a slicer made for a printer, and no mesh",
+                       "save the project itself, not the sliced plate");
+    }
+    for (const auto& [path, part] : parts_) {
+      if (part->others().empty()) continue;
+      const OtherShape& other = *part->others().front();
+      throw ModelError(file_, "", fmt::format("it holds {}, and no mesh to be printed", other.words),
+                       std::string(other.remedy));
+    }
+    throw ModelError(file_, "", "it holds no mesh to be printed",
+                     "save the model again, with its objects on the bed");
+  }
+
   /// Where the package says that its model is.
   std::string root_path() {
     if (std::optional<std::string> bytes = archive_.content("_rels/.rels")) {
@@ -273,6 +328,10 @@ class Reader {
     std::optional<std::string> bytes = archive_.content(path);
     if (!bytes)
       throw ModelError(file_, in_quotes(path), "this part of the package is absent", "save the model again");
+    if (bytes->starts_with(encrypted)) {
+      throw ModelError(file_, in_quotes(path), "this part of the package is encrypted",
+                       "save the model without encryption");
+    }
     pugi::xml_document document;
     parse_xml(document, *bytes, file_ + ": " + path);
     try {

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <new>
 
 #include "core/error.hpp"
 #include "host/cli/for_terminal.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/link/link.hpp"
+#include "host/loop/sentence.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -41,6 +43,7 @@ std::string sentence_of(const std::exception& error) {
     if (!data->remedy().empty()) text += "; " + data->remedy();
     return for_terminal(text);
   }
+  if (is_any_of<std::bad_alloc>(error)) return sentence(std::make_exception_ptr(std::bad_alloc()));
   return for_terminal(error.what());
 }
 

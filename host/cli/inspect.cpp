@@ -50,7 +50,7 @@ void show_contents(const core::ModelContents& model) {
 }
 
 Exit Inspect::run() {
-  const core::ModelContents model = core::inspect_model({file_});
+  const core::ModelContents model = within_memory(file_, [&] { return core::inspect_model({file_}); });
   show_contents(model);
   if (model.notes.empty() && !model.drawing) show(stdout, "mended:  nothing\n");
   JobOptions options;

@@ -81,11 +81,13 @@ void show_late_warnings(const ChunkMaker& maker) {
 
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs,
                              UnnamedPrinter unnamed) {
-  Job job = load_job_or_model(options.job, options.profile, unnamed);
-  job.print.look_ahead = options.look_ahead;
-  job.full_quality = options.full_quality;
-  job.allow_bare = job.allow_bare || options.allow_bare;
-  PreparedJob prepared = prepare(std::move(job), options.layers, show_note);
+  PreparedJob prepared = within_memory(options.job, [&] {
+    Job job = load_job_or_model(options.job, options.profile, unnamed);
+    job.print.look_ahead = options.look_ahead;
+    job.full_quality = options.full_quality;
+    job.allow_bare = job.allow_bare || options.allow_bare;
+    return prepare(std::move(job), options.layers, show_note);
+  });
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more_outputs;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <new>
 #include <optional>
 #include <vector>
 
+#include "core/error.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/engine/chunk_maker.hpp"
 #include "host/engine/prepared_job.hpp"
@@ -25,6 +27,17 @@ void show_note(const std::string& sentence);
 
 /// Shows on standard error what became known while layers were made.
 void show_late_warnings(const ChunkMaker& maker);
+
+/// Returns what `read` returns. Throws core::DataError if the memory for reading `file` runs out.
+template <class Read>
+auto within_memory(const std::filesystem::path& file, const Read& read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw core::DataError(file.string(), "", "the model needs more memory than the program may use",
+                          "simplify it, or allow the program more memory");
+  }
+}
 
 /// Loads, checks and places a job, and shows its warnings on standard error. Also checks the outputs of the
 /// options and `more_outputs` (check_outputs). Throws core::DataError.

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/model/inspect_model.hpp"
+#include "core/model/noted_error.hpp"
 #include "packages.hpp"
 
 using namespace unicursal::core;
@@ -270,6 +271,92 @@ TEST_CASE("Bambu Studio's parts lie in other files of the package and have filam
     CHECK(areas[1] == Approx(100).epsilon(1e-3));
     CHECK_THAT(p->warnings().at(0), Contains("2 plates; plate 1"));
   }
+}
+
+TEST_CASE("a 3MF without a mesh is refused with what it holds instead and what to do") {
+  const TempFolder folder;
+  const auto of = [&](const std::string& resources, const Files& more = {}) {
+    return refusal(write_3mf(folder, model_xml(resources, "<item objectid='1'/>"), more));
+  };
+  const std::string corners = "<vertices><vertex x='0' y='0' z='0'/><vertex x='9' y='0' z='0'/></vertices>";
+  CHECK_THAT(
+      of(object(1, "<mesh>" + corners +
+                       "<b:beamlattice xmlns:b='b' radius='1'><b:beams><b:beam v1='0' v2='1'/></b:beams>"
+                       "</b:beamlattice></mesh>")),
+      Contains("it holds a lattice of beams, and no mesh") && Contains("turn it into a mesh"));
+  CHECK_THAT(
+      of("<s:slicestack xmlns:s='s' id='2'/>" + object(1, "<mesh/>", "s:slicestackid='2' xmlns:s='s'")),
+      Contains("it holds slices, and no mesh"));
+  CHECK_THAT(of(object(1, "<v:levelset xmlns:v='v' functionid='3'/>")),
+             Contains("a shape given by a function"));
+  CHECK_THAT(of(object(1, "<d:displacementmesh xmlns:d='d'/>")), Contains("displaced by a texture"));
+  CHECK_THAT(of(object(1, "<bo:booleanshape xmlns:bo='bo' objectid='4'/>")), Contains("united or cut"));
+  // What Bambu Studio and OrcaSlicer export as the file of a sliced plate: its objects are left out.
+  CHECK_THAT(refusal(write_3mf(folder, model_xml("", ""), {{"Metadata/plate_1.gcode", "G28"}})),
+             Contains("G-code that a slicer made") && Contains("save the project itself"));
+  const std::string elsewhere =
+      object(1, "<components><component p:path='/3D/a.model' objectid='1'/></components>");
+  CHECK_THAT(of(elsewhere, {{"3D/a.model", std::string("%3McF\0\0\x17", 8)}}), Contains("is encrypted"));
+}
+
+TEST_CASE("shapes and materials of a 3MF that are not read are named in a note") {
+  const TempFolder folder;
+  const auto notes = [&](const std::string& resources) {
+    return part({write_3mf(folder, model_xml(resources, "<item objectid='1'/>"))}, {"model.3mf"})->warnings();
+  };
+  const auto rough = notes(object(1, mesh_xml(box), "s:meshresolution='lowres' xmlns:s='s'"));
+  REQUIRE(rough.size() == 1);
+  CHECK_THAT(rough.front(), Contains("the coarse mesh beside them is printed"));
+  CHECK(notes(object(1, mesh_xml(box), "s:meshresolution='fullres' xmlns:s='s'")).empty());
+  const auto draft = notes("<color id='3' value='#ff0000'/><material id='4' colorid='3'/>" +
+                           object(1, mesh_xml(box), "materialid='4'"));
+  REQUIRE(draft.size() == 1);
+  CHECK_THAT(draft.front(), Contains("draft of 2013"));
+}
+
+TEST_CASE("a body that encloses no volume is left out with a note if others remain") {
+  const TempFolder folder;
+  const std::string flat =
+      "<mesh><vertices><vertex x='50' y='0' z='0'/><vertex x='60' y='0' z='0'/><vertex x='50' y='9' z='0'/>"
+      "</vertices><triangles><triangle v1='0' v2='1' v3='2'/></triangles></mesh>";
+  const std::string objects = object(1, flat, "name='label'") + object(2, mesh_xml(box), "name='plate'");
+  const auto p = part({write_3mf(folder, model_xml(objects, "<item objectid='1'/><item objectid='2'/>"))},
+                      {"plate"}, 0.25);
+  CHECK(p->extent().size() == Vec2(20, 10));
+  REQUIRE(p->warnings().size() == 1);
+  CHECK_THAT(p->warnings().front(), Contains("body 1 (\"label\")") && Contains("encloses no volume"));
+  CHECK_THAT(refusal(write_3mf(folder, model_xml(objects, "<item objectid='1'/><item objectid='1'/>"))),
+             Contains("body 1") && Contains("encloses no volume"));
+}
+
+TEST_CASE("a refusal of a mesh comes with the notes on what was not read") {
+  const TempFolder folder;
+  const auto file = write_3mf(folder, model_xml("<m:texture2dgroup id='7' texid='1'/>", ""));
+  const auto noted = [](const auto& read) -> std::vector<std::string> {
+    try {
+      read();
+    } catch (const NotedError& refusal) {
+      return refusal.notes();
+    }
+    return {};
+  };
+  const auto of_part = noted([&] { part({file}, {"model"}); });
+  REQUIRE(of_part.size() == 1);
+  CHECK_THAT(of_part.front(), Contains("textures are not read"));
+  CHECK(noted([&] { inspect_model({file}); }) == of_part);
+}
+
+TEST_CASE("facets in their body's colour under another name add nothing to the body's volume") {
+  const TempFolder folder;
+  const auto file =
+      write_3mf(folder, model_xml("<basematerials id='5'><base name='one' displaycolor='#4080C0'/>"
+                                  "<base name='other' displaycolor='#4080C0'/></basematerials>" +
+                                      object(1, mesh_xml(box, {{0, "pid='5' p1='1'"}}), "pid='5' pindex='0'"),
+                                  "<item objectid='1'/>"));
+  const ModelContents contents = inspect_model({file});
+  REQUIRE(contents.zones.size() == 1);
+  CHECK(contents.zones.front().select == "#4080c0");
+  CHECK(contents.zones.front().amount == Approx(600));
 }
 
 TEST_CASE("damaged and hostile packages are refused") {

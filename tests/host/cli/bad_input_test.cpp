@@ -1,6 +1,8 @@
 // Bad input ends with one sentence and exit code 2, and the printer receives nothing.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -275,6 +277,34 @@ TEST_CASE("A part too thin for a bead is refused before anything is heated") {
   CHECK(printer.heard_nothing());
   CHECK_FALSE(std::filesystem::exists(folder / "out.gcode"));
 }
+
+#ifndef __SANITIZE_ADDRESS__  // its shadow memory counts as data
+TEST_CASE("A drawing that needs more memory than the program may use is refused with a sentence") {
+  const TempFolder folder;
+  std::string dots;
+  for (int i = 0; i < 200000; ++i)
+    dots += fmt::format("M{:.1f} {:.1f}h.1v.1h-.1z", i % 500 * .2, i / 500 * .2);
+  const std::string file =
+      folder
+          .write("dots.svg",
+                 "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 80' width='100mm' "
+                 "height='80mm'><path d='" +
+                     dots + "'/></svg>")
+          .string();
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_DATA, &before) == 0);
+  const rlimit little{80u << 20, before.rlim_max};
+  const auto limited = [&](const std::vector<std::string>& arguments) {
+    REQUIRE(setrlimit(RLIMIT_DATA, &little) == 0);  // the child inherits it
+    test::Child child(arguments);
+    REQUIRE(setrlimit(RLIMIT_DATA, &before) == 0);
+    return child.wait();
+  };
+  const Bad bad{"memory", {}, {}, {"dots.svg", "more memory"}};
+  check_refused(limited({"inspect", file}), bad);
+  check_refused(limited({"dry-run", file}), bad);
+}
+#endif
 
 TEST_CASE("Names and texts of files reach the terminal without control characters") {
   const TempFolder folder;
