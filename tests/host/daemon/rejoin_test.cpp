@@ -121,7 +121,9 @@ TEST_CASE("a daemon asks before it continues a print whose printer has lost its 
   CHECK(job(bench, killed.id)["state"] == "interrupted");
   CHECK(says(bench.ask("GET", "/api/status")["interrupted"]["question"], "homes x and y"));
   CHECK(bench.status(bench.request("POST", "/api/print/start")) == 409);
-  REQUIRE(bench.command({"resume", "--yes"}).code == 0);
+  const Outcome confirmed = bench.command({"resume", "--yes"});
+  INFO(confirmed.out << confirmed.err);
+  REQUIRE(confirmed.code == 0);
   bench.await_job(killed.id, "done");
   const std::string lines = bench.transcript();
   CHECK(count(lines, "G28 X Y") == 1);
