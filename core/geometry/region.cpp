@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <polyclipping/clipper.hpp>
 #include <utility>
 
@@ -145,7 +146,13 @@ Region opened(const Region& region, double radius, double tolerance) {
   return intersect(offset(offset(region, -radius, tolerance), radius, tolerance), region);
 }
 
-Ring simplified(const Ring& ring, double tolerance) {
+namespace {
+
+/// How far a ring's vertex is from its place if the ring runs from `a` to `b` instead, as a share of what is
+/// allowed there.
+using Excess = std::function<double(const Vec2& vertex, const Vec2& a, const Vec2& b)>;
+
+Ring without_unimportant(const Ring& ring, const Excess& excess) {
   if (ring.size() <= 4) return ring;
   // Douglas and Peucker (1973) on the two halves between the first vertex and the one farthest from it.
   std::vector<bool> keep(ring.size() + 1, false);
@@ -159,11 +166,11 @@ Ring simplified(const Ring& ring, double tolerance) {
   while (!spans.empty()) {
     const auto [first, last] = spans.back();
     spans.pop_back();
-    double worst = tolerance;
+    double worst = 1;
     std::size_t split = first;
     for (std::size_t i = first + 1; i < last; ++i) {
-      const double d = distance_to_segment(at(i), at(first), at(last));
-      if (d > worst) worst = d, split = i;
+      const double e = excess(at(i), at(first), at(last));
+      if (e > worst) worst = e, split = i;
     }
     if (split == first) continue;
     keep[split] = true;
@@ -175,6 +182,21 @@ Ring simplified(const Ring& ring, double tolerance) {
     if (keep[i]) result.push_back(ring[i]);
   }
   return result.size() >= 3 ? result : ring;
+}
+
+}  // namespace
+
+Ring simplified(const Ring& ring, double tolerance) {
+  return without_unimportant(ring, [tolerance](const Vec2& vertex, const Vec2& a, const Vec2& b) {
+    return distance_to_segment(vertex, a, b) / tolerance;
+  });
+}
+
+Ring simplified_to_the_left(const Ring& ring, double tolerance, double beyond) {
+  return without_unimportant(ring, [tolerance, beyond](const Vec2& vertex, const Vec2& a, const Vec2& b) {
+    const bool left = cross(b - a, vertex - a) > 0;
+    return distance_to_segment(vertex, a, b) / (left ? beyond : tolerance);
+  });
 }
 
 }  // namespace unicursal::core

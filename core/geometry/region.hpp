@@ -32,5 +32,7 @@ Region opened(const Region& region, double radius, double tolerance);
 /// The ring with fewer vertices. The old vertices are within `tolerance` mm of the new ring, which may leave
 /// the old region by as much.
 Ring simplified(const Ring& ring, double tolerance);
+/// The same, but the new ring leaves the side that is to the left of the old one by no more than `beyond` mm.
+Ring simplified_to_the_left(const Ring& ring, double tolerance, double beyond);
 
 }  // namespace unicursal::core

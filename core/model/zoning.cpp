@@ -10,6 +10,7 @@ namespace {
 constexpr double half_weld = weld_width / 2;  ///< mm, radius of the disc that cannot enter slivers
 constexpr double rounding = weld_width / 10;  ///< mm, tolerance of that disc's arcs
 constexpr double smoothing = weld_width / 2;  ///< mm, how far a border may move to lose unimportant vertices
+constexpr double outwards = 1e-5;             ///< mm, how far an outline may do so: a few steps of the grid
 constexpr double overlap = 3e-6;              ///< mm, a few steps of the grid, so that patches really overlap
 constexpr double dust_area = speck_area * 1e-4;  ///< mm², pieces left by rounding on the grid
 
@@ -38,13 +39,13 @@ void report_unclaimed(const Region& visible, const std::string& label, std::vect
   }
 }
 
-/// Fills the gaps that a disc of half the weld's width cannot enter from outside.
-Region welded(const Region& region) {
+/// The gaps that a disc of half the weld's width cannot enter from outside.
+Region gaps_in(const Region& region) {
   const Region closed = offset(offset(region, half_weld + overlap, rounding), -half_weld - overlap, rounding);
   Region gaps = subtract(closed, region);
   // The disc also leaves a fillet in every corner; fillets are short.
   std::erase_if(gaps, [](const Polygon& gap) { return bounds(gap).size().norm() < 2 * weld_width; });
-  return gaps.empty() ? region : unite(region, offset(gaps, overlap, rounding));
+  return gaps;
 }
 
 /// Whether two polygons are so close that a weld may join them.
@@ -63,23 +64,38 @@ bool nearly_touching(const Region& region) {
   return false;
 }
 
-/// Starts at an extreme vertex, because simplification always keeps the first one.
-Ring smoothed(Ring ring) {
+/// Simplification always keeps the first vertex.
+Ring from_extreme(Ring ring) {
   const auto extreme = std::min_element(ring.begin(), ring.end(), [](const Vec2& a, const Vec2& b) {
     return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
   });
   std::rotate(ring.begin(), extreme, ring.end());
-  return simplified(ring, smoothing);
+  return ring;
 }
 
-/// Removes the tiny steps that overlapping outlines, welds and facets leave in borders.
-Region smoothed(const Region& region) {
+/// Removes the tiny steps that overlapping outlines, welds and facets leave in borders. `beyond` mm: how far
+/// the result may leave the region.
+Region smoothed(const Region& region, double beyond) {
   std::vector<Ring> rings;
+  const auto add = [&](Ring ring, bool outer) {
+    if ((signed_area(ring) > 0) != outer)
+      std::reverse(ring.begin(), ring.end());  // the region is to its left
+    rings.push_back(simplified_to_the_left(from_extreme(std::move(ring)), smoothing, beyond));
+  };
   for (const Polygon& polygon : region) {
-    rings.push_back(smoothed(polygon.outer));
-    for (const Ring& hole : polygon.holes) rings.push_back(smoothed(hole));
+    add(polygon.outer, true);
+    for (const Ring& hole : polygon.holes) add(hole, false);
   }
   return enclosed(rings, FillRule::even_odd);
+}
+
+/// The outline with its gaps closed and few vertices. Only where a gap is closed, the new border may run a
+/// little outside of the old one, or notches would stay at the gap's ends.
+Region mended(const Region& whole, const Region& gaps) {
+  if (gaps.empty()) return smoothed(whole, outwards);
+  const Region welded = unite(whole, offset(gaps, overlap, rounding));
+  const Region around = offset(gaps, weld_width, rounding);
+  return smoothed(intersect(smoothed(welded, smoothing), unite(welded, around)), outwards);
 }
 
 void remove_specks(Region& region) {
@@ -97,7 +113,7 @@ std::vector<ZoneRegion> local_claims(const Polygon& outline, const Claims& claim
     if (local.empty()) continue;
     local = intersect(local, {outline});
     std::erase_if(local, is_sliver);
-    local = smoothed(local);
+    local = smoothed(local, smoothing);
     if (!local.empty()) result.push_back({zone, std::move(local)});
   }
   return result;
@@ -203,8 +219,8 @@ Zoning zoned(const std::vector<Painted>& shapes) {
       report_unclaimed(visible, first->label, result.unclaimed);
     }
   }
-  if (shapes.size() > 1 || nearly_touching(whole)) whole = welded(whole);
-  whole = smoothed(whole);
+  const bool may_have_gaps = shapes.size() > 1 || nearly_touching(whole);
+  whole = mended(whole, may_have_gaps ? gaps_in(whole) : Region{});
   remove_specks(whole);
   for (Polygon& outline : whole) {
     if (auto made = island(std::move(outline), claims)) result.islands.push_back(std::move(*made));

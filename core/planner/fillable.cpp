@@ -53,7 +53,8 @@ void pair_up(const Region& regions, double half_width, double w, std::vector<Fil
       continue;
     }
     if (domains.empty()) continue;
-    double margin = inner_margin * w;
+    // Both offsets that made a domain may have gone a tolerance too far.
+    double margin = (inner_margin - 2 * arc_tolerance) * w;
     Region surroundings = offset(domains, margin, arc_tolerance * w);
     for (; surroundings.size() != domains.size() && margin > 1e-4 * w; margin /= 2) {
       surroundings = offset(domains, margin / 2, arc_tolerance * w);

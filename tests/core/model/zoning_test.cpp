@@ -89,6 +89,29 @@ TEST_CASE("gaps up to the weld are closed, wider ones divide the part") {
   CHECK(zoned({{box(0, 0, 10, 20), 0, ""}, {box(10.02, 0, 20, 20), 1, ""}}).islands.size() == 2);
 }
 
+TEST_CASE("outlines stay inside of what was drawn, and lose vertices that do not matter") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> jitter(-0.002, 0.002);
+  const std::size_t corners = 2000;
+  const auto rough_circle = [&](double radius) {
+    Ring ring;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const double turn = 2 * 3.14159265358979 * double(i) / double(corners), r = radius + jitter(random);
+      ring.emplace_back(r * std::cos(turn), r * std::sin(turn));
+    }
+    return ring;
+  };
+  const Region washer = enclosed({rough_circle(20), rough_circle(8)}, FillRule::even_odd);
+  const Zoning zoning = zoned({{washer, 0, ""}});
+  REQUIRE(zoning.islands.size() == 1);
+  const Polygon& outline = zoning.islands[0].outline;
+  const double around = 2 * 3.14159 * (20 + 8);
+  CHECK(area(subtract({outline}, washer)) < 1e-5 * around);
+  CHECK(area(subtract(washer, {outline})) < 0.003 * around);
+  CHECK(outline.outer.size() < corners / 2);
+  CHECK(offset(subtract({outline}, washer), -2e-5, 1e-6).empty());
+}
+
 TEST_CASE("a gap inside one shape's ground is given to a neighbour") {
   const Zoning zoning =
       zoned({{box(0, 0, 20, 20), {}, "ground"}, {box(0, 0, 10, 20), 0, ""}, {box(10.008, 0, 20, 20), 1, ""}});

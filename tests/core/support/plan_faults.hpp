@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/curve/clearance.hpp"
+#include "core/geometry/border_index.hpp"
 #include "core/planner/island_plan.hpp"
 
 namespace unicursal::core::test {
@@ -38,8 +40,12 @@ inline std::string fault_of(const PlannedCurve& curve, const Polygon& outline,
 inline std::string fault_of(const IslandPlan& plan, const Polygon& outline, const std::vector<Zone>& zones,
                             double w) {
   double filled = 0;
+  const BorderIndex border(outline, w);
   for (const PlannedCurve& curve : plan.curves) {
     if (const std::string fault = fault_of(curve, outline, zones); !fault.empty()) return fault;
+    Curve closed;
+    for (const Bead& bead : curve.path.beads) closed.vertices.push_back(bead.position);
+    if (segments_outside(closed, border) != 0) return "a bead that crosses the outline";
     filled += curve.area;
   }
   const double lost = area(outline) - filled - plan.unfilled_area;
