@@ -135,4 +135,32 @@ void HeatWatch::rest() {
   bed_.rest();
 }
 
+std::optional<std::string> WarmUpWatch::note(TimePoint at, const gcode::Temperatures& reported, double nozzle,
+                                             double bed) {
+  constexpr double rise = 2;     // °C that count as warmer
+  constexpr double nearly = 15;  // °C; so close to its target a heater may take its time
+  constexpr auto nozzle_may_take = 90s;
+  constexpr auto bed_may_take = 300s;
+  std::optional<std::string> trouble;
+  const auto look = [&](std::optional<Climb>& climb, const char* name, std::optional<double> reading,
+                        double target, std::chrono::seconds may_take) {
+    if (!reading || target <= 0 || *reading >= target - nearly) return climb.reset();
+    if (!climb || climb->target != target || *reading >= climb->highest + rise) {
+      climb = Climb{target, *reading, at};
+    } else if (at - climb->since >= may_take && !trouble) {
+      trouble = fmt::format(
+          "the {} has not become warmer than {:.0f} °C for {} s, although it should have {:.0f} °C: its "
+          "heater "
+          "or sensor may have failed; check them before you print again",
+          name, std::max(climb->highest, *reading), may_take.count(), target);
+    }
+  };
+  // The line that heats the nozzle may be waiting behind the one that waits for the bed.
+  const bool bed_first = reported.bed && *reported.bed < bed - nearly;
+  look(nozzle_, "nozzle", reported.nozzle, reported.nozzle_target.value_or(bed_first ? 0 : nozzle),
+       nozzle_may_take);
+  look(bed_, "bed", reported.bed, reported.bed_target.value_or(bed), bed_may_take);
+  return trouble;
+}
+
 }  // namespace unicursal::host

@@ -4,7 +4,7 @@
 //
 // A heater has a *level*: its target, or less while it still warms up after a change. It is too cold if it is
 // far below its level for some time, or has fallen without a pause and far enough that nothing can be heating
-// it. The print's own waits for heat are not watched: call rest() meanwhile.
+// it. During the print's own waits for heat call rest(); WarmUpWatch looks after those.
 #pragma once
 
 #include <optional>
@@ -77,6 +77,26 @@ class HeatWatch {
 
  private:
   HeaterWatch nozzle_, bed_;
+};
+
+/// Watches a wait for heat: a heater must become warmer. Firmwares watch this, too (Marlin's
+/// WATCH_TEMP_PERIOD of 40 s and WATCH_BED_TEMP_PERIOD of 60 s, each for 2 °C), unless they were built
+/// without it; then M109 waits without end.
+class WarmUpWatch {
+ public:
+  /// Returns a sentence with the remedy if a heater gives no heat. `nozzle` and `bed` are the targets that
+  /// the print has set; they count where the firmware reports none, as Repetier does in its waits.
+  std::optional<std::string> note(TimePoint at, const gcode::Temperatures& reported, double nozzle,
+                                  double bed);
+  void rest() { *this = WarmUpWatch(); }
+
+ private:
+  struct Climb {
+    double target = 0;
+    double highest = 0;  ///< reading
+    TimePoint since;     ///< it was reached
+  };
+  std::optional<Climb> nozzle_, bed_;
 };
 
 }  // namespace unicursal::host

@@ -80,8 +80,15 @@ void Session::State::hear(const std::string& line) {
   }
 }
 
-/// Only while it prints: waits for heat, pauses and the end have heat of their own.
+/// While it prints, and while it waits for heat; pauses and the end have heat of their own.
 void Session::State::watch_heat() {
+  if (printer.may_wait_for_heat && !intent.ends()) {
+    const auto trouble =
+        warm_up_watch.note(clock->now(), printer.temperatures, printer.expected.nozzle, printer.expected.bed);
+    if (trouble) give_up_heating(*trouble);
+  } else {
+    warm_up_watch.rest();
+  }
   if (announcer.state() != SessionState::printing || printer.may_wait_for_heat) return heat_watch.rest();
   const auto trouble =
       heat_watch.note(clock->now(), printer.temperatures, printer.expected.nozzle, printer.expected.bed);
@@ -130,6 +137,22 @@ void Session::State::stop(const std::string& reason) {
                 ": heating ends; a second Ctrl-C or `stop` stops the printer at once"
           : "stopping, since " + reason +
                 ": the printer is parked and cooled; a second Ctrl-C or `stop` stops it at once");
+  wake.notify();
+}
+
+/// Repetier acknowledges a wait for heat when it begins, and then reads nothing until it ends.
+void Session::State::give_up_heating(const std::string& reason) {
+  gave_up_heating = reason;
+  if (link.identity().family == gcode::Family::repetier)
+    stop_at_once();
+  else
+    stop(reason);
+}
+
+void Session::State::stop_at_once() {
+  intent.abort();
+  source.cancel();
+  link.emergency_stop();
   wake.notify();
 }
 
@@ -206,10 +229,7 @@ Refusal Session::cancel(const std::string& reason) {
 Refusal Session::emergency_stop() {
   State& s = *state_;
   if (has_ended(s.announcer.state())) return "the print has ended";
-  s.intent.abort();
-  s.source.cancel();
-  s.link.emergency_stop();
-  s.wake.notify();
+  s.stop_at_once();
   return std::nullopt;
 }
 

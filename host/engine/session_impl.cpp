@@ -432,6 +432,9 @@ StreamResult Session::State::conclude(const std::exception_ptr& error) {
   if (intent.stopped()) result.ending = Ending::stopped;
   if (error) result.reason = sentence(error);
   if (intent.aborted()) result.reason = announcer.reason();
+  const bool at_once = intent.aborted() || link.cut_wait_short();
+  if (!gave_up_heating.empty())
+    result.reason = gave_up_heating + (at_once ? "; it was " + announcer.reason() : "");
   if (!result.reason.empty()) result.ending = Ending::failed;
   switch (result.ending) {
     case Ending::completed:

@@ -76,6 +76,9 @@ struct Session::State {
   void watch_heat();
   void obey(const std::string& action);
   void stop(const std::string& reason);
+  /// A heater that is waited for gives no heat: the same, but the print has failed.
+  void give_up_heating(const std::string& reason);
+  void stop_at_once();
   asio::awaitable<void> confirm_stop();
   Refusal too_much(double speed, double flow) const;
 
@@ -100,13 +103,15 @@ struct Session::State {
   Progress progress;
   PrinterView printer;
   HeatWatch heat_watch;
+  WarmUpWatch warm_up_watch;
   PlaceKeeper places;
   Holding holding;
 
   std::optional<gcode::Chunk> first;  ///< the source's start, until it is sent
   bool caught_up = true;              ///< false while the source belongs to the thread of `disk`
   std::exception_ptr catching_up_failed;
-  StreamResult result;  ///< as far as it is known
+  StreamResult result;          ///< as far as it is known
+  std::string gave_up_heating;  ///< why; empty if it did not
 };
 
 }  // namespace unicursal::host

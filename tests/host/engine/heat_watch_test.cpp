@@ -88,6 +88,65 @@ TEST_CASE("A heater that gives no more heat is noticed within 10 s, and one that
   CHECK(objects_at([](double t) { return t == 20 ? 21.0 : t < 20 ? 210.2 - t / 100 : 210.0; }) == -1);
 }
 
+TEST_CASE(
+    "A heater that does not become warmer is noticed while it is waited for, a slow one is left alone") {
+  const auto objects_at = [](const std::function<unicursal::gcode::Temperatures(double)>& reading,
+                             double wanted = 210) {
+    WarmUpWatch watch;
+    for (double t = 0; t < 1800; t += 2) {
+      if (const auto trouble = watch.note(TimePoint(duration(t)), reading(t), wanted, 60)) return t;
+    }
+    return -1.0;
+  };
+  using Heat = unicursal::gcode::Temperatures;
+  const auto nozzle = [](double reading, double target) {
+    Heat heat;
+    heat.nozzle = reading, heat.nozzle_target = target;
+    return heat;
+  };
+  const auto bed = [](double reading, double target) {
+    Heat heat;
+    heat.bed = reading, heat.bed_target = target;
+    return heat;
+  };
+  CHECK(objects_at([&](double) { return nozzle(24, 210); }) == 90);
+  CHECK(objects_at([&](double t) { return nozzle(std::min(120.0, 24 + t), 210); }) == 96 + 90);
+  CHECK(objects_at([&](double t) { return nozzle(std::min(210.0, 24 + 0.05 * t), 210); }) == -1);
+  CHECK(objects_at([&](double) { return nozzle(198, 210); }) == -1);  // it oscillates near its target
+  CHECK(objects_at([&](double) { return nozzle(24, 0); }) == -1);     // its line waits behind the bed's
+  CHECK(objects_at([&](double t) { return nozzle(24 + std::fmod(t, 4), t < 60 ? 0 : 210); }) == 60 + 92);
+  CHECK(objects_at([&](double) { return bed(21, 60); }) == 300);
+  const auto silent_about_targets = [](double nozzle_reading, double bed_reading) {
+    Heat heat;
+    heat.nozzle = nozzle_reading, heat.bed = bed_reading;
+    return heat;
+  };
+  CHECK(objects_at([&](double) { return silent_about_targets(24, 60); }) == 90);
+  CHECK(objects_at([&](double) { return silent_about_targets(24, 60); }, 0) == -1);
+  CHECK(objects_at([&](double t) { return silent_about_targets(24, std::min(60.0, 20 + t / 10)); }) ==
+        250 + 90);
+  CHECK(objects_at([&](double t) { return bed(std::min(60.0, 21 + 0.01 * t), 60); }) == -1);
+}
+
+TEST_CASE(
+    "A print whose nozzle never becomes warm fails and is cold, also if the firmware waits without end") {
+  const std::string firmware = GENERATE("marlin", "marlin-8bit", "marlin-host", "repetier", "reprapfirmware");
+  CAPTURE(firmware);
+  SampleFiles sample = tall(firmware);
+  if (firmware == "reprapfirmware")
+    sample.profile = replaced(sample.profile, "\"marlin\"", "\"reprapfirmware\"");
+  SessionBench bench({"--personality", firmware, "--fault", "unguarded@t=0", "--fault", "heaterfail@t=0"}, "",
+                     sample);
+  const StreamResult result = bench.print();
+  CAPTURE(result.reason, bench.executed(), bench.seen()["temperatures"].dump());
+  CHECK(result.ending == Ending::failed);
+  CHECK(result.reason.find("the nozzle has not become warmer than") != std::string::npos);
+  // Without an emergency parser a firmware reads nothing while it waits, and this port has no line that
+  // resets.
+  CHECK((bench.cold() || result.reason.find("switch it off by its own switch") != std::string::npos));
+  CHECK((bench.cold() || firmware != "marlin-host"));
+}
+
 TEST_CASE("A heater that becomes hotter and hotter is noticed, and one that cools to a new target is not") {
   CHECK(objects_at([](double t) { return 210 + t; }, 210, 210, HeatTrouble::hot) == 26);
   CHECK(objects_at([](double t) { return std::max(195.0, 240 - t / 2); }, 195) == -1);
