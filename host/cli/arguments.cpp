@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "host/cli/help_format.hpp"
+#include "host/cli/terminal_output.hpp"
 #include "sim/simulator.hpp"
 
 namespace unicursal::host {
@@ -20,6 +23,22 @@ std::size_t parse_index(std::string_view text, const std::string& whole) {
   if (error == std::errc() && end == text.data() + text.size()) return value;
   throw core::DataError("", "--layers", fmt::format("\"{}\" is not a range of layers", whole),
                         "write first:last counted from 0, for example 0:4");
+}
+
+/// Ends like --help does.
+void show_faults() {
+  std::string text = help_paragraph(
+      "A fault is KIND[:VALUE][@MOMENT]. A CHANCE is the probability for each byte or line, as in "
+      "bitflip:1e-4. A MOMENT is t=SECONDS, line=NUMBER or command=WORD, as in stall:5@t=60. The kinds are:");
+  std::istringstream lines(sim::fault_help());
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t name = line.find_first_not_of(' '), name_end = line.find("  ", name);
+    const std::size_t description = line.find_first_not_of(' ', name_end);
+    if (description == std::string::npos) continue;
+    text += help_entry(line.substr(name, name_end - name), line.substr(description));
+  }
+  show(stdout, "{}", text);
+  throw CLI::Success();
 }
 
 /// Validators without a name do not show in the help.
@@ -131,7 +150,8 @@ void SimulatedPrinter::declare(CLI::App& app) {
             "USB chip of the cable: none, cdc (1 ms of delay) or ftdi (16 ms). Default: cdc.")
       .group(group);
   declare_tanks(app, options.tanks);
-  add_values(app, "--fault", options.faults, "FAULT", "Inject this fault (see below). May be repeated.")
+  add_values(app, "--fault", options.faults, "FAULT",
+             "Inject this fault (see --help-faults). May be repeated.")
       .group(group);
   add_value(app, "--faults", options.fault_file, "FILE",
             "Inject the faults of this file: one on each line, and optionally a line `seed NUMBER`.")
@@ -140,11 +160,7 @@ void SimulatedPrinter::declare(CLI::App& app) {
             "Seed of random faults. The same seed gives the same faults. Default: 1.")
       .check(integer_between(0, std::numeric_limits<std::uint64_t>::max()))
       ->group(group);
-  add_note(app,
-           "A fault is KIND[:VALUE][@MOMENT]. A CHANCE is the probability for each byte or line, as in "
-           "bitflip:1e-4. A MOMENT is t=SECONDS, line=NUMBER or command=WORD, as in stall:5@t=60. The "
-           "kinds are:\n" +
-               sim::fault_help());
+  app.add_flag_callback("--help-faults", show_faults, "List the faults, and do nothing else.")->group(group);
 }
 
 void SimulatedPrinter::check() const {

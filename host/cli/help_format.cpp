@@ -1,17 +1,35 @@
 #include "host/cli/help_format.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <sstream>
+
+#include "host/cli/columns.hpp"
+#include "host/cli/terminal_look.hpp"
 
 namespace unicursal::host {
 namespace {
 
-constexpr std::size_t line_width = 90, first_column = 28;
+constexpr std::size_t usual_first_column = 28;
+constexpr std::size_t narrow_first_column = 6;  ///< below their names
 
-/// Characters, not bytes: the bytes that continue a UTF-8 character do not count.
-std::size_t width(const std::string& text) {
-  std::size_t count = 0;
-  for (const char byte : text) count += (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U;
-  return count;
+struct Measures {
+  std::size_t line_width = 90;
+  std::size_t first_column = usual_first_column;  ///< of descriptions
+};
+
+/// Texts wider than 90 columns are hard to read, and in a narrow window descriptions need the whole width.
+const Measures& measures() {
+  static const Measures found = [] {
+    constexpr std::size_t narrowest = 40, narrow = 70;
+    Measures m;
+    if (isatty(STDOUT_FILENO) == 1)
+      m.line_width = std::clamp(terminal_width(STDOUT_FILENO), narrowest, m.line_width);
+    if (m.line_width < narrow) m.first_column = narrow_first_column;
+    return m;
+  }();
+  return found;
 }
 
 /// Breaks the text at blanks. Each line after the first begins with `indent` blanks; the first one is taken
@@ -22,7 +40,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   std::size_t column = indent;
   while (words >> word) {
     const bool first = result.empty();
-    if (!first && column + 1 + width(word) > line_width) {
+    if (!first && column + 1 + columns(word) > measures().line_width) {
       result += '\n' + std::string(indent, ' ');
       column = indent;
     } else if (!first) {
@@ -30,28 +48,34 @@ std::string wrapped(const std::string& text, std::size_t indent) {
       ++column;
     }
     result += word;
-    column += width(word);
+    column += columns(word);
   }
   return result;
 }
 
-std::string entry(const std::string& name, const std::string& description) {
+}  // namespace
+
+std::string help_entry(const std::string& name, const std::string& description) {
+  const std::size_t first_column = measures().first_column;
   std::string line = "  " + name;
-  if (width(line) + 2 > first_column)
+  if (columns(line) + 2 > first_column)
     line += '\n' + std::string(first_column, ' ');
   else
-    line += std::string(first_column - width(line), ' ');
+    line += std::string(first_column - columns(line), ' ');
   return line + wrapped(description, first_column) + '\n';
 }
 
-}  // namespace
+std::string help_paragraph(const std::string& text) {
+  return wrapped(text, 0) + '\n';
+}
 
 HelpFormat::HelpFormat() {
-  column_width(first_column);
+  column_width(measures().first_column);
 }
 
 std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {
-  return entry(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option));
+  return help_entry(make_option_name(option, is_positional) + make_option_opts(option),
+                    make_option_desc(option));
 }
 
 std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
@@ -60,8 +84,12 @@ std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::Ap
                                        "\n\n");
 }
 
+std::string HelpFormat::make_description(const CLI::App* app) const {
+  return help_paragraph(app->get_description());
+}
+
 std::string HelpFormat::make_subcommand(const CLI::App* command) const {
-  return entry(command->get_name(), command->get_description());
+  return help_entry(command->get_name(), command->get_description());
 }
 
 std::string HelpFormat::make_footer(const CLI::App* app) const {

@@ -120,8 +120,12 @@ Exit Queue::list(const Client& client) const {
     show_json(answer);
     return Exit::success;
   }
-  for (const json& job : answer.at("jobs"))
-    show(stdout, "{}\n", job.is_string() ? job.get<std::string>() : job_text(job));
+  const json& jobs = answer.at("jobs");
+  if (jobs.empty())
+    show(stdout, "{}\n",
+         list_jobs_ ? "the daemon's folders hold no jobs; `unicursal queue --upload FILE` sends one"
+                    : "the queue is empty; `unicursal queue --add JOB` adds a job");
+  for (const json& job : jobs) show(stdout, "{}\n", job.is_string() ? job.get<std::string>() : job_text(job));
   return Exit::success;
 }
 

@@ -76,6 +76,18 @@ void check_uploaded_job(const fs::path& file) {
   }
 }
 
+/// Profiles lie beside their jobs. A job names its printer; only a profile has a table of that name, and it
+/// stands near the beginning.
+bool is_profile(const fs::path& path) {
+  constexpr std::size_t most_bytes = 64 * 1024;
+  if (path.extension() != ".toml") return false;
+  std::string text(most_bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text.starts_with("[printer]") || text.find("\n[printer]") != std::string::npos;
+}
+
 /// Adds the jobs in `folder` by the names that find() takes. Links to folders are not followed, and links to
 /// files must stay within the folder.
 void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std::string>& names) {
@@ -86,7 +98,7 @@ void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std
     if (item.depth() >= deepest_folder) item.disable_recursion_pending();
     std::error_code gone;
     if (is_job(item->path()) && item->is_regular_file(gone) &&
-        within(fs::canonical(item->path(), gone), folder))
+        within(fs::canonical(item->path(), gone), folder) && !is_profile(item->path()))
       names.push_back(prefix + item->path().lexically_relative(folder).generic_string());
   }
 }

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <system_error>
@@ -178,6 +179,22 @@ std::optional<UsbId> usb_id_of(const sp_port* port) {
   return UsbId{static_cast<std::uint16_t>(vendor), static_cast<std::uint16_t>(product)};
 }
 
+/// What hangs on the port: the names that a device on USB gives itself, or the kind of port.
+std::string device_words(const sp_port* port) {
+  const std::string maker = text(sp_get_port_usb_manufacturer(port)),
+                    product = text(sp_get_port_usb_product(port));
+  if (maker.empty() && product.empty()) return text(sp_get_port_description(port));
+  return maker.empty() || product.starts_with(maker) ? product : product + ", by " + maker;
+}
+
+/// The kernel lists serial ports that a board could have; `type` is 0 (PORT_UNKNOWN) where it has found no
+/// chip (Documentation/ABI/testing/sysfs-tty).
+bool has_chip(const std::string& path) {
+  std::ifstream type("/sys/class/tty/" + fs::path(path).filename().string() + "/type");
+  int number = -1;
+  return !(type >> number) || number != 0;
+}
+
 }  // namespace
 
 std::vector<PortInfo> list_ports() {
@@ -187,8 +204,9 @@ std::vector<PortInfo> list_ports() {
   const auto names = stable_names();
   std::vector<PortInfo> ports;
   for (sp_port** port = found; *port != nullptr; ++port) {
-    PortInfo info{text(sp_get_port_name(*port)), "", text(sp_get_port_description(*port)),
+    PortInfo info{text(sp_get_port_name(*port)), "", device_words(*port),
                   sp_get_port_transport(*port) == SP_TRANSPORT_USB, usb_id_of(*port)};
+    if (!info.usb && !has_chip(info.path)) continue;
     if (const auto name = names.find(info.path); name != names.end()) info.stable_path = name->second;
     ports.push_back(info);
   }
@@ -205,7 +223,8 @@ int open_port(const std::string& path, unsigned baud) {
 int open_port(const std::string& path, unsigned baud, LinkOptions& options) {
   const std::vector<PortInfo> meant = matching_ports(list_ports(), path);
   if (meant.empty()) throw PortError("no such serial port was found; plug the printer in and switch it on");
-  if (meant.size() > 1) {
+  // What hangs on a port that is not on USB is unknown until it answers.
+  if (meant.size() > 1 || (path == "auto" && !meant.front().usb)) {
     options.boot = {};
     return open_answering_port(meant, baud);
   }

@@ -49,6 +49,7 @@ TEST_CASE("jobs in the folders are found by their names, and other files are not
   fs::create_symlink(folders.folder / "secret.toml", folders.folder / "jobs/link.toml");
   fs::create_directory_symlink(folders.folder.path(), folders.folder / "jobs/up");
   folders.folder.write("jobs/star.3MF", "a model");
+  folders.folder.write("jobs/bench.toml", test::sample_profile);
   const JobFiles files = folders.files();
   CHECK(refusal(files, "star.3MF") == std::nullopt);
   CHECK(files.find("leaf.toml") == fs::canonical(folders.folder / "jobs/leaf.toml"));
