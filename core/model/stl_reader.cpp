@@ -114,6 +114,20 @@ class AsciiReader {
     }
   }
 
+  /// Skips words that say nothing, up to the end of the line or a word of the format.
+  void skip_remark() {
+    while (true) {
+      while (at_ < text_.size() && is_space(text_[at_]) && !at_line_end()) ++at_;
+      if (at_ >= text_.size() || at_line_end()) return;
+      const std::size_t begin = at_;
+      const std::string word = next();
+      if (word == "endfacet" || word == "facet" || word == "endsolid" || word == "solid" || word == "color") {
+        at_ = begin;
+        return;
+      }
+    }
+  }
+
   void expect(std::string_view word) {
     const std::string found = next();
     if (found == word) return;
@@ -161,7 +175,9 @@ class AsciiReader {
       refuse(word.empty() ? fmt::format("the file ends where {} should stand", due)
                           : fmt::format("{} should stand here, not {}", due, in_quotes(word)));
     }
+    skip_remark();
     expect("endfacet");
+    skip_remark();
     for (std::size_t i = 2; i < corners.size(); ++i)
       triangles_.push_back({corners[0], corners[i - 1], corners[i]});
   }

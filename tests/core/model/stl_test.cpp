@@ -84,6 +84,21 @@ TEST_CASE("normals are never used, and may be anything or absent") {
   }
 }
 
+TEST_CASE("words behind endloop and endfacet are remarks, on several lines or on one") {
+  std::string text = "solid s\n";
+  for (int i = 0; i < 2; ++i)
+    text +=
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop foo\nendfacet bar "
+        "1\n";
+  text += "endsolid s\n";
+  CHECK(read(text).mesh.size() == 2);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const Read one_line = read(text);
+  CHECK(one_line.mesh.size() == 2);
+  CHECK(one_line.notes.empty());
+  CHECK_THAT(refusal(ascii("0 stray")), Contains("line 5") && Contains("stray"));
+}
+
 TEST_CASE("a facet of four corners is two triangles") {
   std::string text = ascii("3");
   text.insert(text.find("endloop"), "vertex -1 -1 0\n");
