@@ -223,6 +223,8 @@ void Scene::note_direction(const pugi::xml_node& node, const Gradient& found, co
   if (std::find(described_.begin(), described_.end(), identity) != described_.end()) return;
   described_.push_back(identity);
   std::string way;
+  const std::string fill = fmt::format("url(#{})", node.attribute("id").value());
+  const GradientStop &first = found.stops.front(), &last = found.stops.back();
   if (found.linear && !region.empty()) {
     Eigen::Affine2d map = context.to_part;
     if (found.by_box) {
@@ -230,14 +232,17 @@ void Scene::note_direction(const pugi::xml_node& node, const Gradient& found, co
       const Box box = bounds(region);
       map.matrix() << box.size().x(), 0, box.min.x(), 0, -box.size().y(), box.max.y(), 0, 0, 1;
     }
-    const Vec2 along = map.linear() * (found.transform.linear() * (found.to - found.from));
-    way = fmt::format(" along [{:.3g}, {:.3g}, 0]", along.normalized().x(), along.normalized().y());
+    const Vec2 from = map * (found.transform * found.from), to = map * (found.transform * found.to);
+    const Vec2 along = (to - from).normalized();
+    way = fmt::format(" along [{:.3g}, {:.3g}, 0]", along.x(), along.y());
+    const double length = (to - from).norm(), start = from.dot(along);
+    gradients_.push_back({fill, first.colour.rgb, last.colour.rgb, along, start + first.offset * length,
+                          start + last.offset * length, found.stops.size() > 2});
   }
   notes_.say(
       fmt::format("{}: it runs from {} to {}{}; it is one zone, select = {}, to which a job can give a "
                   "gradient of mixtures",
-                  document_.where(node), found.stops.front().colour.rgb, found.stops.back().colour.rgb, way,
-                  in_quotes(fmt::format("url(#{})", node.attribute("id").value()))));
+                  document_.where(node), first.colour.rgb, last.colour.rgb, way, in_quotes(fill)));
 }
 
 Region Scene::seen(Region region, const Context& context) const {

@@ -97,6 +97,7 @@ Drawing read_svg(const std::filesystem::path& file, Warnings& warnings, const Dr
     const std::vector<Contour> contours = scene.contours();
     Drawing result;
     result.lines = contours.size();
+    result.gradients = scene.gradients();
     if (page.known) result.page = page.paper;
     if (options.strokes_are_contours) result.shapes = surrounded(contours, notes);
     std::vector<Shape> painted = shapes_of(scene.pieces(), document, notes);

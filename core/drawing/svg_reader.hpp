@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/drawing/drawn_gradient.hpp"
 #include "core/drawing/shape.hpp"
 #include "core/numeric/vec2.hpp"
 #include "core/text/wording.hpp"
@@ -35,6 +36,7 @@ struct Drawing {
   std::vector<Shape> shapes;  ///< in painter's order: later shapes cover earlier ones; may be empty
   std::size_t lines = 0;      ///< thin ones, not filled, that could be contours
   Vec2 page{0, 0};            ///< mm; 0: the file does not say
+  std::vector<DrawnGradient> gradients;  ///< linear ones, each as its first shape has it
 };
 
 /// Throws FileError, or ModelError with the line of the file.

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/drawing/drawing_notes.hpp"
+#include "core/drawing/drawn_gradient.hpp"
 #include "core/drawing/fonts.hpp"
 #include "core/drawing/shape.hpp"
 #include "core/drawing/svg_document.hpp"
@@ -81,6 +82,7 @@ class Scene {
   void walk(const Page& page, const Eigen::Matrix2d& turn);
   std::vector<Piece> pieces() { return std::move(pieces_); }
   std::vector<Contour> contours() { return std::move(contours_); }
+  std::vector<DrawnGradient> gradients() { return std::move(gradients_); }
 
  private:
   friend class SvgText;
@@ -166,7 +168,8 @@ class Scene {
   std::vector<pugi::xml_node> open_;  ///< clones, clips, masks and markers that are being drawn
   std::map<std::pair<const void*, std::array<double, 6>>, std::shared_ptr<const Region>> clips_;
   std::vector<const void*> described_;  ///< gradients that have a note
-  double root_font_size_ = 16;          ///< px
+  std::vector<DrawnGradient> gradients_;
+  double root_font_size_ = 16;  ///< px
   std::size_t elements_ = 0, points_ = 0;
 };
 

@@ -59,12 +59,12 @@ std::vector<ZoneOffer> zones_of(const std::vector<MendedBody>& bodies) {
       select = unique ? body.name.names.front() : body.name.number;
       if (solids == 1 && !tinted) select = body.name.file.filename().string();
     }
-    offers.add({select, body.name.tint.colour, volume(body.mesh), false});
+    offers.add({select, body.name.tint.colour, volume(body.mesh), false, std::nullopt});
     for (std::size_t i = 0; i < body.shells.size(); ++i) {
       const std::string paint = tint_select(body.paints[i]);
       // The same colour under another name is counted with the body. Shells in hollows can turn over.
       if (!body.shells[i].facets.empty() && paint != select)
-        offers.add({paint, body.paints[i].colour, std::max(0.0, volume(body.shells[i])), true});
+        offers.add({paint, body.paints[i].colour, std::max(0.0, volume(body.shells[i])), true, std::nullopt});
     }
   }
   return offers.take();
@@ -94,12 +94,12 @@ ModelContents contents_of_meshes(const std::vector<std::filesystem::path>& files
 }
 
 ModelContents contents_of_drawing(const std::filesystem::path& file, Warnings& warnings) {
-  const std::vector<Shape> shapes = read_drawing(file, warnings).shapes;
+  const Drawing drawing = read_drawing(file, warnings);
   ModelContents contents;
   contents.drawing = true;
   std::vector<Painted> painted;
   std::vector<std::string> fills;
-  for (const Shape& shape : shapes) {
+  for (const Shape& shape : drawing.shapes) {
     auto known = std::find(fills.begin(), fills.end(), shape.fill);
     if (known == fills.end()) known = fills.insert(fills.end(), shape.fill);
     painted.push_back({shape.region, std::size_t(known - fills.begin()), shape.fill});
@@ -118,8 +118,12 @@ ModelContents contents_of_drawing(const std::filesystem::path& file, Warnings& w
   contents.bodies = outlines.size();
   contents.size.head<2>() = bounds(outlines).size();
   for (std::size_t i = 0; i < fills.size(); ++i) {
-    if (areas[i] > 0)
-      contents.zones.push_back({fills[i], fills[i].starts_with('#') ? fills[i] : "", areas[i], false});
+    if (!(areas[i] > 0)) continue;
+    ZoneOffer offer{fills[i], fills[i].starts_with('#') ? fills[i] : "", areas[i], false, std::nullopt};
+    const auto gradient = std::find_if(drawing.gradients.begin(), drawing.gradients.end(),
+                                       [&](const DrawnGradient& g) { return g.fill == fills[i]; });
+    if (gradient != drawing.gradients.end()) offer.gradient = *gradient;
+    contents.zones.push_back(std::move(offer));
   }
   contents.notes = warnings.sentences();
   return contents;

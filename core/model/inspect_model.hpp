@@ -5,9 +5,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/drawing/drawn_gradient.hpp"
 #include "core/model/pose.hpp"
 
 namespace unicursal::core {
@@ -18,6 +20,7 @@ struct ZoneOffer {
   std::string colour;  ///< "#rrggbb"; empty: the file names none
   double amount = 0;   ///< mm² of a drawing, mm³ of a mesh; what other bodies cover is counted
   bool paint = false;  ///< on a surface only
+  std::optional<DrawnGradient> gradient;  ///< that the drawing gives this zone
 };
 
 struct ModelContents {

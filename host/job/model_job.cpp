@@ -92,6 +92,13 @@ std::string key_for(const std::string& select, std::set<std::string>& taken) {
   return unique;
 }
 
+/// Not as short as a bead, and within what `over` allows.
+bool can_be_followed(const core::DrawnGradient& gradient, double bead_width) {
+  constexpr double farthest = 10000;  // mm
+  return gradient.end - gradient.begin > bead_width && gradient.begin >= -farthest &&
+         gradient.end <= farthest;
+}
+
 std::string head(const std::vector<fs::path>& files, const Profile& profile, const fs::path& folder,
                  const core::ModelContents& model) {
   const gcode::Printer& printer = profile.printer;
@@ -143,19 +150,36 @@ ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, c
   std::string zones, mixtures = fmt::format("\n[mixture]           # shares of {}\n", of_what);
   std::set<std::string> keys;
   std::size_t uncoloured = 0;
-  for (const core::ZoneOffer& offer : job.contents.zones) {
-    const std::string key = key_for(offer.select, keys);
-    zones += fmt::format(
-        "\n[[zone]]\nselect = {}  # {:.4g} {}\npattern = \"isotropic\"  # or parallel, anisotropic, {{ angle "
-        "= 45 "
-        "}}\nmixture = \"{}\"\n",
-        toml_text(offer.select), offer.amount,
-        job.contents.drawing ? "mm²" : (offer.paint ? "mm³ of paint" : "mm³"), key);
-    const Shares shares = offer.colour.empty() ? one_feeder(uncoloured++, profile.printer.feeders)
-                                               : mixture_near(offer.colour, profile.printer.feeders);
+  const auto add_mixture = [&](const std::string& key, const Shares& shares) {
     std::vector<std::string> words;
     for (const double share : shares) words.push_back(fmt::format("{:.2f}", share));
     mixtures += fmt::format("{} = [{}]\n", key, fmt::join(words, ", "));
+  };
+  for (const core::ZoneOffer& offer : job.contents.zones) {
+    zones += fmt::format(
+        "\n[[zone]]\nselect = {}  # {:.4g} {}\npattern = \"isotropic\"  # or parallel, anisotropic, {{ angle "
+        "= 45 "
+        "}}\n",
+        toml_text(offer.select), offer.amount,
+        job.contents.drawing ? "mm²" : (offer.paint ? "mm³ of paint" : "mm³"));
+    const int feeders = profile.printer.feeders;
+    if (offer.gradient && can_be_followed(*offer.gradient, usual_bead_width(profile.printer))) {
+      const core::DrawnGradient& drawn = *offer.gradient;
+      const std::string from = key_for(offer.select + " from", keys),
+                        to = key_for(offer.select + " to", keys);
+      zones += fmt::format(
+          "mixture = {{ from = \"{}\", to = \"{}\", along = [{:.4g}, {:.4g}, 0], over = [{:.5g}, {:.5g}] "
+          "}}{}\n",
+          from, to, drawn.along.x(), drawn.along.y(), drawn.begin, drawn.end,
+          drawn.has_more ? "  # without the colours between them" : "");
+      add_mixture(from, mixture_near(drawn.from, feeders));
+      add_mixture(to, mixture_near(drawn.to, feeders));
+      continue;
+    }
+    const std::string key = key_for(offer.select, keys);
+    zones += fmt::format("mixture = \"{}\"\n", key);
+    add_mixture(
+        key, offer.colour.empty() ? one_feeder(uncoloured++, feeders) : mixture_near(offer.colour, feeders));
   }
   job.text = head(files, profile, folder, job.contents) + zones + mixtures;
   return job;

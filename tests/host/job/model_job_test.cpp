@@ -62,6 +62,46 @@ TEST_CASE("A job that is written for a model loads, with one zone for each colou
   CHECK(coloured.print.materials[1].mixture.share(0) == 1);
 }
 
+TEST_CASE("A job for a drawing with a gradient mixes from its first to its last colour where they lie") {
+  const TempFolder folder;
+  const Profile profile = load_profile(folder.write("bench.toml", test::sample_profile));
+  const auto zone_of = [&](const std::string& gradient) {
+    const auto model = folder.write(
+        "sky.svg", "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 40 20' width='40mm' height='20mm'>" +
+                       gradient + "<rect x='10' width='20' height='20' fill='url(#sky)'/></svg>");
+    const ModelJob written = model_job({model}, profile, folder.path());
+    INFO(written.text);
+    const Job job = load_job(folder.write("job.toml", written.text));
+    CHECK_FALSE(prepare(job).part->layer(0).islands.empty());
+    REQUIRE(job.print.materials.size() == 1);
+    return job.print.materials.front();
+  };
+  const std::string stops =
+      "<stop offset='0' stop-color='#0000ff'/><stop offset='1' stop-color='#ff0000'/></linearGradient>";
+  // The filaments that pictures show are blue, red and white.
+  const auto plain = zone_of("<linearGradient id='sky'>" + stops);
+  REQUIRE(plain.gradient);
+  CHECK(plain.mixture.share(0) > 0.9);
+  CHECK(plain.gradient->to.share(1) > 0.9);
+  CHECK(plain.gradient->along == std::array{1.0, 0.0, 0.0});
+  CHECK(plain.gradient->begin == Approx(10));
+  CHECK(plain.gradient->end == Approx(30));
+  // From 5 to 15 mm below the upper edge: y points upwards in the part's frame.
+  const auto down = zone_of(
+      "<linearGradient id='sky' gradientUnits='userSpaceOnUse' x1='0' x2='0' y1='0' y2='20'>"
+      "<stop offset='.25' stop-color='#ff0000'/><stop offset='.5' stop-color='#fff'/>"
+      "<stop offset='.75' stop-color='#0000ff'/></linearGradient>");
+  REQUIRE(down.gradient);
+  CHECK(down.gradient->along[1] == Approx(-1));
+  CHECK(down.gradient->begin == Approx(-15));
+  CHECK(down.gradient->end == Approx(-5));
+  CHECK(down.mixture.share(1) > 0.9);
+  // A hard edge cannot be a gradient: one mixture.
+  CHECK_FALSE(zone_of("<linearGradient id='sky'><stop offset='.5' stop-color='#f00'/><stop offset='.5' "
+                      "stop-color='#00f'/></linearGradient>")
+                  .gradient);
+}
+
 TEST_CASE("A model is loaded like a job") {
   const TempFolder folder;
   const auto profile = folder.write("bench.toml", test::sample_profile);
