@@ -7,8 +7,9 @@
 
 namespace unicursal::host {
 
-/// Runs "pause", "resume", "cancel", "stop", "speed 80", "flow 95", "nozzle 205" or "bed 55". Returns an
-/// error sentence, or an empty text.
+/// Runs "pause", "resume", "cancel", "stop", "answer 0", "speed 80", "flow 95", "nozzle 205" or "bed 55".
+/// Returns what has come of it, a sentence; empty if no word was typed, or if the session itself gives a
+/// notice of what it does.
 std::string obey(Session& session, const std::string& words);
 
 }  // namespace unicursal::host

@@ -1,18 +1,18 @@
 #include "host/cli/display.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "firmware_gcode/reply/reply.hpp"
+#include "host/cli/columns.hpp"
 #include "host/cli/for_terminal.hpp"
 #include "host/engine/session_json.hpp"
-#include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -21,13 +21,6 @@ using namespace std::chrono_literals;
 
 constexpr auto redraw_interval = 100ms;
 constexpr auto event_interval = 1000ms;  ///< between events of progress or heat
-constexpr std::size_t usual_width = 100;
-
-std::size_t terminal_width() {
-  winsize size{};
-  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : usual_width;
-}
 
 /// Returns whether a person should see this event: errors, and what the printer does on its own.
 bool is_news(const SessionEvent& event) {
@@ -39,42 +32,22 @@ bool is_news(const SessionEvent& event) {
   return false;
 }
 
-std::string heat(const char* what, const std::optional<double>& actual, const std::optional<double>& target) {
-  if (!actual) return {};
-  if (!target || *target <= 0) return fmt::format(", {} {:.0f} °C", what, *actual);
-  return fmt::format(", {} {:.0f}/{:.0f} °C", what, *actual, *target);
-}
+/// Goes from the typed line to the beginning of the progress line, and erases both.
+constexpr auto erase_both = "\r\x1b[1A\x1b[J";
+constexpr auto erase_one = "\r\x1b[K";
+constexpr auto prompt = "> ";
+constexpr std::size_t prompt_width = 2;
 
-/// Cuts the text to `width` characters, not bytes: a degree sign is two bytes.
-std::string cut(std::string text, std::size_t width) {
-  std::size_t letters = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U) continue;
-    if (++letters > width) return text.substr(0, i);
-  }
-  return text;
+bool shows_progress_line(DisplayForm form, const TerminalLook& terminal) {
+  return form == DisplayForm::words && terminal.rewrites;
 }
 
 }  // namespace
 
-std::string status_line(const SessionStatus& s, std::size_t width) {
-  std::string line = name(s.state);
-  const auto out = std::back_inserter(line);
-  if (s.layer > 0) fmt::format_to(out, " layer {} of {}, {:.0f} %", s.layer, s.layers, s.percent);
-  if (s.left && !has_ended(s.state)) fmt::format_to(out, ", {} left", duration_words(*s.left));
-  const gcode::Temperatures& t = s.temperatures;
-  line += heat("nozzle", t.nozzle, t.nozzle_target) + heat("bed", t.bed, t.bed_target);
-  if (!s.mixture.empty()) line += ", " + s.mixture;
-  if (s.lookahead_layers > 0) fmt::format_to(out, ", {} planned ahead", duration_words(s.lookahead));
-  if (s.queue) fmt::format_to(out, ", queue {:.0f} %", 100 * *s.queue);
-  if (s.speed_percent != 100) fmt::format_to(out, ", speed {:.0f} %", s.speed_percent);
-  if (s.flow_percent != 100) fmt::format_to(out, ", flow {:.0f} %", s.flow_percent);
-  return cut(line, width);
-}
-
-Display::Display(DisplayForm form)
+Display::Display(DisplayForm form, StatusLook look)
     : form_(form),
-      terminal_(isatty(STDERR_FILENO) == 1),
+      terminal_(look_of(STDERR_FILENO)),
+      look_(std::move(look)),
       messages_(STDERR_FILENO,
                 [](std::size_t count) {
                   return fmt::format("({} lines are missing here, since they were not read in time)\n",
@@ -84,6 +57,8 @@ Display::Display(DisplayForm form)
         return nlohmann::json{{"event", "gap"}, {"lost", count}}.dump() + "\n";
       }) {
   std::fflush(stdout);  // what was shown before comes first
+  look_.colours = terminal_.colours;
+  if (shows_progress_line(form_, terminal_)) keyboard_.emplace();
 }
 
 Display::~Display() {
@@ -98,7 +73,7 @@ void Display::show(const Session& session, const SessionEvent& event) {
   }
   if (is_news(event)) return say(event.text);
   const bool changed = event.kind == SessionEvent::Kind::state;
-  if (changed || !terminal_ || is_due(redraw_interval)) {
+  if (changed || !terminal_.rewrites || is_due(redraw_interval)) {
     const SessionStatus status = session.status();
     if (changed && !status.reason.empty() && !has_ended(status.state))
       say(fmt::format("{}: {}", name(status.state), status.reason));
@@ -115,20 +90,54 @@ bool Display::is_due(std::chrono::milliseconds interval) {
 
 /// Without a terminal, shows a line only when another tenth of the print is done.
 void Display::draw(const SessionStatus& status) {
-  if (terminal_) {
-    messages_.refresh("\r\x1b[K" + for_terminal(status_line(status, terminal_width() - 1)));
-    drawn_ = true;
-    return;
+  if (look_.dry) time_dry_run(status.percent);
+  if (terminal_.rewrites) {
+    last_status_ = status;
+    return draw_again();
   }
   const int tenth = static_cast<int>(status.percent / 10);
   if (status.layer == 0 || tenth <= last_tenth_) return;
   last_tenth_ = tenth;
-  messages_.write(for_terminal(status_line(status, SIZE_MAX)) + "\n");
+  messages_.write(status_line(status, look_, SIZE_MAX, std::chrono::system_clock::now()) + "\n");
+}
+
+/// A text that is written only if no newer one waits must suit what any other one like it has left.
+void Display::draw_again() {
+  const std::size_t width = terminal_width(STDERR_FILENO) - 1;
+  const std::string line = status_line(last_status_, look_, width, std::chrono::system_clock::now());
+  const bool two = keyboard_ && keyboard_->held();
+  if (two && !drawn_) messages_.write("\n");
+  drawn_ = true;
+  if (!two) return messages_.refresh(erase_one + line);
+  const std::size_t room = width - std::min(width, prompt_width);
+  messages_.refresh(erase_both + line + "\n" + prompt + ending(for_terminal(typing_), room));
+}
+
+/// By the pace so far: planning takes most of the time of a dry run, and is unlike the printing.
+void Display::time_dry_run(double percent) {
+  constexpr double enough_percent = 2, enough_seconds = 1;
+  if (percent <= 0) return;
+  if (!dry_run_began_) dry_run_began_ = Clock::now();
+  const double passed = std::chrono::duration<double>(Clock::now() - *dry_run_began_).count();
+  if (percent >= enough_percent && passed >= enough_seconds)
+    look_.dry_left = passed * (100 - percent) / percent;
 }
 
 void Display::say(const std::string& sentence) {
+  const bool shown = drawn_;
   clear();
   messages_.write(for_terminal(sentence) + "\n");
+  if (shown && keyboard_ && keyboard_->held()) draw_again();
+}
+
+void Display::typing(const std::string& text) {
+  if (!keyboard_ || !keyboard_->held()) return;
+  typing_ = text;
+  draw_again();
+}
+
+void Display::typed(const std::string& words) {
+  if (keyboard_ && keyboard_->held()) say(prompt + words);
 }
 
 void Display::notice(const std::string& sentence) {
@@ -143,7 +152,7 @@ void Display::answer(const std::string& sentence) {
 }
 
 void Display::clear() {
-  if (drawn_) messages_.write("\r\x1b[K");
+  if (drawn_) messages_.write(keyboard_ && keyboard_->held() ? erase_both : erase_one);
   drawn_ = false;
 }
 

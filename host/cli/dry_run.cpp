@@ -1,5 +1,7 @@
 #include "host/dry_run/dry_run.hpp"
 
+#include <chrono>
+
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/foreground.hpp"
@@ -52,16 +54,27 @@ Exit DryRun::run() {
   check_outputs(present({simulated_.options.fault_file}), present({job_.outputs.report, log_}));
   const DryRunOptions options{simulated_.options, simulated_.personality.has_value(), charge_, log_,
                               job_.outputs};
+  StatusLook look = look_for(prepared);
+  look.dry = true;
+  ForegroundResult shown;
+  const auto began = std::chrono::steady_clock::now();
   const DryRunResult result =
       dry_run(prepared, options, [&](int port, Source& source, const StreamSettings& settings) {
-        return stream_with_progress(port, source, display_, settings);
+        shown = stream_with_progress(port, source, display_, settings, look);
+        return shown.stream;
       });
+  const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   std::FILE* const messages = message_stream(display_);
   show(messages, "{}", summary(result.totals, result.effort));
   const Exit exit = show_ending(result.stream, display_);
   if (exit != Exit::success) return exit;
   show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
   for (const std::string& warning : result.warnings) show(stderr, "warning: {}\n", warning);
+  show(messages, "{}", used_filament(result.totals, prepared.job.profile.printer.filament_diameter));
+  show(messages, "done:      the print takes {} with heating{}; the dry run took {}\n",
+       rough_duration(shown.seconds),
+       shown.foretold ? " (" + rough_duration(*shown.foretold) + " were foretold)" : "",
+       rough_duration(passed));
   if (result.problem) show(stderr, "warning: {}\n", *result.problem);
   return result.comparison.lines_whole() ? Exit::success : Exit::failed;
 }

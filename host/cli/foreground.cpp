@@ -1,13 +1,23 @@
 #include "host/cli/foreground.hpp"
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/display.hpp"
+#include "host/cli/status_line.hpp"
 #include "host/cli/terminal_output.hpp"
+#include "host/cli/typed_line.hpp"
 #include "host/engine/reconnecting.hpp"
 #include "host/engine/session_json.hpp"
+#include "host/report/curve_picture.hpp"
 
 namespace unicursal::host {
 
@@ -20,24 +30,66 @@ std::string dump(const nlohmann::json& event) {
 /// Streams as long as it takes, with one display.
 class Shown {
  public:
-  explicit Shown(const DisplayOptions& options)
-      : display_(options.json ? DisplayForm::json : DisplayForm::words) {}
+  Shown(const DisplayOptions& options, StatusLook look)
+      : display_(options.json ? DisplayForm::json : DisplayForm::words, std::move(look)) {}
 
-  StreamResult stream(int port, Source& source, const StreamSettings& settings) {
-    const auto observer = [this](const Session& session, const SessionEvent& event) {
+  ForegroundResult stream(int port, Source& source, const StreamSettings& settings) {
+    ForegroundResult result;
+    const auto observer = [this, &result](const Session& session, const SessionEvent& event) {
       display_.show(session, event);
+      if (result.foretold && event.kind != SessionEvent::Kind::state) return;
+      const SessionStatus status = session.status();
+      result.seconds = status.elapsed;
+      if (!result.foretold && status.left) result.foretold = status.elapsed + *status.left;
     };
-    const auto console = [this](Session& session, const std::string& words) {
-      if (const std::string answer = obey(session, words); !answer.empty()) display_.answer(answer);
+    const auto console = [this](Session& session, std::string_view bytes) {
+      for (const std::string& words : line_.take(bytes)) {
+        display_.typing({});
+        display_.typed(words);
+        if (const std::string answer = obey(session, words); !answer.empty()) display_.answer(answer);
+      }
+      display_.typing(line_.text());
     };
-    return host::stream(port, source, observer, settings, console);
+    result.stream = host::stream(port, source, observer, settings, console);
+    return result;
   }
 
   void notice(const std::string& sentence) { display_.notice(sentence); }
 
  private:
   Display display_;
+  TypedLine line_;
 };
+
+/// A mixture without a name of its own is called by its shares (gcode::shares_text()).
+std::optional<gcode::Mixture> mixture_of_shares(const std::string& text) {
+  std::array<double, gcode::max_feeders> shares{};
+  std::istringstream stream(text);
+  const char* separator = "";
+  for (double& share : shares) {
+    std::string between;
+    if (*separator != 0 && !(stream >> between && between == separator)) return std::nullopt;
+    if (!(stream >> share)) return std::nullopt;
+    separator = ":";
+  }
+  if (stream >> std::ws; !stream.eof()) return std::nullopt;
+  try {
+    return gcode::Mixture(shares);
+  } catch (const core::DataError&) {
+    return std::nullopt;
+  }
+}
+
+/// Metres of filament that each feeder was commanded.
+std::array<double, gcode::max_feeders> filament_used(const RunTotals& totals, double diameter) {
+  std::array<double, gcode::max_feeders> metres{};
+  const double area = std::numbers::pi * diameter * diameter / 4;
+  for (const gcode::MixtureVolume& one : totals.fed) {
+    for (std::size_t f = 0; f < metres.size(); ++f)
+      metres[f] += one.volume * one.mixture.share(f) / area / 1000;
+  }
+  return metres;
+}
 
 /// Returns whether the print can go on; otherwise the reason of its end says why.
 bool is_back(Print& print, StreamResult& result) {
@@ -52,22 +104,57 @@ bool is_back(Print& print, StreamResult& result) {
 
 }  // namespace
 
-StreamResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
-                                  const StreamSettings& settings) {
-  return Shown(options).stream(port, source, settings);
+StatusLook look_for(const PreparedJob& prepared) {
+  StatusLook look;
+  look.colour_of =
+      [materials = prepared.job.print.materials](const std::string& name) -> std::optional<picture::Colour> {
+    const auto named = std::find_if(materials.begin(), materials.end(),
+                                    [&](const gcode::Material& material) { return material.name == name; });
+    if (named != materials.end()) return colour_of(named->mixture);
+    const auto mixture = mixture_of_shares(name);
+    return mixture ? std::optional(colour_of(*mixture)) : std::nullopt;
+  };
+  return look;
 }
 
-StreamResult stream_with_progress(Print& print, const DisplayOptions& options) {
-  Shown shown(options);
-  StreamResult result = shown.stream(print.take_port(), print.source(), print.settings());
-  while (may_reconnect(result)) {
-    shown.notice(fmt::format("{}; the print goes on when it is back, for up to {} minutes", result.reason,
-                             reconnecting_patience.count()));
-    if (!is_back(print, result)) break;
+ForegroundResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
+                                      const StreamSettings& settings, StatusLook look) {
+  return Shown(options, std::move(look)).stream(port, source, settings);
+}
+
+ForegroundResult stream_with_progress(Print& print, const DisplayOptions& options) {
+  const auto began = std::chrono::steady_clock::now();
+  Shown shown(options, look_for(print.prepared()));
+  ForegroundResult result = shown.stream(print.take_port(), print.source(), print.settings());
+  while (may_reconnect(result.stream)) {
+    shown.notice(fmt::format("{}; the print goes on when it is back, for up to {} minutes",
+                             result.stream.reason, reconnecting_patience.count()));
+    if (!is_back(print, result.stream)) break;
     shown.notice("the printer is back");
-    result = as_failure(shown.stream(print.take_port(), print.source(), print.settings()));
+    result.stream = as_failure(shown.stream(print.take_port(), print.source(), print.settings()).stream);
   }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return result;
+}
+
+void show_done(const ForegroundResult& result, const DisplayOptions& display) {
+  const auto now = std::chrono::system_clock::now();
+  std::string line =
+      fmt::format("done at {}, after {}", time_of_day(now, now), rough_duration(result.seconds));
+  if (result.foretold) line += fmt::format("; {} had been foretold", rough_duration(*result.foretold));
+  show(message_stream(display), "{}\n", line);
+}
+
+std::string used_filament(const RunTotals& totals, double diameter) {
+  std::string line = "filament:  ";
+  const std::array<double, gcode::max_feeders> metres = filament_used(totals, diameter);
+  const char* separator = "";
+  for (std::size_t f = 0; f < metres.size(); ++f) {
+    if (metres[f] <= 0) continue;
+    line += fmt::format("{}{:.2f} m from feeder {}", separator, metres[f], f + 1);
+    separator = ", ";
+  }
+  return *separator == 0 ? "" : line + "\n";
 }
 
 void show_how_to_resume(Spool& spool, const StreamResult& result) {

@@ -2,20 +2,39 @@
 #pragma once
 
 #include <cstdio>
+#include <optional>
+#include <string>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/exit.hpp"
+#include "host/cli/status_line.hpp"
 #include "host/engine/print.hpp"
 #include "host/engine/stream.hpp"
+#include "host/report/totals.hpp"
 #include "host/spool/spool.hpp"
 
 namespace unicursal::host {
 
+/// How a print ended, and how long it took.
+struct ForegroundResult {
+  StreamResult stream;
+  double seconds = 0;              ///< with heating, by the clock of the print
+  std::optional<double> foretold;  ///< s, the same by the first forecast; absent if there was none
+};
+
 /// Streams to the port, whose descriptor it takes over, with a progress line or with events. Complaints of
 /// the printer are shown above the line.
-StreamResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
-                                  const StreamSettings& settings = {});
-StreamResult stream_with_progress(Print& print, const DisplayOptions& options);
+ForegroundResult stream_with_progress(int port, Source& source, const DisplayOptions& options,
+                                      const StreamSettings& settings = {}, StatusLook look = {});
+ForegroundResult stream_with_progress(Print& print, const DisplayOptions& options);
+
+/// The colours of a job's mixtures, for its progress line.
+StatusLook look_for(const PreparedJob& prepared);
+
+/// Shows when and after how long a print was completed, and what had been foretold.
+void show_done(const ForegroundResult& result, const DisplayOptions& display);
+/// A line about the filament that each feeder was commanded; `diameter`, mm.
+std::string used_filament(const RunTotals& totals, double diameter);
 
 /// Shows how to resume a print that has not been completed, and problems of its journal.
 void show_how_to_resume(Spool& spool, const StreamResult& result);

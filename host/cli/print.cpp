@@ -42,7 +42,8 @@ Exit PrintCommand::run() {
   Print print(prepare_and_warn(job_, present({options_.log}), UnnamedPrinter::refuse), options_);
   Books books(print.maker(), "print", job_.outputs);
   print.connect();
-  const StreamResult result = stream_with_progress(print, display_);
+  const ForegroundResult shown = stream_with_progress(print, display_);
+  const StreamResult& result = shown.stream;
   // The report does not wait for a terminal that is halted.
   try {
     conclude(books, result, {{"planning", planning_json(print.lookahead())}});
@@ -52,8 +53,12 @@ Exit PrintCommand::run() {
   }
   show_how_to_resume(print.spool(), result);
   show_late_warnings(print.maker());
-  if (result.ending == Ending::completed)
-    show(message_stream(display_), "{}", summary(books.totals(), print.lookahead().effort()));
+  if (result.ending == Ending::completed) {
+    const double diameter = print.prepared().job.profile.printer.filament_diameter;
+    show(message_stream(display_), "{}{}", summary(books.totals(), print.lookahead().effort()),
+         used_filament(books.totals(), diameter));
+    show_done(shown, display_);
+  }
   return show_ending(result, display_);
 }
 

@@ -90,14 +90,16 @@ bool agreed(const ResumeOptions& options, const Restart& restart, const std::str
   return confirmed(sure ? "give --yes to confirm it" : "resume at a terminal");
 }
 
-StreamResult stream_from(Print& print, std::optional<Leg> leg, const ResumeOptions& options) {
+ForegroundResult stream_from(Print& print, std::optional<Leg> leg, const ResumeOptions& options) {
   print.connect(std::move(leg));
   return stream_with_progress(print, options.display);
 }
 
-Exit end(Print& print, const StreamResult& result, const ResumeOptions& options) {
+Exit end(Print& print, const ForegroundResult& shown, const ResumeOptions& options) {
+  const StreamResult& result = shown.stream;
   show_how_to_resume(print.spool(), result);
   throw_if_failed(result);
+  if (result.ending == Ending::completed) show_done(shown, options.display);
   return show_ending(result, options.display);
 }
 
@@ -113,8 +115,9 @@ Exit restart(Print& print, const Lost& lost, const ResumeOptions& options) {
 
 Exit resume_print(Print& print, const ResumeOptions& options) {
   if (const auto lost = lost_before(print.spool().before())) return restart(print, *lost, options);
-  const StreamResult result = stream_from(print, std::nullopt, options);
-  return result.lost ? restart(print, *result.lost, options) : end(print, result, options);
+  const ForegroundResult shown = stream_from(print, std::nullopt, options);
+  const auto& lost = shown.stream.lost;
+  return lost ? restart(print, *lost, options) : end(print, shown, options);
 }
 
 Exit resume_kept(const ResumeOptions& options) {
@@ -208,7 +211,7 @@ CLI::App& Resume::declare(CLI::App& program) {
   declare_port(app, options_.on.port, "the port on which the print began");
   declare_pause_heat(app, options_.on.pause_heat);
   declare_spool(app, options_.on.spool);
-  declare_state(app, daemon_.state);
+  daemon_.declare_place(app);
   declare_events(app, options_.display);
   declare_log(app, options_.on.log);
   add_steering_note(app);
@@ -218,7 +221,7 @@ CLI::App& Resume::declare(CLI::App& program) {
 Exit Resume::run() {
   if (options_.list) return list(root_of(options_));
   daemon_.json = options_.display.json;
-  if (may_concern_daemon() && daemon_.has_print()) return resume_of_daemon();
+  if (may_concern_daemon() && (daemon_.remote() || daemon_.has_print())) return resume_of_daemon();
   return resume_kept(options_);
 }
 

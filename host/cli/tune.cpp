@@ -102,7 +102,7 @@ void print_on(const std::string& port, const Profile& profile, const FinishedPri
   settings.profile = profile.file;
   settings.link = link_options(profile, {});
   const int open = open_port(port, profile.baud, settings.link);
-  expect_whole(stream_with_progress(open, source, {}, settings));
+  expect_whole(stream_with_progress(open, source, {}, settings).stream);
 }
 
 std::vector<std::string> simulator_arguments(const TuneOptions& command, const Profile& profile,
@@ -142,7 +142,8 @@ std::unique_ptr<StripOnRaster> print_simulated(const TuneOptions& command, const
   });
   FinishedSource source(print, profile.printer);
   expect_whole(stream_with_progress(open_port(simulator.port(), profile.baud), source, {},
-                                    in_lockstep(simulator, profile)));
+                                    in_lockstep(simulator, profile))
+                   .stream);
   simulator.finish();
   watching.get();
   if (pictures) show(stdout, "picture:   {}\n", (*pictures / "deposit-0000.png").string());

@@ -46,6 +46,7 @@ void Session::State::hear(const std::string& line) {
   const Remark remark = printer.hear(line);
   if (remark.kind == Remark::Kind::temperatures) {
     watch_heat();
+    if (announcer.state() == SessionState::heating) heat_forecast.note(clock->now(), printer.temperatures);
     holding.look_for_person();
     wake.notify();
     return announcer.event(SessionEvent::Kind::heat);

@@ -6,6 +6,7 @@
 //   Progress     layers, seconds and per cent
 //   PrinterView  what is known about the printer
 //   HeatWatch    whether nozzle and bed keep their heat
+//   HeatForecast how long they will still heat
 //   PlaceKeeper  hands lines to the link, and keeps the journal
 //   Holding      pauses, waits and changes
 //   Announcer    state, warnings and events
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "host/engine/announcer.hpp"
+#include "host/engine/heat_forecast.hpp"
 #include "host/engine/heat_watch.hpp"
 #include "host/engine/holding.hpp"
 #include "host/engine/intent.hpp"
@@ -85,6 +87,7 @@ struct Session::State {
   // What is reported (session_status.cpp)
   SessionStatus status() const;
   Ahead ahead() const;
+  std::optional<double> left() const;
 
   asio::thread_pool disk{1};
   const asio::any_io_executor executor;
@@ -104,6 +107,7 @@ struct Session::State {
   PrinterView printer;
   HeatWatch heat_watch;
   WarmUpWatch warm_up_watch;
+  HeatForecast heat_forecast;
   PlaceKeeper places;
   Holding holding;
 

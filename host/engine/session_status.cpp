@@ -53,6 +53,19 @@ Ahead Session::State::ahead() const {
           [this](std::size_t begin, std::size_t end) { return source.foretold(begin, end); }};
 }
 
+/// Before the first layer it is known only while the printer heats, when all layers are foretold.
+std::optional<double> Session::State::left() const {
+  const SessionState state = announcer.state();
+  if (has_ended(state)) return progress.has_begun() ? std::optional(0.0) : std::nullopt;
+  // The targets are unknown until the lines that heat have been sent.
+  const bool heats = state == SessionState::heating && printer.expected.nozzle > 0;
+  const double heating = heats ? heat_forecast.left(printer.expected.nozzle, printer.expected.bed) : 0;
+  if (progress.has_begun()) return heating + progress.seconds_left(ahead()) * 100 / printer.speed_percent;
+  if (!heats) return std::nullopt;
+  const auto printing = source.foretold(0, source.layers());
+  return printing ? std::optional(heating + *printing) : std::nullopt;
+}
+
 SessionStatus Session::State::status() const {
   SessionStatus status;
   status.state = announcer.state();
@@ -62,10 +75,9 @@ SessionStatus Session::State::status() const {
   status.layer = progress.layer(status.layers);
   status.layer_fraction = progress.fraction();
   if (progress.has_begun()) {
-    const Ahead rest = ahead();
-    status.left = has_ended(status.state) ? 0 : progress.seconds_left(rest);
-    status.percent = progress.percent(rest, status.state == SessionState::done);
+    status.percent = progress.percent(ahead(), status.state == SessionState::done);
   }
+  status.left = left();
   status.elapsed = seconds(clock->now() - began);
   status.temperatures = printer.temperatures;
   status.mixture = printer.mixture;

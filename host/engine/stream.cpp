@@ -3,18 +3,17 @@
 #include <asio/co_spawn.hpp>
 #include <asio/io_context.hpp>
 #include <asio/posix/stream_descriptor.hpp>
-#include <asio/read_until.hpp>
 #include <asio/signal_set.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
+
 #include "host/loop/print_signals.hpp"
 
 namespace unicursal::host {
 namespace {
-
-constexpr std::size_t longest_words = 1000;  ///< bytes of a typed line
 
 /// Opens the terminal for itself, since O_NONBLOCK on the standard input would affect other programs that
 /// share it. A program in the background gets an error instead of being stopped, since PrintSignals ignores
@@ -70,12 +69,9 @@ class Foreground {
   }
 
   void await_words() {
-    const auto typed = asio::dynamic_buffer(typed_, longest_words);
-    asio::async_read_until(terminal_, typed, '\n', [this](const asio::error_code& error, std::size_t count) {
+    terminal_.async_read_some(asio::buffer(typed_), [this](const asio::error_code& error, std::size_t count) {
       if (error) return;
-      const std::string words = typed_.substr(0, count);
-      typed_.erase(0, count);
-      console_(session_, words);
+      console_(session_, {typed_.data(), count});
       await_words();
     });
   }
@@ -86,7 +82,7 @@ class Foreground {
   const PrintSignals signal_rules_;
   const SessionConsole& console_;
   asio::posix::stream_descriptor terminal_;
-  std::string typed_;
+  std::array<char, 256> typed_{};
   Session session_;
   bool stopped_ = false;
 };
