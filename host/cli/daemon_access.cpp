@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 #include "core/error.hpp"
@@ -15,6 +16,11 @@ namespace unicursal::host {
 namespace {
 
 using nlohmann::json;
+
+std::optional<std::string> variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr || *value == 0 ? std::nullopt : std::optional<std::string>(value);
+}
 
 std::string heater_text(const json& print, const char* which) {
   const json heater = print.value(which, json::object());
@@ -62,12 +68,37 @@ void show_as_text(const json& status) {
 
 }  // namespace
 
+void DaemonAccess::declare_place(CLI::App& app) {
+  constexpr auto group = "Which daemon";
+  add_value(app, "--daemon", daemon, "URL",
+            "Address of a daemon on another computer, such as http://printer.local:8377. Default: "
+            "$UNICURSAL_DAEMON, or the daemon of this user.")
+      .group(group);
+  add_value(
+      app, "--token", token, "TEXT",
+      "Token of that daemon, which `unicursal token` shows there. Default: $UNICURSAL_TOKEN, which other "
+      "users of this computer cannot see.")
+      .group(group);
+  add_value(app, "--state", state, "DIR",
+            "State folder of a daemon on this computer. Default: unicursal/daemon in $XDG_STATE_HOME or "
+            "~/.local/state.")
+      .group(group);
+}
+
+std::optional<std::string> DaemonAccess::remote() const {
+  if (daemon) return daemon;
+  return state ? std::nullopt : variable("UNICURSAL_DAEMON");
+}
+
 void DaemonAccess::declare(CLI::App& app) {
-  declare_state(app, state);
+  declare_place(app);
   app.add_flag("--json", json, "Show the daemon's answer as JSON.")->group("Output");
 }
 
 Client DaemonAccess::connect() const {
+  if (const auto address = remote()) return Client::at(*address, token ? token : variable("UNICURSAL_TOKEN"));
+  if (token)
+    throw DaemonError("", "--token", "is for a daemon on another computer", "name that with --daemon");
   const std::filesystem::path folder = state ? *state : default_state_folder();
   if (auto client = Client::find(folder)) return std::move(*client);
   throw DaemonError(folder.string(), "", "no daemon runs with this state folder",
@@ -96,6 +127,10 @@ void steer(const DaemonAccess& access, const std::string& action) {
 
 nlohmann::json accepted(const Answer& answer) {
   if (answer.status < 400) return answer.body;
+  if (answer.status == 401)
+    throw DaemonError(
+        "", "", "the daemon does not know this token",
+        "give the text that `unicursal token` shows on its computer as --token or $UNICURSAL_TOKEN");
   throw DaemonError("", "", answer.body.value("error", "the daemon refused"), "see `unicursal status`");
 }
 

@@ -14,9 +14,15 @@ namespace unicursal::host {
 /// The options of these commands.
 struct DaemonAccess {
   std::optional<std::filesystem::path> state;  ///< the daemon's state folder; absent: the user's
+  std::optional<std::string> daemon;           ///< address of another computer's; absent: this user's
+  std::optional<std::string> token;            ///< of that daemon
   bool json = false;                           ///< show the daemon's answers as they come
 
   void declare(CLI::App& app);
+  /// Only the options that name the daemon.
+  void declare_place(CLI::App& app);
+  /// The address of another computer's daemon, also from the environment; absent: this user's.
+  std::optional<std::string> remote() const;
   /// Throws DaemonError if no daemon runs with this state folder.
   Client connect() const;
   /// Returns whether a daemon runs and has a print, or one that was interrupted. `resume` concerns that then.

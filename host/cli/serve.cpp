@@ -1,7 +1,11 @@
 #include "host/daemon/serve.hpp"
 
+#include <unistd.h>
+
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
+#include "host/cli/qr_code.hpp"
+#include "host/cli/terminal_look.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/daemon/state_folder.hpp"
 
@@ -12,6 +16,7 @@ class Serve final : public Command {
  public:
   CLI::App& declare(CLI::App& program) override {
     DaemonOptions& daemon = options_.daemon;
+    constexpr auto network = "Network";
     CLI::App& app = add_command(program, "serve", "Daemon",
                                 "Own the printer, keep a queue of jobs, and be controlled over HTTP.",
                                 "unicursal serve --port /dev/ttyUSB0 --profile diamond.toml --jobs ~/jobs");
@@ -19,11 +24,19 @@ class Serve final : public Command {
     add_value(app, "--profile", daemon.profile, "FILE",
               "Use this printer profile for all jobs instead of the profiles that they name.");
     add_values(app, "--jobs", daemon.jobs, "DIR", "Folder of jobs that clients may queue. May be repeated.");
-    add_value(app, "--listen", options_.listen, "ADDRESS", "Address and port. Default: 127.0.0.1:8377.");
+    add_value(app, "--listen", listen_, "ADDRESS",
+              "Address and port. Default: 127.0.0.1:8377, or 0.0.0.0:8377 with --lan.")
+        .group(network);
+    app.add_flag("--lan", options_.lan,
+                 "Let other computers of this network in, with the token, by this computer's addresses, its "
+                 "name, and its name with .local. A terminal shows the address as a QR code.")
+        ->group(network);
     add_values(app, "--name", options_.names, "HOST",
-               "Additional host name to accept in requests. May be repeated.");
+               "Additional host name to accept in requests. May be repeated.")
+        .group(network);
     app.add_flag("--no-token", options_.no_token,
-                 "Let every user of this computer control the printer. Only with a loopback address.");
+                 "Let every user of this computer control the printer. Only with a loopback address.")
+        ->group(network);
     add_value(app, "--check-memory", memory_, "MB",
               "Memory that the check of an uploaded job may take. Default: 1024.")
         .check(integer_between(64, most_megabytes));
@@ -45,20 +58,28 @@ class Serve final : public Command {
     if (memory_) options_.daemon.upload_limits.memory = *memory_ * 1024 * 1024;
     if (time_) options_.daemon.upload_limits.time = std::chrono::seconds(*time_);
     options_.daemon.state = state_ ? *state_ : default_state_folder();
+    if (listen_ || options_.lan) options_.listen = listen_.value_or("0.0.0.0:8377");
     serve(options_, [&](const std::string& address) {
       show(stdout, "listening on http://{}{}\n", address,
            options_.no_token ? ", without a token"
                              : "; the token is in " + options_.daemon.state.string() + "/token");
+      if (options_.lan) show_for_others(address);
       std::fflush(stdout);
     });
     return Exit::success;
   }
 
  private:
+  void show_for_others(const std::string& address) const {
+    if (look_of(STDOUT_FILENO).rewrites) show(stdout, "{}", qr_code("http://" + address + "/"));
+    show(stdout, "on another computer: unicursal status --daemon http://{} --token TOKEN\n", address);
+  }
+
   static constexpr std::uint64_t most_megabytes = 1 << 24;
   static constexpr std::uint64_t longest_check = 600;  ///< s; the commands wait a little longer
 
   ServeOptions options_;
+  std::optional<std::string> listen_;
   std::optional<std::filesystem::path> state_;
   std::optional<std::uint64_t> memory_;
   std::optional<std::uint32_t> time_;

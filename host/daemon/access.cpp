@@ -47,10 +47,19 @@ bool has_port(const std::string& host) {
   return colon != std::string::npos && host.find(']', colon) == std::string::npos;
 }
 
+/// Whether one of the hosts that the rules allow is wanted. The present ones are asked for last.
+template <typename Wanted>
+bool any_host(const AccessRules& rules, Wanted wanted) {
+  if (std::any_of(rules.hosts.begin(), rules.hosts.end(), wanted)) return true;
+  if (!rules.present_hosts) return false;
+  const std::vector<std::string> present = rules.present_hosts();
+  return std::any_of(present.begin(), present.end(), wanted);
+}
+
 void check_host(const RequestHead& head, const AccessRules& rules) {
   const auto host = head.header("host");
   if (!host) throw HttpError(400, "the request does not say which host it is for");
-  if (std::find(rules.hosts.begin(), rules.hosts.end(), core::lower(*host)) == rules.hosts.end())
+  if (!any_host(rules, [given = core::lower(*host)](const std::string& one) { return one == given; }))
     throw HttpError(421, "this computer does not go by that name; allow it with --name");
 }
 
@@ -61,7 +70,7 @@ void check_origin(const RequestHead& head, const AccessRules& rules) {
   const auto own = [&](const std::string& host) {
     return core::lower(*origin) == "http://" + host || core::lower(*origin) == "https://" + host;
   };
-  if (!own_site || (origin && std::none_of(rules.hosts.begin(), rules.hosts.end(), own)))
+  if (!own_site || (origin && !any_host(rules, own)))
     throw HttpError(403, "requests of other sites' pages are not obeyed");
 }
 

@@ -4,6 +4,7 @@
 // the answers.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct AccessRules {
   std::optional<std::string> token;          ///< absent: everyone who can connect is let in
   std::optional<std::string> metrics_token;  ///< opens /metrics and nothing else
   std::vector<std::string> hosts;            ///< allowed values of Host, in lower case: "127.0.0.1:8377"
+  /// Further ones that may change, such as this computer's present addresses; empty: none.
+  std::function<std::vector<std::string>()> present_hosts = {};
 };
 
 /// Throws HttpError 400, 401, 403 or 421. Who has come through the Unix socket needs no proof.

@@ -11,6 +11,7 @@
 
 #include "host/daemon/api.hpp"
 #include "host/daemon/log.hpp"
+#include "host/daemon/own_addresses.hpp"
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/http/http_server.hpp"
@@ -33,6 +34,11 @@ asio::ip::tcp::endpoint checked_endpoint(const ServeOptions& options) {
   if (options.no_token && !at.address().is_loopback()) {
     throw core::DataError("", "--no-token", "is refused for " + options.listen + ", which others can reach",
                           "leave out --no-token, or listen on 127.0.0.1");
+  }
+  if (options.lan && at.address().is_loopback()) {
+    throw core::DataError("", "--lan",
+                          "is refused with --listen " + options.listen + ", which others cannot reach",
+                          "leave out --listen, or write for example 0.0.0.0:8377");
   }
   return at;
 }
@@ -60,18 +66,25 @@ class Service {
       rules.token = state_.secret("token");
       rules.metrics_token = state_.secret("metrics-token");
     }
-    rules.hosts = hosts_for(at.address().to_string(), at.port(), options.names);
+    std::vector<std::string> names = options.names;
+    if (options.lan) {
+      const std::vector<std::string> own = own_names();
+      names.insert(names.end(), own.begin(), own.end());
+      rules.present_hosts = [port = at.port()] { return own_hosts(port); };
+    }
+    rules.hosts = hosts_for(at.address().to_string(), at.port(), names);
     api_.on_renewal([this] { return renew_tokens(); });
     api_.set_rules(std::move(rules));
     address_ = words(at);
     state_.write_address(address_);
+    shown_address_ = options.lan && at.address().is_unspecified() ? reachable_address(at.port()) : address_;
   }
 
   void run(const std::function<void(const std::string&)>& ready) {
     await_signal();
     show_life();
     notify_service("READY=1\nSTATUS=idle");
-    ready(address_);
+    ready(shown_address_);
     loop_.run();
     // The clients of event streams still get their close frames.
     loop_.restart();
@@ -136,7 +149,7 @@ class Service {
   asio::signal_set signals_;
   const PrintSignals signal_rules_;
   asio::steady_timer watchdog_;
-  std::string address_;
+  std::string address_, shown_address_;
   bool stopping_ = false;
 };
 

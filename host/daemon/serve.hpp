@@ -14,10 +14,12 @@ struct ServeOptions {
   std::string listen = "127.0.0.1:8377";  ///< address and port; port 0: any free one
   std::vector<std::string> names;         ///< further host names that clients may use
   bool no_token = false;                  ///< everyone on this computer may steer the printer
+  bool lan = false;                       ///< clients may use this computer's present addresses and its name
 };
 
 /// Runs until SIGTERM, SIGINT, SIGQUIT or SIGHUP. The first signal parks and cools the current print, a
-/// second one stops the printer at once. `ready` is called with the address once clients may connect. Throws
+/// second one stops the printer at once. `ready` is called with the address once clients may connect;
+/// with `lan`, that is one by which others reach this computer. Throws
 /// core::DataError before that.
 void serve(const ServeOptions& options, const std::function<void(const std::string& address)>& ready);
 
