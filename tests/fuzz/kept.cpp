@@ -23,6 +23,9 @@ using Lines = std::vector<std::string>;
 /// Lines that may count as acknowledged too early, or are in the printer's queue (host/engine/restart.cpp).
 constexpr std::size_t in_doubt = 36;
 
+/// At the end, as often as the nozzle needs to cool a little, which differs from print to print.
+constexpr auto waits_to_cool = "G4 S1";
+
 /// A simulated printer and the program, in a folder of their own.
 class Place {
  public:
@@ -54,7 +57,7 @@ class Place {
     Lines all;
     for (std::string line; std::getline(transcript, line);) {
       const bool question = line == "M115" || line == "M105" || line == "M114" || line.starts_with("M155") ||
-                            line.starts_with("M110") || line == "M163 S99 P1";
+                            line.starts_with("M110") || line == "M163 S99 P1" || line == waits_to_cool;
       if (!question) all.push_back(line);
     }
     return all;
