@@ -38,8 +38,10 @@ class Inset {
   Inset(const ClosedMesh& mesh, double depth)
       : mesh_(mesh), depth_(depth), directions_(mesh.vertices.size(), Vec3(0, 0, 0)) {
     for (const auto& f : mesh.facets) {
-      triangles_.emplace_back(point(mesh.vertices[f[0]]), point(mesh.vertices[f[1]]),
-                              point(mesh.vertices[f[2]]));
+      const Kernel::Triangle_3 triangle(point(mesh.vertices[f[0]]), point(mesh.vertices[f[1]]),
+                                        point(mesh.vertices[f[2]]));
+      // One without area stops no ray, and CGAL must not be asked whether it does.
+      if (!triangle.is_degenerate()) triangles_.push_back(triangle);
       for (std::size_t k = 0; k < 3; ++k) directions_[f[k]] += angle(f, k) * normal(f);
     }
     for (Vec3& direction : directions_) direction.normalize();

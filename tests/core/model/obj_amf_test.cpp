@@ -111,6 +111,19 @@ TEST_CASE("colours of an OBJ file's vertices are zones") {
   CHECK(found[1] == Approx(100).epsilon(1e-3));
 }
 
+TEST_CASE("painted facets that are so narrow that they have no area leave the others as they are") {
+  const TempFolder folder;
+  folder.write("model.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  // The bottom reaches to a corner that nearly coincides with another one.
+  const auto file =
+      folder.write("model.obj",
+                   "mtllib model.mtl\nusemtl red\nv 0 0 0\nv 1e-320 0 0\nv 20 0 0\nv 20 10 0\nv 0 10 0\n"
+                   "v 0 0 3\nv 20 0 3\nv 20 10 3\nv 0 10 3\nf 1 5 4 3 2\nf 6 7 8 9\nusemtl blue\n"
+                   "f 1 2 6\nf 2 3 7 6\nf 3 4 8 7\nf 4 5 9 8\nf 5 1 6 9\n");
+  const auto found = areas(file, {"red", "blue"});
+  CHECK(found[0] + found[1] == Approx(200).epsilon(1e-3));
+}
+
 TEST_CASE("damaged OBJ files are refused with their line, and absent materials are told") {
   const TempFolder folder;
   CHECK_THAT(refusal(folder.write("model.obj", "v 0 0 0\nv 1 0\n")),
