@@ -30,6 +30,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
+#include <set>
+#include <string>
 
 #include "host/loop/signal.hpp"
 #include "virtual_printer.hpp"
@@ -372,8 +374,25 @@ TEST_CASE("soak: a hundred thousand lines, faults on one in a thousand each", "[
   const Talk talk = printer.print(lines);
   INFO(who);
   CHECK(talk.statistics.resends > 100);
-  CHECK(printer.report()["lines"]["unseen_damage"] == 0);  // with this seed
-  check_all_executed(printer, talk, lines);
+  const std::size_t unseen = printer.report()["lines"]["unseen_damage"];
+  if (!who.starts_with("repetier")) {
+    CHECK(unseen == 0);  // with this seed
+    return check_all_executed(printer, talk, lines);
+  }
+  // Repetier runs a numbered line that has lost its checksum as it is.
+  CHECK(unseen < 30);
+  CHECK(talk.error.empty());
+  CHECK(talk.statistics.acknowledged == lines.size());
+  CHECK(printer.report()["executed_lines_in_order"] == true);
+  const std::vector<std::string> executed = printer.executed();
+  const std::set<std::string> was_run(executed.begin(), executed.end()), given(lines.begin(), lines.end());
+  const auto are_not_in = [](const auto& some, const std::set<std::string>& all) {
+    return std::size_t(std::count_if(some.begin(), some.end(), [&](const std::string& line) {
+      return line.starts_with("G1 X") && all.count(line) == 0;
+    }));
+  };
+  CHECK(are_not_in(lines, was_run) <= unseen);
+  CHECK(are_not_in(executed, given) <= unseen);
 }
 
 TEST_CASE("facts: line numbers beyond 16 bits", "[long]") {
