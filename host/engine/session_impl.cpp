@@ -226,6 +226,11 @@ asio::awaitable<void> Session::State::send_spooled() {
   bool& heating = printer.may_wait_for_heat;
   heating = places.begin() < hot;
   printer.must_not_move = heating && !leg.lead_in.empty();
+  const auto show_progress = [&] {
+    const std::uint64_t line = leg.line(places.next());
+    progress.replay(layers.before(line), layers.fraction(line));
+  };
+  show_progress();
   announcer.enter(heating ? SessionState::heating : SessionState::printing);
   while (!intent.ends()) {
     // The lines that lead back to the part are not interrupted.
@@ -234,8 +239,7 @@ asio::awaitable<void> Session::State::send_spooled() {
     std::vector<std::string> lines =
         reader.next(heating ? std::min<std::uint64_t>(batch, hot - places.next()) : batch);
     if (lines.empty()) break;
-    const std::uint64_t line = leg.line(places.next());
-    progress.replay(layers.before(line), layers.fraction(line));
+    show_progress();
     printer.mixture = reader.mixture();
     co_await send_batch(std::move(lines));
     if (heating && places.next() >= hot) co_await get_hot();

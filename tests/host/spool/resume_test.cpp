@@ -119,6 +119,39 @@ TEST_CASE("a complete print is reported as such, and is listed") {
   CHECK(test::run(list).out.find("completed") != std::string::npos);
 }
 
+TEST_CASE("the progress of a resumed print goes on from its layer, and never back") {
+  Bench bench(60);
+  const std::size_t layers = 6;
+  bench.folder().write("job.toml", test::replaced(test::sample_job, "height = 0.4", "height = 1.2"));
+  {
+    std::vector<std::string> words = bench.print();
+    words.push_back("--json");
+    Child host(words);
+    Bench::wait_for([&] { return host.out().find("\"layer\":3,") != std::string::npos; }, host);
+    kill(host.id(), SIGKILL);
+    host.wait();
+  }
+  std::vector<std::string> words = bench.resume();
+  words.push_back("--json");
+  const Outcome resumed = test::run(words);
+  INFO(resumed.err);
+  REQUIRE(resumed.code == 0);
+  const auto statuses = test::printing_statuses(resumed.out);
+  REQUIRE(statuses.size() >= 2);
+  CHECK(statuses.front()["layer"] >= 2);  // the third layer was being laid, or its lines were being sent
+  CHECK(statuses.front()["layer"] <= 3);
+  CHECK(statuses.back()["layer"] >= layers - 1);
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    const nlohmann::json& status = statuses[i];
+    CAPTURE(i, status.dump());
+    CHECK(status["layers"] == layers);
+    CHECK(status["percent"] <= 100);
+    if (i == 0) continue;
+    CHECK(status["layer"] >= statuses[i - 1]["layer"]);
+    CHECK(status["percent"] >= statuses[i - 1]["percent"].get<double>() - 1);  // later layers are estimates
+  }
+}
+
 TEST_CASE("after a reset the print continues at the last certain place, if the user agrees") {
   const Seen whole = undisturbed(0).seen;
   const std::string line = "700";
