@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -22,9 +23,6 @@ using Lines = std::vector<std::string>;
 
 /// Lines that may count as acknowledged too early, or are in the printer's queue (host/engine/restart.cpp).
 constexpr std::size_t in_doubt = 36;
-
-/// At the end, as often as the nozzle needs to cool a little, which differs from print to print.
-constexpr auto waits_to_cool = "G4 S1";
 
 /// A simulated printer and the program, in a folder of their own.
 class Place {
@@ -57,7 +55,7 @@ class Place {
     Lines all;
     for (std::string line; std::getline(transcript, line);) {
       const bool question = line == "M115" || line == "M105" || line == "M114" || line.starts_with("M155") ||
-                            line.starts_with("M110") || line == "M163 S99 P1" || line == waits_to_cool;
+                            line.starts_with("M110") || line == "M163 S99 P1";
       if (!question) all.push_back(line);
     }
     return all;
@@ -68,9 +66,19 @@ class Place {
   std::unique_ptr<Child> printer_;
 };
 
+/// The lines that lay beads. How often the nozzle stands aside while it waits for planning, and how long it
+/// cools at the end, differs from print to print.
+Lines beads(const Lines& lines) {
+  Lines found;
+  std::copy_if(lines.begin(), lines.end(), std::back_inserter(found), [](const std::string& line) {
+    return line.starts_with("G1 X") && line.find(" E") != std::string::npos;
+  });
+  return found;
+}
+
 struct Base {
-  Lines whole;                               ///< of an undisturbed print
-  Lines run;                                 ///< of the interrupted one
+  Lines whole;                               ///< the beads of an undisturbed print
+  Lines run;                                 ///< those of the interrupted one
   std::map<std::string, std::string> files;  ///< kept of it
 };
 
@@ -81,8 +89,8 @@ const Base& base() {
     Place sound({}), cut({"--fault", "reset@line=700"});
     if (sound.print().code != 0 || cut.print().code != 1)
       throw std::runtime_error("the print did not go as it should");
-    base.whole = sound.lines();
-    base.run = cut.lines();
+    base.whole = beads(sound.lines());
+    base.run = beads(cut.lines());
     const fs::path kept = fs::directory_iterator(cut.path("spool"))->path();
     for (const auto& entry : fs::recursive_directory_iterator(kept)) {
       if (entry.is_regular_file()) base.files[fs::relative(entry.path(), kept)] = read_text(entry.path());
@@ -143,7 +151,7 @@ std::size_t announced(const std::string& said) {
   return most;
 }
 
-/// The first line of the whole print with which the resumed one ends.
+/// The first bead of the whole print with which the resumed one ends.
 std::size_t begin_of_end(const Lines& resumed, const Lines& whole) {
   std::size_t same = 0;
   while (same < std::min(resumed.size(), whole.size()) &&
@@ -171,7 +179,7 @@ void kept_print(const fs::path& folder, core::Random& random) {
   if (outcome.code != 0) throw std::runtime_error("it failed: " + outcome.err);
   if (std::count(lines.begin(), lines.end(), "G28") > 0)
     throw std::runtime_error("z was homed onto the part");
-  const std::size_t again = begin_of_end(lines, print.whole), run = print.run.size();
+  const std::size_t again = begin_of_end(beads(lines), print.whole), run = print.run.size();
   if (again > run) throw std::runtime_error("lines are missing");
   if (run - again > announced(outcome.out) + in_doubt)
     throw std::runtime_error("more lines were repeated than announced");
