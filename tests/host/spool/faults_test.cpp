@@ -201,15 +201,16 @@ TEST_CASE("after a reset at any line the print is resumed") {
   reset(2, 1);
 }
 
-TEST_CASE("a cable that is pulled at any line costs nothing") {
+TEST_CASE("a cable that is pulled at any line costs nothing", "[optimised]") {
   unplug(2, 2);
 }
 
-TEST_CASE("a heater that fails at any line ends the print, which another printer can resume") {
+TEST_CASE("a heater that fails at any line ends the print, which another printer can resume", "[optimised]") {
   run_cold(2, 3);
 }
 
-TEST_CASE("a heater that is stuck on at any line ends the print, which another printer can resume") {
+TEST_CASE("a heater that is stuck on at any line ends the print, which another printer can resume",
+          "[optimised]") {
   run_hot(2, 5);
 }
 
