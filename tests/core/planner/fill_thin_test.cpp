@@ -92,7 +92,8 @@ TEST_CASE("bars of 0.5 to 6 bead widths are filled to their ends, whatever the n
 
 TEST_CASE(
     "frames, crosses, ladders and combs of thin walls are covered by one closed curve of beads that can be "
-    "laid") {
+    "laid",
+    "[optimised]") {
   const double wall = GENERATE(0.5, 0.8, 1.0, 1.3, 1.75, 2.25, 2.5, 2.75, 3.25) * w;
   CAPTURE(wall / w);
   for (const Polygon& outline : {frame(wall), cross_of_bars(wall), ladder(wall), comb_of_teeth(wall)}) {

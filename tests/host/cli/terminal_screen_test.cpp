@@ -105,7 +105,7 @@ TEST_CASE("a print says when and after how long it was done, what had been foret
   CHECK_THAT(terminal.screen().last_row("material: "), Contains("sea"));
 }
 
-TEST_CASE("swatches of mixtures need a terminal with colours and no NO_COLOR") {
+TEST_CASE("swatches of mixtures need a terminal with colours and no NO_COLOR", "[optimised]") {
   const Bench bench("height = 2.0");
   using Environment = std::map<std::string, std::string>;
   const auto [environment, coloured] =
@@ -126,7 +126,7 @@ TEST_CASE("a dumb terminal gets whole lines") {
   CHECK(terminal.screen().sequences() == 0);
 }
 
-TEST_CASE("a dry run shows its own progress, and the print's time at the end") {
+TEST_CASE("a dry run shows its own progress, and the print's time at the end", "[optimised]") {
   const Bench bench("height = 8.0");
   Terminal terminal({"dry-run", bench.path("job.toml")}, "/nonexistent", {80});
   terminal.await("dry run layer");
