@@ -37,7 +37,8 @@ struct Zoning {
 
 /// Later shapes cover earlier ones, and the part is the union of all shapes. The zone regions of every island
 /// add up to its outline. Borders of zones that nearly meet are made to meet; they lie within half of
-/// `weld_width` of where they were drawn.
+/// `weld_width` of where they were drawn. Outlines leave what was drawn by no more than 1e-5 mm, except where
+/// a gap is closed.
 Zoning zoned(const std::vector<Painted>& shapes);
 
 }  // namespace unicursal::core

@@ -79,10 +79,8 @@ void DaemonAccess::declare_place(CLI::App& app) {
       "Token of that daemon, which `unicursal token` shows there. Default: $UNICURSAL_TOKEN, which other "
       "users of this computer cannot see.")
       .group(group);
-  add_value(app, "--state", state, "DIR",
-            "State folder of a daemon on this computer. Default: unicursal/daemon in $XDG_STATE_HOME or "
-            "~/.local/state.")
-      .group(group);
+  declare_state(app, state);
+  app.get_option("--state")->group(group);
 }
 
 std::optional<std::string> DaemonAccess::remote() const {

@@ -49,10 +49,10 @@ Exit Plan::run() {
     ProgressLine progress("planning", prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {
       write(file, maker.layer(std::move(*layer)).chunk);
-      check_bare(maker.bare(), prepared.job);
       progress.update(done, 1);
     }
   }
+  check_bare(maker.bare(), prepared.job);
   write(file, maker.rest());
   write(file, maker.finish());
   file.publish();

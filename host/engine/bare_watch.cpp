@@ -18,7 +18,7 @@ void BareWatch::look(const PlannedLayer& planned) {
   area_ += found.area;
   walls_ += found.walls;
   whole_ += whole;
-  ++layers_;
+  if (found.share > mostly_bare) mostly_bare_area_ += found.area;
   if (found.share > bare_share_to_warn_of) ++warned_of_;
   if (found.share > worst_.share) worst_ = found;
 }

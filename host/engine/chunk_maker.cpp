@@ -12,7 +12,7 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 }  // namespace
 
 void check_bare(const BareWatch& bare, const Job& job) {
-  if (bare.worst_share() <= bare_share_to_refuse || job.allow_bare) return;
+  if (!bare.leaves_too_much() || job.allow_bare) return;
   throw core::DataError(job.file.string(), "part", bare.fault(),
                         "choose a smaller bead_width, scale the part, or accept it with part.allow_bare = "
                         "true or --allow-bare");
@@ -26,9 +26,9 @@ ChunkMaker::ChunkMaker(const PreparedJob& prepared)
 }
 
 ChunkMaker::Made ChunkMaker::layer(PlannedLayer planned) {
-  const bool first = bare_.layers() == 0;
   bare_.look(planned);
-  if (first) check_bare(bare_, prepared_.job);
+  // A print that has begun is not given up for a layer of its own.
+  if (planned.layer.index == prepared_.first) check_bare(bare_, prepared_.job);
   Made made;
   made.layer = placed(prepared_, planned);
   made.chunk = encoder_.layer(made.layer);

@@ -31,7 +31,8 @@ class ChunkListener {
   virtual std::vector<std::string> warnings() const = 0;
 };
 
-/// Throws core::DataError if a layer so far stays mostly without plastic and the job does not allow it.
+/// Throws core::DataError if too much of the layers so far stays without plastic and the job does not allow
+/// it.
 void check_bare(const BareWatch& bare, const Job& job);
 
 class ChunkMaker {

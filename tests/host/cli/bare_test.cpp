@@ -1,5 +1,6 @@
 // Places that stay without plastic: warned of, refused, or allowed.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -87,6 +88,30 @@ TEST_CASE("A dry run warns of bare layers and refuses mostly bare ones as a plan
   CHECK(refused.err.find("leaves 6") != std::string::npos);
   CHECK(refused.err.find("part.allow_bare") != std::string::npos);
   CHECK(thin.dry_run({"--allow-bare"}).code == 0);
+}
+
+TEST_CASE("The tip of a pointed part, which no bead fits, brings a warning and no refusal") {
+  const TempFolder folder;
+  folder.write("bench.toml", test::sample_profile);
+  std::string model = "solid cone\n";
+  const int sides = 24;
+  const double pi = 3.14159265358979;
+  const auto corner = [&](int i) {
+    const double turn = 2 * pi * i / sides;
+    return "vertex " + std::to_string(6 * std::cos(turn)) + " " + std::to_string(6 * std::sin(turn)) + " 0\n";
+  };
+  const auto facet = [&](const std::string& corners) {
+    model += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n";
+  };
+  for (int i = 0; i < sides; ++i) {
+    facet(corner(i) + corner((i + 1) % sides) + "vertex 0 0 6\n");
+    facet(corner((i + 1) % sides) + corner(i) + "vertex 0 0 0\n");
+  }
+  const std::string cone = folder.write("cone.stl", model + "endsolid cone\n").string();
+  const Outcome outcome =
+      run({"plan", cone, "--profile", (folder / "bench.toml"), "-o", (folder / "o.gcode")});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.find("leaves 100 % of its area without plastic") != std::string::npos);
 }
 
 TEST_CASE("A job can allow bare layers") {
