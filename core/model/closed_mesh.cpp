@@ -57,7 +57,7 @@ class Mender {
     throw ModelError(name_, place, problem, remedy);
   }
 
-  Vec3 middle(HalfEdge h) const { return (mesh_.vertices[mesh_.from(h)] + mesh_.vertices[mesh_.to(h)]) / 2; }
+  Vec3 middle(MeshEdge h) const { return (mesh_.vertices[mesh_.from(h)] + mesh_.vertices[mesh_.to(h)]) / 2; }
 
   void weld_and_stitch() {
     const double distance = weld_distance(mesh_);
@@ -143,7 +143,7 @@ class Mender {
   const std::string& name_;
   Warnings& warnings_;
   ClosedMesh mesh_;
-  std::vector<HalfEdge> borders_;
+  std::vector<MeshEdge> borders_;
 };
 
 }  // namespace

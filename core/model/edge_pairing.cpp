@@ -21,7 +21,7 @@ class Around {
     up_ = axis_.cross(right_);
   }
 
-  double angle(HalfEdge h) const {
+  double angle(MeshEdge h) const {
     const Vec3 to_third = mesh_.vertices[mesh_.facets[h / 3][(h % 3 + 2) % 3]] - origin_;
     return std::atan2(to_third.dot(up_), to_third.dot(right_));
   }
@@ -31,7 +31,7 @@ class Around {
   Vec3 origin_, axis_, right_, up_;
 };
 
-void join(ClosedMesh& mesh, HalfEdge a, HalfEdge b) {
+void join(ClosedMesh& mesh, MeshEdge a, MeshEdge b) {
   mesh.twins[a] = b;
   mesh.twins[b] = a;
 }
@@ -44,7 +44,7 @@ void pair_wedges(ClosedMesh& mesh, std::span<const EdgeUse> uses) {
   for (const EdgeUse& start : uses) {
     if (mesh.from(start.half_edge) == start.low) continue;
     double least = 10;
-    HalfEdge best = no_half_edge;
+    MeshEdge best = no_half_edge;
     for (const EdgeUse& end : uses) {
       if (mesh.from(end.half_edge) != end.low || mesh.twins[end.half_edge] != no_half_edge) continue;
       double wedge = around.angle(end.half_edge) - around.angle(start.half_edge);
@@ -79,7 +79,7 @@ void pair_uses(ClosedMesh& mesh, std::span<const EdgeUse> uses) {
 std::vector<EdgeUse> uses_by_edge(const ClosedMesh& mesh) {
   std::vector<EdgeUse> uses;
   uses.reserve(3 * mesh.facets.size());
-  for (HalfEdge h = 0; h < 3 * mesh.facets.size(); ++h) {
+  for (MeshEdge h = 0; h < 3 * mesh.facets.size(); ++h) {
     const auto [low, high] = std::minmax({mesh.from(h), mesh.to(h)});
     uses.push_back({low, high, h});
   }
@@ -89,7 +89,7 @@ std::vector<EdgeUse> uses_by_edge(const ClosedMesh& mesh) {
   return uses;
 }
 
-std::vector<HalfEdge> pair_edges(ClosedMesh& mesh) {
+std::vector<MeshEdge> pair_edges(ClosedMesh& mesh) {
   mesh.twins.assign(3 * mesh.facets.size(), no_half_edge);
   const std::vector<EdgeUse> uses = uses_by_edge(mesh);
   for (auto first = uses.begin(); first != uses.end();) {
@@ -99,8 +99,8 @@ std::vector<HalfEdge> pair_edges(ClosedMesh& mesh) {
     pair_uses(mesh, {first, last});
     first = last;
   }
-  std::vector<HalfEdge> alone;
-  for (HalfEdge h = 0; h < mesh.twins.size(); ++h) {
+  std::vector<MeshEdge> alone;
+  for (MeshEdge h = 0; h < mesh.twins.size(); ++h) {
     if (mesh.twins[h] == no_half_edge) alone.push_back(h);
   }
   return alone;

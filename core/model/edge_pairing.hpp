@@ -12,12 +12,12 @@ namespace unicursal::core {
 /// The half-edges of the mesh, sorted so that those of one edge are neighbours.
 struct EdgeUse {
   std::uint32_t low, high;  ///< the edge's vertices
-  HalfEdge half_edge;
+  MeshEdge half_edge;
 };
 std::vector<EdgeUse> uses_by_edge(const ClosedMesh& mesh);
 
 /// Sets `mesh.twins` and returns the half-edges that have none, in order. The surface is closed if there are
 /// none.
-std::vector<HalfEdge> pair_edges(ClosedMesh& mesh);
+std::vector<MeshEdge> pair_edges(ClosedMesh& mesh);
 
 }  // namespace unicursal::core

@@ -11,8 +11,8 @@
 namespace unicursal::core {
 
 /// Half-edge 3·f + k runs from corner k of facet f to corner (k + 1) mod 3.
-using HalfEdge = std::uint32_t;
-inline constexpr HalfEdge no_half_edge = std::numeric_limits<HalfEdge>::max();
+using MeshEdge = std::uint32_t;
+inline constexpr MeshEdge no_half_edge = std::numeric_limits<MeshEdge>::max();
 /// The source of a facet that closes a hole.
 inline constexpr std::uint32_t no_source = std::numeric_limits<std::uint32_t>::max();
 
@@ -22,11 +22,11 @@ inline constexpr std::uint32_t no_source = std::numeric_limits<std::uint32_t>::m
 struct ClosedMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> facets;
-  std::vector<HalfEdge> twins;  ///< per half-edge: one of a neighbouring facet, which runs the other way
+  std::vector<MeshEdge> twins;  ///< per half-edge: one of a neighbouring facet, which runs the other way
   std::vector<std::uint32_t> sources;  ///< per facet: the triangle of the file that it is, or is a piece of
 
-  std::uint32_t from(HalfEdge h) const { return facets[h / 3][h % 3]; }
-  std::uint32_t to(HalfEdge h) const { return facets[h / 3][(h % 3 + 1) % 3]; }
+  std::uint32_t from(MeshEdge h) const { return facets[h / 3][h % 3]; }
+  std::uint32_t to(MeshEdge h) const { return facets[h / 3][(h % 3 + 1) % 3]; }
 };
 
 }  // namespace unicursal::core

@@ -17,7 +17,7 @@ using Loop = std::vector<std::uint32_t>;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// The borders run backwards and taken apart into loops that pass no vertex twice.
-std::vector<Loop> loops_along(const ClosedMesh& mesh, const std::vector<HalfEdge>& borders) {
+std::vector<Loop> loops_along(const ClosedMesh& mesh, const std::vector<MeshEdge>& borders) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> ways;
   for (auto h = borders.rbegin(); h != borders.rend(); ++h) ways[mesh.to(*h)].push_back(mesh.from(*h));
   std::vector<Loop> loops;
@@ -113,7 +113,7 @@ Hole fill(ClosedMesh& mesh, const Loop& loop) {
 
 }  // namespace
 
-std::vector<Hole> fill_holes(ClosedMesh& mesh, const std::vector<HalfEdge>& borders) {
+std::vector<Hole> fill_holes(ClosedMesh& mesh, const std::vector<MeshEdge>& borders) {
   std::vector<Hole> holes;
   for (const Loop& loop : loops_along(mesh, borders)) holes.push_back(fill(mesh, loop));
   return holes;

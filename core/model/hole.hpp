@@ -20,6 +20,6 @@ struct Hole {
 /// loops are triangulated with the least area (CGAL, Polygon Mesh Processing), large ones as a fan around
 /// their middle; for a flat loop both bound the same volume. Precondition: along the borders every vertex is
 /// left as often as it is reached, which is so in every surface.
-std::vector<Hole> fill_holes(ClosedMesh& mesh, const std::vector<HalfEdge>& borders);
+std::vector<Hole> fill_holes(ClosedMesh& mesh, const std::vector<MeshEdge>& borders);
 
 }  // namespace unicursal::core

@@ -23,7 +23,7 @@ std::vector<std::size_t> pieces_of(const std::vector<Triangle>& triangles) {
   ClosedMesh mesh = indexed(triangles);
   pair_edges(mesh);
   DisjointSets sets(triangles.size());
-  for (HalfEdge h = 0; h < mesh.twins.size(); ++h) {
+  for (MeshEdge h = 0; h < mesh.twins.size(); ++h) {
     if (mesh.twins[h] != no_half_edge) sets.join(h / 3, mesh.twins[h] / 3);
   }
   std::vector<std::size_t> result;

@@ -12,8 +12,8 @@ namespace unicursal::core {
 namespace {
 
 /// The other facet of each edge that joins just two.
-std::vector<HalfEdge> neighbours(const ClosedMesh& mesh) {
-  std::vector<HalfEdge> other(3 * mesh.facets.size(), no_half_edge);
+std::vector<MeshEdge> neighbours(const ClosedMesh& mesh) {
+  std::vector<MeshEdge> other(3 * mesh.facets.size(), no_half_edge);
   const std::vector<EdgeUse> uses = uses_by_edge(mesh);
   for (std::size_t i = 0; i < uses.size();) {
     std::size_t end = i + 1;
@@ -48,13 +48,13 @@ class Flood {
     std::vector<std::uint32_t> piece{first};
     reached_[first] = true;
     for (std::size_t i = 0; i < piece.size(); ++i) {
-      for (HalfEdge h = 3 * piece[i], end = h + 3; h < end; ++h) visit(h, piece);
+      for (MeshEdge h = 3 * piece[i], end = h + 3; h < end; ++h) visit(h, piece);
     }
     prefer_majority(piece);
   }
 
-  void visit(HalfEdge h, std::vector<std::uint32_t>& piece) {
-    const HalfEdge twin = other_[h];
+  void visit(MeshEdge h, std::vector<std::uint32_t>& piece) {
+    const MeshEdge twin = other_[h];
     if (twin == no_half_edge) return;
     const bool should_turn = turned[h / 3] != (mesh_.from(h) == mesh_.from(twin));
     if (!reached_[twin / 3]) {
@@ -73,7 +73,7 @@ class Flood {
   }
 
   const ClosedMesh& mesh_;
-  std::vector<HalfEdge> other_;
+  std::vector<MeshEdge> other_;
   std::vector<bool> reached_;
 };
 
@@ -98,7 +98,7 @@ Vec3 at_height(const Vec3& a, const Vec3& b, double z) {
 bool ray_passes(const ClosedMesh& mesh, std::uint32_t f, const Vec3& p) {
   Vec3 crossing[2];
   int count = 0;
-  for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+  for (MeshEdge h = 3 * f; h < 3 * f + 3; ++h) {
     const Vec3 &a = mesh.vertices[mesh.from(h)], &b = mesh.vertices[mesh.to(h)];
     if ((a.z() > p.z()) != (b.z() > p.z())) crossing[count++] = at_height(a, b, p.z());
   }
@@ -181,7 +181,7 @@ std::vector<Shell> shells_of(const ClosedMesh& mesh) {
     shell.facets.push_back(first);
     reached[first] = true;
     for (std::size_t i = 0; i < shell.facets.size(); ++i) {
-      for (HalfEdge h = 3 * shell.facets[i], end = h + 3; h < end; ++h) {
+      for (MeshEdge h = 3 * shell.facets[i], end = h + 3; h < end; ++h) {
         const std::uint32_t next = mesh.twins[h] / 3;
         if (reached[next]) continue;
         reached[next] = true;

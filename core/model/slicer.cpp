@@ -8,13 +8,13 @@ namespace {
 
 /// The half-edge through which the contour leaves the facet: it rises through the plane.
 /// Precondition: the facet crosses the plane.
-HalfEdge rising(const ClosedMesh& mesh, std::uint32_t facet, double z) {
-  HalfEdge h = 3 * facet;
+MeshEdge rising(const ClosedMesh& mesh, std::uint32_t facet, double z) {
+  MeshEdge h = 3 * facet;
   while (!(mesh.vertices[mesh.from(h)].z() <= z && mesh.vertices[mesh.to(h)].z() > z)) ++h;
   return h;
 }
 
-Vec2 crossing(const ClosedMesh& mesh, HalfEdge h, double z) {
+Vec2 crossing(const ClosedMesh& mesh, MeshEdge h, double z) {
   const Vec3 &low = mesh.vertices[mesh.from(h)], &high = mesh.vertices[mesh.to(h)];
   return (low + (z - low.z()) / (high.z() - low.z()) * (high - low)).head<2>();
 }
@@ -35,7 +35,7 @@ std::vector<Ring> Slicer::contours(double z) const {
     Ring ring;
     for (std::size_t i = first; !done[i];) {
       done[i] = true;
-      const HalfEdge out = rising(mesh_, passed[i], z);
+      const MeshEdge out = rising(mesh_, passed[i], z);
       ring.push_back(crossing(mesh_, out, z));
       i = rank(mesh_.twins[out] / 3);
     }

@@ -25,9 +25,9 @@ Point point(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-Tree tree_of(const ClosedMesh& mesh, const std::vector<HalfEdge>& borders) {
+Tree tree_of(const ClosedMesh& mesh, const std::vector<MeshEdge>& borders) {
   std::vector<std::uint32_t> ends;
-  for (const HalfEdge h : borders) ends.insert(ends.end(), {mesh.from(h), mesh.to(h)});
+  for (const MeshEdge h : borders) ends.insert(ends.end(), {mesh.from(h), mesh.to(h)});
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   std::vector<Entry> entries;
@@ -36,7 +36,7 @@ Tree tree_of(const ClosedMesh& mesh, const std::vector<HalfEdge>& borders) {
 }
 
 /// The vertices within the edge, from its beginning to its end.
-std::vector<std::uint32_t> on_edge(const ClosedMesh& mesh, HalfEdge h, const Tree& tree, double reach,
+std::vector<std::uint32_t> on_edge(const ClosedMesh& mesh, MeshEdge h, const Tree& tree, double reach,
                                    std::size_t& budget) {
   const Vec3 &a = mesh.vertices[mesh.from(h)], &b = mesh.vertices[mesh.to(h)], way = b - a;
   const double length = way.norm();
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> on_edge(const ClosedMesh& mesh, HalfEdge h, const Tre
   return result;
 }
 
-void split(ClosedMesh& mesh, HalfEdge h, const std::vector<std::uint32_t>& at) {
+void split(ClosedMesh& mesh, MeshEdge h, const std::vector<std::uint32_t>& at) {
   const std::uint32_t facet = h / 3, end = mesh.to(h), third = mesh.facets[facet][(h % 3 + 2) % 3];
   const std::uint32_t source = mesh.sources[facet];
   mesh.facets[facet] = {mesh.from(h), at.front(), third};
@@ -68,13 +68,13 @@ void split(ClosedMesh& mesh, HalfEdge h, const std::vector<std::uint32_t>& at) {
 
 }  // namespace
 
-std::size_t stitch(ClosedMesh& mesh, std::vector<HalfEdge> borders, double reach) {
+std::size_t stitch(ClosedMesh& mesh, std::vector<MeshEdge> borders, double reach) {
   std::size_t stitches = 0, budget = most_candidates;
   for (int round = 0; round < most_rounds && !borders.empty(); ++round) {
     const Tree tree = tree_of(mesh, borders);
     std::size_t found = 0;
     std::uint32_t last = no_source;  // borders are sorted, so those of one facet follow each other
-    for (const HalfEdge h : borders) {
+    for (const MeshEdge h : borders) {
       if (h / 3 == last) continue;
       const auto at = on_edge(mesh, h, tree, reach, budget);
       if (at.empty()) continue;

@@ -11,6 +11,6 @@ namespace unicursal::core {
 
 /// Splits facets at vertices of `borders` (half-edges without a twin) that lie within `reach` (mm) of their
 /// sides. Returns how many vertices were found; twins are lost if there is one.
-std::size_t stitch(ClosedMesh& mesh, std::vector<HalfEdge> borders, double reach);
+std::size_t stitch(ClosedMesh& mesh, std::vector<MeshEdge> borders, double reach);
 
 }  // namespace unicursal::core

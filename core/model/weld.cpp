@@ -144,9 +144,9 @@ std::size_t drop_collapsed(ClosedMesh& mesh) {
   });
 }
 
-std::size_t drop_copies(ClosedMesh& mesh, const std::vector<HalfEdge>& borders) {
+std::size_t drop_copies(ClosedMesh& mesh, const std::vector<MeshEdge>& borders) {
   std::map<std::pair<Index, Index>, std::size_t> surplus;  // by the half-edge's ends
-  for (const HalfEdge h : borders) ++surplus[{mesh.from(h), mesh.to(h)}];
+  for (const MeshEdge h : borders) ++surplus[{mesh.from(h), mesh.to(h)}];
   std::map<Facet, std::size_t> seen;
   std::vector<bool> unwanted(mesh.facets.size(), false);
   for (std::size_t i = 0; i < mesh.facets.size(); ++i) {

@@ -25,6 +25,6 @@ std::size_t drop_collapsed(ClosedMesh& mesh);
 
 /// Drops copies of facets that stand in the way of a closed surface, and returns their number. `borders`: the
 /// half-edges without a twin.
-std::size_t drop_copies(ClosedMesh& mesh, const std::vector<HalfEdge>& borders);
+std::size_t drop_copies(ClosedMesh& mesh, const std::vector<MeshEdge>& borders);
 
 }  // namespace unicursal::core

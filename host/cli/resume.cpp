@@ -124,7 +124,7 @@ Exit resume_kept(const ResumeOptions& options) {
   const fs::path folder = chosen_print(options);
   Spool spool = Spool::open(folder);
   const JournalState& before = spool.before();
-  if (before.ended && before.ended->outcome == Outcome::completed) {
+  if (before.ended && before.ended->outcome == LegOutcome::completed) {
     show(stdout, "{}: this print was completed\n", folder.filename().string());
     return Exit::success;
   }

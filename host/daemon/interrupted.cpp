@@ -22,7 +22,7 @@ bool is_over(const fs::path& folder) {
   if (!fs::exists(folder / "journal", unknown)) return true;  // it was removed
   try {
     const JournalState journal = read_journal(folder / "journal");
-    return journal.superseded || (journal.ended && journal.ended->outcome != Outcome::failed);
+    return journal.superseded || (journal.ended && journal.ended->outcome != LegOutcome::failed);
   } catch (const SpoolError&) {
     return false;  // damaged: nobody knows
   }

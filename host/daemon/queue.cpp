@@ -17,7 +17,7 @@ using State = QueuedJob::State;
 constexpr State all_states[] = {State::queued,  State::preparing, State::printing,   State::done,
                                 State::stopped, State::failed,    State::interrupted};
 
-bool has_ended(const QueuedJob& job) {
+bool is_over(const QueuedJob& job) {
   return job.state != State::queued && job.state != State::preparing && job.state != State::printing;
 }
 
@@ -137,13 +137,13 @@ void Queue::enter(std::uint64_t id, State state, const std::string& reason) {
   job->state = state;
   job->reason = reason;
   if (state == State::preparing) job->began = now();
-  if (has_ended(*job)) job->ended = now();
+  if (is_over(*job)) job->ended = now();
   forget_oldest();
 }
 
 void Queue::forget_oldest() {
-  std::size_t ended = static_cast<std::size_t>(std::count_if(jobs_.begin(), jobs_.end(), has_ended));
-  std::erase_if(jobs_, [&](const QueuedJob& job) { return has_ended(job) && ended-- > most_kept; });
+  std::size_t ended = static_cast<std::size_t>(std::count_if(jobs_.begin(), jobs_.end(), is_over));
+  std::erase_if(jobs_, [&](const QueuedJob& job) { return is_over(job) && ended-- > most_kept; });
 }
 
 std::string Queue::text() const {

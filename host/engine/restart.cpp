@@ -50,7 +50,7 @@ void note_heights(Restart& restart, const std::filesystem::path& chunks, const J
 
 Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost) {
   const JournalState& journal = spool.before();
-  const bool settled = journal.aside || (journal.ended && journal.ended->outcome == Outcome::stopped);
+  const bool settled = journal.aside || (journal.ended && journal.ended->outcome == LegOutcome::stopped);
   const std::uint64_t sent = std::max(journal.handed, journal.acknowledged);
   std::uint64_t certain = journal.acknowledged - std::min(journal.acknowledged, planned_lines);
   if (settled) certain = sent;

@@ -453,7 +453,7 @@ StreamResult Session::State::conclude(const std::exception_ptr& error) {
   if (spool && !result.begun) {
     spool->discard();
   } else if (!result.lost) {
-    constexpr std::array outcomes{Outcome::completed, Outcome::stopped, Outcome::failed};
+    constexpr std::array outcomes{LegOutcome::completed, LegOutcome::stopped, LegOutcome::failed};
     places.record_end({outcomes.at(static_cast<std::size_t>(result.ending)), result.reason});
   }
   return result;

@@ -16,7 +16,7 @@ namespace unicursal::host {
 namespace {
 
 constexpr const char* section = "transition";
-constexpr const char* keys[] = {"dead_volume", "mixing_volume"};
+constexpr const char* transition_keys[] = {"dead_volume", "mixing_volume"};
 
 std::string read(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -113,7 +113,7 @@ void set(std::string& text, const char* key, const char* sister, const std::stri
 void erase_keys(toml::table& root) {
   toml::table* table = root[section].as_table();
   if (table == nullptr) return;
-  for (const char* key : keys) table->erase(key);
+  for (const char* key : transition_keys) table->erase(key);
   if (table->empty()) root.erase(section);
 }
 
@@ -127,7 +127,8 @@ bool differs_only_there(const std::string& before, const std::string& after, con
                         const std::string& mixing, const std::filesystem::path& file) {
   try {
     toml::table old_table = parse_toml(before, file), new_table = parse_toml(after, file);
-    if (!holds(new_table, keys[0], dead) || !holds(new_table, keys[1], mixing)) return false;
+    if (!holds(new_table, transition_keys[0], dead) || !holds(new_table, transition_keys[1], mixing))
+      return false;
     erase_keys(old_table);
     erase_keys(new_table);
     return old_table == new_table;
@@ -143,8 +144,8 @@ std::string with_transition(const std::string& text, double dead_volume, double 
   const std::string dead = fmt::format("{:.2f}", dead_volume), mixing = fmt::format("{:.2f}", mixing_volume);
   parse_toml(text, file);
   std::string changed = text;
-  set(changed, keys[0], keys[1], dead, file);
-  set(changed, keys[1], keys[0], mixing, file);
+  set(changed, transition_keys[0], transition_keys[1], dead, file);
+  set(changed, transition_keys[1], transition_keys[0], mixing, file);
   if (!differs_only_there(text, changed, dead, mixing, file)) {
     throw JobError(file.string(), section, "is written in a way that cannot be changed here",
                    fmt::format("write dead_volume = {} and mixing_volume = {} yourself", dead, mixing));

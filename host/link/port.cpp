@@ -19,6 +19,7 @@
 #include <system_error>
 
 #include "core/text/printable.hpp"
+#include "host/files/descriptor.hpp"
 #include "host/link/find_port.hpp"
 #include "host/link/line_rate.hpp"
 #include "host/link/port_holder.hpp"
@@ -35,22 +36,6 @@ using Port = std::unique_ptr<sp_port, FreePort>;
 
 struct FreeConfig {
   void operator()(sp_port_config* config) const { sp_free_config(config); }
-};
-
-/// A file descriptor that closes itself unless it was released.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
 };
 
 [[noreturn]] void refuse(const std::string& path, int error) {

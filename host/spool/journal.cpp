@@ -67,8 +67,8 @@ void begin(JournalState& state, Leg leg) {
 
 Ended ended_in(ByteReader& bytes) {
   const auto outcome = bytes.take<std::uint8_t>();
-  if (outcome > static_cast<std::uint8_t>(Outcome::failed)) throw DamagedBytes("holds an unknown outcome");
-  return {static_cast<Outcome>(outcome), bytes.text()};
+  if (outcome > static_cast<std::uint8_t>(LegOutcome::failed)) throw DamagedBytes("holds an unknown outcome");
+  return {static_cast<LegOutcome>(outcome), bytes.text()};
 }
 
 void apply(JournalState& state, ByteReader bytes) {

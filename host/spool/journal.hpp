@@ -39,10 +39,10 @@ struct Anchor {
   std::uint64_t place = 0;
 };
 
-enum class Outcome : std::uint8_t { completed, stopped, failed };
+enum class LegOutcome : std::uint8_t { completed, stopped, failed };
 
 struct Ended {
-  Outcome outcome = Outcome::failed;
+  LegOutcome outcome = LegOutcome::failed;
   std::string reason;  ///< A sentence, or empty.
 };
 

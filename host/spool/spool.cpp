@@ -345,7 +345,7 @@ void supersede(const fs::path& folder, const PrintOrder& by, const std::string& 
   if (order.port != by.port && order.device != by.device) return;
   std::uint64_t sound = 0;
   const JournalState state = read_journal(journal_file(folder), &sound);
-  const bool over = state.ended && state.ended->outcome == Outcome::completed;
+  const bool over = state.ended && state.ended->outcome == LegOutcome::completed;
   if (!over && !state.superseded) Journal(journal_file(folder), sound).supersede(name);
 }
 

@@ -10,10 +10,10 @@ namespace {
 struct Corner {
   double column, row;
 };
-using Stroke = std::vector<Corner>;
+using PenLine = std::vector<Corner>;
 
-const std::array<std::vector<Stroke>, 10>& strokes_of_digits() {
-  static const std::array<std::vector<Stroke>, 10> digits = {{
+const std::array<std::vector<PenLine>, 10>& strokes_of_digits() {
+  static const std::array<std::vector<PenLine>, 10> digits = {{
       {{{0, 0}, {0, 2}, {1, 2}, {1, 0}, {0, 0}}},
       {{{0.5, 0}, {0.5, 2}}},
       {{{0, 2}, {1, 2}, {1, 1}, {0, 1}, {0, 0}, {1, 0}}},
@@ -40,7 +40,7 @@ std::vector<std::vector<core::Vec2>> number_strokes(std::size_t number, const co
   std::vector<std::vector<core::Vec2>> strokes;
   core::Vec2 foot = corner;
   for (const char digit : std::to_string(number)) {
-    for (const Stroke& stroke : strokes_of_digits().at(static_cast<std::size_t>(digit - '0'))) {
+    for (const PenLine& stroke : strokes_of_digits().at(static_cast<std::size_t>(digit - '0'))) {
       std::vector<core::Vec2>& line = strokes.emplace_back();
       for (const Corner& c : stroke) {
         line.push_back(foot + core::Vec2(c.column * sizes.digit_width, c.row * sizes.digit_height / 2));

@@ -48,7 +48,7 @@ void journal(const fs::path& folder, core::Random& random) {
     sound.anchor({70000, 69990}, false);
     sound.progress(70020, 70000);
     sound.park({"G91", "G1 Z10", "M104 S0"});
-    sound.end({host::Outcome::stopped, "the user"});
+    sound.end({host::LegOutcome::stopped, "the user"});
     sound.begin_leg({{"G28 X Y", "G92 Z1"}, 600, 0.4});
   }
   write(file, damaged_records(contents_of(file), random));

@@ -12,7 +12,7 @@ namespace {
 double difference_of(const std::filesystem::path& file) {
   const core::TempFolder folder;
   const auto scratch = folder.write("x", "").parent_path();
-  const test::Opinion opinion = test::second_opinion(file, scratch, 600);
+  const unicursal::test::Opinion opinion = unicursal::test::second_opinion(file, scratch, 600);
   INFO(file.string());
   CHECK(opinion.trouble.empty());
   return opinion.difference;
@@ -28,7 +28,7 @@ double difference_of_text(const std::string& elements) {
 TEST_CASE("librsvg sees the same areas in the project's drawings") {
   CHECK(difference_of(core::test_data("two_zones.svg")) < 0.01);
   CHECK(difference_of(core::test_data("features.svg")) < 0.01);
-  CHECK(difference_of(test::source_folder() / "host/examples/leaf.svg") < 0.01);
+  CHECK(difference_of(unicursal::test::source_folder() / "host/examples/leaf.svg") < 0.01);
 }
 
 TEST_CASE("librsvg sees the same areas in each feature of a drawing") {
@@ -64,11 +64,13 @@ TEST_CASE("the second opinion notices a wrong colour and a wrong size") {
   const core::TempFolder folder;
   const auto scratch = folder.write("x", "").parent_path();
   const auto raster = [&](const std::string& elements) {
-    return *test::drawn_by_librsvg(folder.write("d.svg", core::drawing(elements)), 200, 160, scratch);
+    return *unicursal::test::drawn_by_librsvg(folder.write("d.svg", core::drawing(elements)), 200, 160,
+                                              scratch);
   };
   const auto plain = raster("<rect width='50' height='40' fill='#f00'/>");
-  CHECK(test::difference(plain, raster("<rect width='50' height='40' fill='#f00'/>")) == 0);
-  CHECK(test::difference(plain, raster("<rect width='50' height='40' fill='#00f'/>")) == Approx(1));
-  CHECK(test::difference(plain, raster("<rect width='50' height='38' fill='#f00'/>")) ==
+  CHECK(unicursal::test::difference(plain, raster("<rect width='50' height='40' fill='#f00'/>")) == 0);
+  CHECK(unicursal::test::difference(plain, raster("<rect width='50' height='40' fill='#00f'/>")) ==
+        Approx(1));
+  CHECK(unicursal::test::difference(plain, raster("<rect width='50' height='38' fill='#f00'/>")) ==
         Approx(0.05).margin(0.005));
 }

@@ -37,7 +37,7 @@ class TextFile {
   fs::path path_;
 };
 
-std::vector<DirectionSample> read(const std::string& text) {
+std::vector<DirectionSample> samples_in(const std::string& text) {
   return read_directions(TextFile(text).path());
 }
 
@@ -64,7 +64,7 @@ DirectionField field_of(const Polygon& outline, const fs::path& file, double z =
 
 TEST_CASE("a file of directions is read with header, comments, spaces and either line end") {
   const auto samples =
-      read("\xEF\xBB\xBF# from a calculation\r\nx, y, angle\r\n1, 2.5 ,+30\r\n\r\n# more\n-3e1,4,210");
+      samples_in("\xEF\xBB\xBF# from a calculation\r\nx, y, angle\r\n1, 2.5 ,+30\r\n\r\n# more\n-3e1,4,210");
   REQUIRE(samples.size() == 2);
   CHECK(samples[0].position == Vec2(1, 2.5));
   CHECK(samples[1].position == Vec2(-30, 4));
@@ -73,7 +73,7 @@ TEST_CASE("a file of directions is read with header, comments, spaces and either
 }
 
 TEST_CASE("the third of four columns is z") {
-  const auto samples = read("1,2,0.3,45\n");
+  const auto samples = samples_in("1,2,0.3,45\n");
   REQUIRE(samples.size() == 1);
   CHECK(samples[0].z == 0.3);
   CHECK(direction(samples[0].v) == Approx(45 * degree));
@@ -120,7 +120,7 @@ TEST_CASE("random bytes are either read or refused") {
     std::string text;
     for (std::size_t n = random.below(60); n > 0; --n) text += letters[random.below(letters.size())];
     try {
-      for (const DirectionSample& s : read(text)) REQUIRE(s.v.norm() == Approx(1));
+      for (const DirectionSample& s : samples_in(text)) REQUIRE(s.v.norm() == Approx(1));
     } catch (const ModelError&) {
     }
   }
@@ -141,7 +141,7 @@ TEST_CASE("a raster of directions is reproduced by the field") {
 }
 
 TEST_CASE("the spacing of samples depends on where they are, not on their box") {
-  CHECK(ScatteredDirections(read(raster(20, 10, 0.5, [](double, double) { return 1.0; }))).spacing() ==
+  CHECK(ScatteredDirections(samples_in(raster(20, 10, 0.5, [](double, double) { return 1.0; }))).spacing() ==
         Approx(0.5).epsilon(0.2));
   // Two patches far apart.
   std::string text = raster(5, 5, 0.25, [](double, double) { return 1.0; });
@@ -150,7 +150,7 @@ TEST_CASE("the spacing of samples depends on where they are, not on their box") 
       text += std::to_string(x) + "," + std::to_string(y) + ",3\n";
     }
   }
-  CHECK(ScatteredDirections(read(text)).spacing() == Approx(0.25).epsilon(0.5));
+  CHECK(ScatteredDirections(samples_in(text)).spacing() == Approx(0.25).epsilon(0.5));
 }
 
 TEST_CASE("no direction is asked for farther than two spacings from every sample") {

@@ -43,8 +43,8 @@ double volume(const ClosedMesh& mesh) {
 }
 
 void check_twins(const ClosedMesh& mesh) {
-  for (HalfEdge h = 0; h < mesh.twins.size(); ++h) {
-    const HalfEdge twin = mesh.twins[h];
+  for (MeshEdge h = 0; h < mesh.twins.size(); ++h) {
+    const MeshEdge twin = mesh.twins[h];
     REQUIRE(twin != h);
     REQUIRE(mesh.twins[twin] == h);
     REQUIRE(mesh.from(h) == mesh.to(twin));

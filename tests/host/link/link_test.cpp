@@ -42,7 +42,7 @@ std::vector<std::string> moves(std::size_t count) {
   return lines;
 }
 
-struct Outcome {
+struct Delivery {
   std::string error;  ///< Message of a LinkError; empty after success.
   LinkStatistics statistics;
   std::string firmware;
@@ -50,10 +50,10 @@ struct Outcome {
 };
 
 /// Connects, sends and drains on a loop of its own.
-Outcome stream(const std::string& path, std::vector<std::string> lines, LinkOptions options = impatient(),
-               const std::function<void(Link&, const std::string&)>& on_message = {}) {
+Delivery stream(const std::string& path, std::vector<std::string> lines, LinkOptions options = impatient(),
+                const std::function<void(Link&, const std::string&)>& on_message = {}) {
   asio::io_context loop;
-  Outcome outcome;
+  Delivery outcome;
   const auto talk = [&]() -> asio::awaitable<void> {
     Link link(loop.get_executor(), open_port(path, 250000), options);
     link.on_message([&](const std::string& message) {
@@ -108,7 +108,7 @@ TEST_CASE("every line arrives once and in order, within the window") {
   for (bool advanced : {false, true}) {
     FakePrinter printer({.advanced = advanced});
     const auto lines = moves(5000);
-    const Outcome outcome = stream(printer.path(), lines);
+    const Delivery outcome = stream(printer.path(), lines);
     printer.stop();
     CHECK(outcome.error.empty());
     CHECK((printer.executed() == lines));
@@ -136,7 +136,7 @@ TEST_CASE("damaged, lost and merged lines are sent again") {
                "N40 G1 X0.0\n39 Y39 E.0123*84\n", "N40 G1 X0.039 Y39 E.9123*84\n");
   FakePrinter printer({.inwards = replaced("N40 ", damage)});
   const auto lines = moves(100);
-  const Outcome outcome = stream(printer.path(), lines);
+  const Delivery outcome = stream(printer.path(), lines);
   printer.stop();
   CAPTURE(damage);
   CHECK(outcome.error.empty());
@@ -157,7 +157,7 @@ TEST_CASE("lost and damaged oks do not stop the stream") {
   const auto instead = GENERATE(as<std::string>{}, "", "nk\n", "ok\x0b", "\xff\xfe\xfd\n");
   FakePrinter printer({.outwards = some_oks_replaced(instead)});
   const auto lines = moves(60);
-  const Outcome outcome = stream(printer.path(), lines);
+  const Delivery outcome = stream(printer.path(), lines);
   printer.stop();
   CHECK(outcome.error.empty());
   CHECK((printer.executed() == lines));
@@ -173,7 +173,7 @@ TEST_CASE("an ok that is glued to a report counts") {
   auto options = impatient();
   options.silence = 20000ms;  // without those oks, the test would take minutes
   const auto begun = std::chrono::steady_clock::now();
-  const Outcome outcome = stream(printer.path(), lines, options);
+  const Delivery outcome = stream(printer.path(), lines, options);
   printer.stop();
   CAPTURE(report);
   CHECK(outcome.error.empty());
@@ -190,7 +190,7 @@ TEST_CASE("a temperature that is not a number answers a question for it") {
     return line == "ok\n" && ++n == 32 ? "" : line;
   }});
   const auto lines = moves(30);
-  const Outcome outcome = stream(printer.path(), lines);
+  const Delivery outcome = stream(printer.path(), lines);
   printer.stop();
   CHECK(outcome.error.empty());
   CHECK((printer.executed() == lines));
@@ -222,7 +222,7 @@ TEST_CASE("a resend may come twice, damaged or not at all") {
   FakePrinter printer({.inwards = replaced("N40 ", "N40 G1 X0.039 Y39 E.9123*84\n"),
                        .outwards = replaced("Resend", instead)});
   const auto lines = moves(100);
-  const Outcome outcome = stream(printer.path(), lines);
+  const Delivery outcome = stream(printer.path(), lines);
   printer.stop();
   CAPTURE(instead);
   CHECK(outcome.error.empty());
@@ -233,7 +233,7 @@ TEST_CASE("a bit is flipped in one of 200 lines, in both directions") {
   const auto seed = GENERATE(1u, 2u, 3u);
   FakePrinter printer({.inwards = bit_flips(seed, 200), .outwards = bit_flips(seed + 100, 200)});
   const auto lines = moves(5000);
-  const Outcome outcome = stream(printer.path(), lines);
+  const Delivery outcome = stream(printer.path(), lines);
   printer.stop();
   CAPTURE(seed, outcome.error);
   CHECK(outcome.error.empty());
@@ -248,7 +248,7 @@ TEST_CASE("long and noisy streams", "[long]") {
                        .outwards = bit_flips(seed + 100, 40 + 10 * seed),
                        .advanced = seed % 2 == 1});
   const auto lines = moves(20000);
-  const Outcome outcome = stream(printer.path(), lines);
+  const Delivery outcome = stream(printer.path(), lines);
   printer.stop();
   CAPTURE(seed, outcome.error);
   CHECK(outcome.error.empty());
@@ -264,7 +264,7 @@ TEST_CASE("a kill ends the job with the printer's reason") {
     p.fall_silent();
     return true;
   }});
-  const Outcome outcome = stream(printer.path(), moves(1000));
+  const Delivery outcome = stream(printer.path(), moves(1000));
   printer.stop();
   CHECK_THAT(outcome.error, Catch::Contains("stopped itself") && Catch::Contains("Thermal Runaway"));
   CHECK(printer.executed().size() == 50);
@@ -277,7 +277,7 @@ TEST_CASE("after a reset in mid-print no line is sent again") {
     p.reply("start");
     return true;
   }});
-  const Outcome outcome = stream(printer.path(), moves(1000));
+  const Delivery outcome = stream(printer.path(), moves(1000));
   printer.stop();
   CHECK_THAT(outcome.error, Catch::Contains("reset itself"));
   CHECK(printer.executed().size() == 200);
@@ -288,7 +288,7 @@ TEST_CASE("after a reset whose start was lost no line is sent again") {
     if (n == 200) p.forget_numbers();
     return n == 200;
   }});
-  const Outcome outcome = stream(printer.path(), moves(1000));
+  const Delivery outcome = stream(printer.path(), moves(1000));
   printer.stop();
   CHECK_THAT(outcome.error, Catch::Contains("reset"));
   CHECK(printer.executed().size() == 200);
@@ -299,7 +299,7 @@ TEST_CASE("a printer that falls silent is probed and then given up") {
     if (n == 50) p.fall_silent();
     return n == 50;
   }});
-  const Outcome outcome = stream(printer.path(), moves(1000));
+  const Delivery outcome = stream(printer.path(), moves(1000));
   CHECK_THAT(outcome.error, Catch::Contains("silent"));
   CHECK(outcome.statistics.probes >= 2);
 }
@@ -320,7 +320,7 @@ TEST_CASE("the link waits for a busy printer beyond the deadline of silence") {
              if (!homing || ++ticks > 8) return;
              p.reply(ticks < 8 ? "echo:busy: processing" : "ok");
            }});
-  const Outcome outcome = stream(printer.path(), {"G28"}, options);
+  const Delivery outcome = stream(printer.path(), {"G28"}, options);
   CHECK(outcome.error.empty());
   CHECK(outcome.statistics.probes == 0);
   CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), "echo:busy: processing") == 7);
@@ -351,7 +351,7 @@ TEST_CASE("an emergency stop overtakes the queue") {
     if (n == 30) p.reply("//action:pause");
     return n >= 30;  // no further ok: the queue is stuck
   }});
-  const Outcome outcome =
+  const Delivery outcome =
       stream(printer.path(), moves(1000), impatient(), [](Link& link, const std::string& message) {
         if (message == "//action:pause") link.emergency_stop();
       });
@@ -376,7 +376,7 @@ TEST_CASE("hostile text is made safe before it is shown") {
     p.reply("\x1b[2J" + std::string(100000, 'x') + std::string("\0\xff", 2));
     return false;
   }});
-  const Outcome outcome = stream(printer.path(), moves(3));
+  const Delivery outcome = stream(printer.path(), moves(3));
   CHECK(outcome.error.empty());
   for (const std::string& message : outcome.messages) {
     CHECK(message.size() < 1000);
@@ -389,7 +389,7 @@ TEST_CASE("a carriage return at the end of a line is not shown") {
     p.reply("Error:the filament is tangled\r");
     return false;
   }});
-  const Outcome outcome = stream(printer.path(), {"G28"});
+  const Delivery outcome = stream(printer.path(), {"G28"});
   CHECK(std::find(outcome.messages.begin(), outcome.messages.end(), "Error:the filament is tangled") !=
         outcome.messages.end());
 }
@@ -425,7 +425,7 @@ TEST_CASE("when a printer is given up in mid-print, its heaters are switched off
            [&](FakePrinter& p) {
              if (stuck) p.reply("echo:busy: processing");
            }});
-  const Outcome outcome = stream(printer.path(), moves(1000), options);
+  const Delivery outcome = stream(printer.path(), moves(1000), options);
   printer.stop();
   CHECK_THAT(outcome.error, Catch::Contains("heaters may still be on"));
   CHECK_THAT(heard, Catch::EndsWith("\nM108\nM104 S0\nM140 S0\n"));
@@ -462,7 +462,7 @@ TEST_CASE("a slow command may be silent, or say anything, for many times the dea
   lines.insert(lines.begin() + 10, slow);
   auto options = impatient();
   options.silence = 100ms;
-  const Outcome outcome = stream(printer.path(), lines, options);
+  const Delivery outcome = stream(printer.path(), lines, options);
   printer.stop();
   CAPTURE(slow, chatter);
   CHECK(outcome.error.empty());
@@ -511,11 +511,12 @@ TEST_CASE("a cool-down ends every wait for heat, and lines without a number are 
   bool cooled = false;
   auto options = impatient();
   options.silence = 2000ms;
-  const Outcome outcome = stream(printer.path(), lines, options, [&](Link& link, const std::string& message) {
-    if (!std::exchange(cooled, message.find("W:") != std::string::npos || cooled)) {
-      if (cooled) link.cool_down();
-    }
-  });
+  const Delivery outcome =
+      stream(printer.path(), lines, options, [&](Link& link, const std::string& message) {
+        if (!std::exchange(cooled, message.find("W:") != std::string::npos || cooled)) {
+          if (cooled) link.cool_down();
+        }
+      });
   printer.stop();
   CHECK(outcome.error.empty());
   CHECK(printer.executed().size() < 20);

@@ -19,8 +19,8 @@ using test::Outcome;
 
 namespace {
 
-struct Job {
-  Job() {
+struct SmallJob {
+  SmallJob() {
     folder.write("bench.toml", test::sample_profile);
     folder.write("plate.svg", test::sample_drawing);
     file = folder.write("job.toml", test::sample_job).string();
@@ -41,7 +41,7 @@ bool holds(const std::vector<std::string>& lines, const std::string& line) {
 }  // namespace
 
 TEST_CASE("a print that fails leaves a report with the reason") {
-  const Job job;
+  const SmallJob job;
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t n, const std::string&) {
     if (n == 60) p.forget_numbers(), p.reply("start");
     return n == 60;
@@ -56,7 +56,7 @@ TEST_CASE("a print that fails leaves a report with the reason") {
 }
 
 TEST_CASE("a print that never began is not kept, and the user is not asked to resume it") {
-  const Job job;
+  const SmallJob job;
   FakePrinter printer({.instead = [](FakePrinter& p, std::size_t, const std::string&) {
     p.reply("Error:Printer halted. kill() called!");
     return true;
@@ -75,7 +75,7 @@ TEST_CASE("a print that never began is not kept, and the user is not asked to re
 TEST_CASE("a stop while heating ends the heating, and does not claim to have parked") {
   const int signal = GENERATE(SIGINT, SIGQUIT, SIGHUP);
   CAPTURE(signal);
-  const Job job;
+  const SmallJob job;
   std::atomic<bool> heating = false;
   bool waits = false;
   std::string heard;

@@ -68,7 +68,7 @@ void check_kept(const fs::path& folder) {
   const host::JournalState state = host::read_journal(folder / "journal");
   CHECK(state.acknowledged <= state.handed);
   REQUIRE(state.ended);
-  CHECK(state.ended->outcome == host::Outcome::failed);
+  CHECK(state.ended->outcome == host::LegOutcome::failed);
   CHECK_FALSE(state.ended->reason.empty());
 }
 

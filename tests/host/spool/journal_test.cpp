@@ -79,7 +79,7 @@ TEST_CASE("a new leg forgets the state of the previous one, and counts its lead-
     journal.anchor({1, 0}, true);
     journal.progress(100, 90);
     journal.park({"M104 S0"});
-    journal.end({Outcome::stopped, ""});
+    journal.end({LegOutcome::stopped, ""});
     journal.begin_leg({{"G28 X Y", "G92 Z1"}, 70, 0.4});
     journal.begin_session();
   });
@@ -97,11 +97,11 @@ TEST_CASE("a new leg forgets the state of the previous one, and counts its lead-
 TEST_CASE("the end of a print is known until it is resumed") {
   const auto end = [](Journal& journal) {
     journal.begin_leg({});
-    journal.end({Outcome::failed, "the cable was pulled"});
+    journal.end({LegOutcome::failed, "the cable was pulled"});
   };
   const JournalState state = after(end);
   REQUIRE(state.ended);
-  CHECK(state.ended->outcome == Outcome::failed);
+  CHECK(state.ended->outcome == LegOutcome::failed);
   CHECK(state.ended->reason == "the cable was pulled");
   CHECK_FALSE(after([&](Journal& journal) {
                 end(journal);
