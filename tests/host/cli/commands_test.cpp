@@ -62,8 +62,7 @@ bool simulator_runs_on(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("Help and version succeed") {
-  CHECK(run({"--version"}).out == "unicursal 0.1.0\n");
+TEST_CASE("Help succeeds") {
   for (const char* command : {"dry-run", "plan", "print", "curve", "simulate", "tune", "ports"}) {
     const Outcome outcome = run({command, "--help"});
     CHECK(outcome.code == 0);
