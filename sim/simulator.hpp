@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "sim/simulator_options.hpp"
 
@@ -12,6 +13,9 @@ namespace unicursal::sim {
 
 /// Throws std::invalid_argument for impossible options and std::system_error for an unreadable file.
 void check(const SimulatorOptions& options);
+
+/// The firmwares for SimulatorOptions::personality.
+std::vector<std::string> personality_names();
 
 /// The kinds of fault for SimulatorOptions::faults, one line each.
 std::string fault_help();

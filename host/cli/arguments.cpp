@@ -110,7 +110,7 @@ void JobOptions::declare(CLI::App& app) {
   add_value(app, "JOB", job, " ",
             "The job, a TOML file (see unicursal-job(5)), or a model: .svg, .stl, .3mf, .obj or .amf.")
       .required();
-  add_value(app, "--profile", profile, "FILE",
+  add_value(app, "--profile", profile, "PROFILE",
             "Use this printer profile instead of the one that the job names.")
       .group("Job");
   declare_layers(app, layers,
@@ -142,12 +142,12 @@ void JobOptions::declare_full_quality(CLI::App& app) {
 
 void SimulatedPrinter::declare(CLI::App& app) {
   constexpr auto group = "Simulated printer";
-  add_value(app, "--personality", personality, "NAME",
+  add_value(app, "--personality", personality, "FIRMWARE",
             "Firmware to simulate: marlin, marlin-8bit, marlin-advanced-ok, marlin-host, marlin-few-tools, "
             "repetier, repetier-0.92 or reprapfirmware. Default: the firmware of the profile.")
       .group(group);
-  add_value(app, "--usb", options.usb, "CHIP",
-            "USB chip of the cable: none, cdc (1 ms of delay) or ftdi (16 ms). Default: cdc.")
+  add_value(app, "--usb", options.usb, "none|cdc|ftdi",
+            "USB chip of the cable: cdc delays by 1 ms, ftdi by 16 ms. Default: cdc.")
       .group(group);
   declare_tanks(app, options.tanks);
   add_values(app, "--fault", options.faults, "FAULT",

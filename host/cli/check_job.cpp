@@ -14,7 +14,7 @@ class CheckJob final : public Command {
         add_command(program, "check-job", "", "Read and check a job within limits, for the daemon.",
                     "unicursal check-job leaf.toml --memory 512 --time 10");
     add_value(app, "JOB", check_.job, " ", "Job to check.").required();
-    add_value(app, "--profile", check_.profile, "FILE", "Use this printer profile.");
+    add_value(app, "--profile", check_.profile, "PROFILE", "Use this printer profile.");
     declare_layers(app, check_.layers, "Check only these layers: A to B.");
     add_value(app, "--memory", memory_, "MB", "Address space that it may take.")
         .check(integer_between(16, most_megabytes));

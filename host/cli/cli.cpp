@@ -4,12 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/model/noted_error.hpp"
 #include "core/text/printable.hpp"
 #include "host/cli/command.hpp"
+#include "host/cli/completing.hpp"
 #include "host/cli/help_format.hpp"
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
@@ -21,13 +23,13 @@ namespace {
 
 /// All commands, in the order of the help.
 constexpr std::unique_ptr<Command> (*makers[])() = {
-    make_inspect,  make_new,                                 // a model
-    make_dry_run,  make_plan,   make_curve,  make_simulate,  // without a printer
-    make_setup,    make_ports,  make_doctor, make_tune,     make_print,
-    make_resume,                                                         // with a printer
-    make_serve,    make_queue,  make_start,  make_status,   make_pause,  // with a daemon
-    make_answer,   make_cancel, make_stop,   make_set,      make_token,
-    make_check_job};  // of the daemon's own
+    make_inspect,    make_new,                                   // a model
+    make_dry_run,    make_plan,     make_curve,  make_simulate,  // without a printer
+    make_setup,      make_ports,    make_doctor, make_tune,     make_print,
+    make_resume,                                                             // with a printer
+    make_serve,      make_queue,    make_start,  make_status,   make_pause,  // with a daemon
+    make_answer,     make_cancel,   make_stop,   make_set,      make_token,
+    make_completion, make_check_job};  // of the daemon's own
 
 /// A misspelt command differs by at most this many letters from the one that was meant.
 constexpr std::size_t most_misspelt_letters = 2;
@@ -52,6 +54,11 @@ class CommandLine {
   }
 
   Exit run(int argc, char** argv) {
+    // The rest is an unfinished command line, which cannot be parsed.
+    if (argc > 1 && std::string_view(argv[1]) == "complete") {
+      show(stdout, "{}", answer_of(completion_of(app_, {argv + 2, argv + argc})));
+      return Exit::success;
+    }
     check_command(argc, argv);
     try {
       app_.parse(argc, argv);

@@ -53,6 +53,8 @@ std::unique_ptr<Command> make_stop();
 std::unique_ptr<Command> make_set();
 std::unique_ptr<Command> make_token();
 
+std::unique_ptr<Command> make_completion();
+
 std::unique_ptr<Command> make_check_job();
 
 }  // namespace unicursal::host

@@ -143,7 +143,7 @@ CLI::App& Curve::declare(CLI::App& program) {
   add_value(app, "JOB", options_.job, " ",
             "The job, a TOML file (see unicursal-job(5)), or a model: .svg, .stl, .3mf, .obj or .amf.")
       .required();
-  add_value(app, "--profile", options_.profile, "FILE",
+  add_value(app, "--profile", options_.profile, "PROFILE",
             "Use this printer profile instead of the one that the job names.")
       .group("Job");
   add_value(app, "--layer", options_.layer, "N", "Layer, counted from 0. Default: 0.")

@@ -22,7 +22,7 @@ class Doctor final : public Command {
                                 "Ask a printer what it can do and report what would go wrong.",
                                 "unicursal doctor --port auto --profile diamond.toml");
     declare_port(app, port_, "the profile's port, or auto");
-    add_value(app, "--profile", profile_, "FILE", "Compare the printer with this profile.");
+    add_value(app, "--profile", profile_, "PROFILE", "Compare the printer with this profile.");
     add_value(app, "--baud", baud_, "RATE", "Bits per second. Default: the profile's rate, or 250000.")
         .check(integer_between(300, 4'000'000));
     app.add_flag("--json", json_, "Write the findings as JSON.")->group("Output");

@@ -20,9 +20,9 @@ class Inspect final : public Command {
     CLI::App& app =
         add_command(program, "inspect", "Prepare a job", "Show what a model holds, and whether it fits.",
                     "unicursal inspect leaf.svg");
-    add_value(app, "FILE", file_, " ", "The model: .svg, .stl, .3mf, .obj or .amf.").required();
+    add_value(app, "MODEL", file_, " ", "The model: .svg, .stl, .3mf, .obj or .amf.").required();
     add_value(
-        app, "--profile", profile_, "FILE",
+        app, "--profile", profile_, "PROFILE",
         "Printer on which it is to fit. Default: unicursal/printer.toml in ~/.config, or a common frame.");
     return app;
   }

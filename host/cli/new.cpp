@@ -23,13 +23,13 @@ class New final : public Command {
     CLI::App& app = add_command(program, "new", "Prepare a job",
                                 "Write a job for a model, with one zone for each colour or body.",
                                 "unicursal new leaf.svg -o leaf.toml");
-    app.add_option("FILE", files_, "The model: one .svg file, or .stl, .3mf, .obj and .amf files.")
+    app.add_option("MODEL", files_, "The model: one .svg file, or .stl, .3mf, .obj and .amf files.")
         ->option_text(" ")
         ->required();
     add_value(app, "-o,--output", output_, "FILE",
               "The job file to write, which must not exist yet. Required.")
         .required();
-    add_value(app, "--profile", profile_, "FILE",
+    add_value(app, "--profile", profile_, "PROFILE",
               "Profile of the printer. Default: unicursal/printer.toml in ~/.config, or a common frame.");
     return app;
   }

@@ -87,7 +87,7 @@ CLI::App& Queue::declare(CLI::App& program) {
   add_note(app, "Without options the command lists the queue.");
   app.add_flag("--jobs", list_jobs_, "List the jobs in the daemon's folders, which can be added.");
   CLI::Option& add = add_value(app, "--add", add_, "JOB", "Add a job or a model from the daemon's folders.");
-  add_value(app, "--upload", upload_, "FILE",
+  add_value(app, "--upload", upload_, "JOB",
             "Send a job of your own with the files that it names, or a model, and add it.")
       .excludes(&add);
   declare_layers(app, layers_, "Print only these layers of the job: A to B, counted from 0, both included.");
@@ -123,7 +123,7 @@ Exit Queue::list(const Client& client) const {
   const json& jobs = answer.at("jobs");
   if (jobs.empty())
     show(stdout, "{}\n",
-         list_jobs_ ? "the daemon's folders hold no jobs; `unicursal queue --upload FILE` sends one"
+         list_jobs_ ? "the daemon's folders hold no jobs; `unicursal queue --upload JOB` sends one"
                     : "the queue is empty; `unicursal queue --add JOB` adds a job");
   for (const json& job : jobs) show(stdout, "{}\n", job.is_string() ? job.get<std::string>() : job_text(job));
   return Exit::success;

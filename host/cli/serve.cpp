@@ -21,7 +21,7 @@ class Serve final : public Command {
                                 "Own the printer, keep a queue of jobs, and be controlled over HTTP.",
                                 "unicursal serve --port /dev/ttyUSB0 --profile diamond.toml --jobs ~/jobs");
     declare_port(app, daemon.port, "the profile's port");
-    add_value(app, "--profile", daemon.profile, "FILE",
+    add_value(app, "--profile", daemon.profile, "PROFILE",
               "Use this printer profile for all jobs instead of the profiles that they name.");
     add_values(app, "--jobs", daemon.jobs, "DIR", "Folder of jobs that clients may queue. May be repeated.");
     add_value(app, "--listen", listen_, "ADDRESS",

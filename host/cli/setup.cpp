@@ -81,7 +81,7 @@ class Setup final : public Command {
     add_value(app, "--port", port_, "PORT", "The printer's port, auto, or none: do not ask for it.");
     add_value(app, "--baud", baud_, "RATE", "Bits per second. Default: 250000, then 115200.")
         .check(integer_between(300, 4'000'000));
-    add_value(app, "--frame", frame_, "NAME", "The shipped profile to begin with: do not ask for it.");
+    add_value(app, "--frame", frame_, "FRAME", "The shipped profile to begin with: do not ask for it.");
     add_note(app, "Nothing moves and nothing heats.");
     return app;
   }

@@ -75,7 +75,7 @@ CLI::App& Simulate::declare(CLI::App& program) {
       .group("Output");
   add_value(app, "--transcript", options.transcript, "FILE", "Write each command when it is executed.")
       .group("Output");
-  add_value(app, "--profile", profile_, "FILE", "Simulate the printer that this profile describes.")
+  add_value(app, "--profile", profile_, "PROFILE", "Simulate the printer that this profile describes.")
       .group("Simulated printer");
   printer_.declare(app);
   return app;

@@ -35,8 +35,8 @@ class AnswerQuestion final : public Command {
         add_command(program, "answer", "Daemon",
                     "Answer the question that the daemon's printer asks, by the number of a button.",
                     "unicursal answer 1");
-    app.add_option("NUMBER", button_, "The button's number, from 0; `unicursal status` shows them.")
-        ->required()
+    add_value(app, "NUMBER", button_, " ", "The button's number, from 0; `unicursal status` shows them.")
+        .required()
         ->check(integer_between(0, 9));
     access_.declare(app);
     return app;

@@ -286,7 +286,7 @@ void Tune::declare_printing(CLI::App& app) {
       app.add_flag("--simulate", options_.simulate, "Print the strip on the simulated printer.")
           ->excludes(&port);
   simulate->option_text(" ")->group(group);
-  add_value(app, "--machine", options_.machine, "FILE",
+  add_value(app, "--machine", options_.machine, "PROFILE",
             "Profile with the true volumes of the simulated printer. Needs --simulate.")
       .needs(simulate)
       ->group("Simulated printer");

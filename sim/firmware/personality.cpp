@@ -88,18 +88,28 @@ Personality reprapfirmware() {
   return one;
 }
 
+const auto& all_personalities() {
+  static const std::array all{marlin(),           marlin_8bit(), marlin_advanced_ok(), marlin_host(),
+                              marlin_few_tools(), repetier(),    repetier_092(),       reprapfirmware()};
+  return all;
+}
+
 }  // namespace
 
 const Personality& personality(std::string_view name) {
-  static const std::array all{marlin(),           marlin_8bit(), marlin_advanced_ok(), marlin_host(),
-                              marlin_few_tools(), repetier(),    repetier_092(),       reprapfirmware()};
   std::string names;
-  for (const Personality& one : all) {
+  for (const Personality& one : all_personalities()) {
     if (one.name == name) return one;
     names += (names.empty() ? "" : ", ") + std::string(one.name);
   }
   throw std::invalid_argument("there is no personality \"" + std::string(name) + "\"; the names are " +
                               names);
+}
+
+std::vector<std::string> personality_names() {
+  std::vector<std::string> names;
+  for (const Personality& one : all_personalities()) names.emplace_back(one.name);
+  return names;
 }
 
 }  // namespace unicursal::sim

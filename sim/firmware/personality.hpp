@@ -37,4 +37,7 @@ struct Personality {
 /// Throws std::invalid_argument, whose message lists them.
 const Personality& personality(std::string_view name);
 
+/// The names of all.
+std::vector<std::string> personality_names();
+
 }  // namespace unicursal::sim

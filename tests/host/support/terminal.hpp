@@ -26,6 +26,7 @@ namespace unicursal::test {
 struct TerminalKind {
   unsigned short columns = 100;
   std::map<std::string, std::string> environment = {};  ///< TERM and the like; without: a monochrome xterm
+  std::string program = test::program();                ///< or a shell, found in PATH
 };
 
 /// The program in a terminal of its own.
@@ -35,7 +36,7 @@ class Terminal {
   explicit Terminal(std::vector<std::string> arguments, const std::string& config = "/nonexistent",
                     const TerminalKind& kind = {})
       : screen_(kind.columns) {
-    arguments.insert(arguments.begin(), test::program());
+    arguments.insert(arguments.begin(), kind.program);
     std::vector<char*> pointers;
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
@@ -48,7 +49,7 @@ class Terminal {
       unsetenv("NO_COLOR");
       setenv("TERM", "xterm", 1);
       for (const auto& [name, value] : kind.environment) setenv(name.c_str(), value.c_str(), 1);
-      execv(pointers[0], pointers.data());
+      execvp(pointers[0], pointers.data());
       _exit(127);
     }
     fcntl(master_, F_SETFL, O_NONBLOCK);
