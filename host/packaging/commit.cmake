@@ -2,7 +2,8 @@
 # set, with a hash and seconds since 1970; otherwise the file `commit` in an archive that git has made; otherwise
 # git. Without any of them both are empty.
 #
-# Run as a script, it writes a file of C++ from a template, with @UNICURSAL_ORIGIN@ as "(commit HASH, DATE)".
+# Run as a script, it fills a template: @UNICURSAL_ORIGIN@ is " (commit HASH, DATE)" or empty, and @UNICURSAL_DATE@ is
+# the time of the commit in the form of RFC 5322, or else the present.
 
 function(unicursal_commit sources hash seconds)
   set(${hash} "" PARENT_SCOPE)
@@ -38,5 +39,6 @@ if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
     string(TIMESTAMP date "%Y-%m-%d" UTC)
     set(UNICURSAL_ORIGIN " (commit ${hash}, ${date})")
   endif()
+  string(TIMESTAMP UNICURSAL_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
   configure_file(${TEMPLATE} ${OUTPUT} @ONLY)
 endif()

@@ -14,9 +14,9 @@ using test::Terminal;
 
 namespace {
 
-const std::vector<std::string> commands{"inspect", "new",   "dry-run", "plan",   "curve", "simulate",
-                                        "setup",   "ports", "doctor",  "tune",   "print", "resume",
-                                        "serve",   "queue", "start",   "status", "pause", "answer",
+const std::vector<std::string> commands{"inspect", "new",   "dry-run", "plan",   "curve",     "simulate",
+                                        "setup",   "ports", "doctor",  "tune",   "print",     "resume",
+                                        "serve",   "queue", "start",   "status", "pause",     "answer",
                                         "cancel",  "stop",  "set",     "token",  "completion"};
 
 }  // namespace
