@@ -1,6 +1,7 @@
 // The innermost loops over points and segments: eight at a time as floats relative to a tile of a lattice, or
-// four at a time as doubles where exactness matters. Each loop is compiled in two versions, one of which is
-// chosen at run time. Neither fuses multiplications and additions, so both give the same bytes.
+// four at a time as doubles where exactness matters. On x86 each loop is compiled in two versions, for SSE2
+// and for AVX2, one of which is chosen at run time; on 64-bit ARM in one, for NEON, which all these
+// processors have. None fuses multiplications and additions, so all give the same bytes.
 #pragma once
 
 #include <array>
