@@ -23,7 +23,9 @@ std::vector<Vec2> triangular_tiling(const Polygon& domain, const SeedOptions& op
   const double along = d * std::sqrt(options.stretch), across = d / std::sqrt(options.stretch);
   const Vec2 row(std::cos(angle), std::sin(angle));
   const Vec2 u = along * row, v = along / 2 * row + across * std::sqrt(3) / 2 * perpendicular(row);
-  const Vec2 origin = box.center() + random.uniform() * u + random.uniform() * v;
+  // The language leaves open which operand of a sum is computed first.
+  const double share_of_v = random.uniform(), share_of_u = random.uniform();
+  const Vec2 origin = box.center() + share_of_u * u + share_of_v * v;
   const double closest = std::min(along, across);
   const auto reach = static_cast<int>(std::ceil(box.size().norm() / closest / std::sqrt(3.0) * 1.2)) + 1;
   const BorderIndex border(domain, d);

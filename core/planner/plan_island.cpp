@@ -42,8 +42,11 @@ void leave_straight_lines(Ring& ring, double bead_width, std::uint64_t seed) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2 in = before[i] - before[(i + ring.size() - 1) % ring.size()];
     const Vec2 out = before[(i + 1) % ring.size()] - before[i];
-    if (std::abs(cross(in, out)) < straight * in.norm() * out.norm())
-      ring[i] += most * bead_width * Vec2(random.uniform(-1, 1), random.uniform(-1, 1));
+    if (std::abs(cross(in, out)) < straight * in.norm() * out.norm()) {
+      // The language leaves open which argument is computed first.
+      const double y = random.uniform(-1, 1), x = random.uniform(-1, 1);
+      ring[i] += most * bead_width * Vec2(x, y);
+    }
   }
 }
 
