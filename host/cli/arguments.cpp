@@ -164,11 +164,10 @@ void SimulatedPrinter::declare(CLI::App& app) {
 }
 
 void SimulatedPrinter::check() const {
-  constexpr auto remedy = "`unicursal simulate --help` lists the possible values";
   try {
     sim::check(options);
   } catch (const std::invalid_argument& error) {
-    throw core::DataError("", "", error.what(), remedy);
+    throw core::DataError("", "", error.what(), "");  // it names what is possible
   } catch (const std::system_error& error) {
     throw core::DataError("", "", error.what(), "check the file's name and permissions");
   }

@@ -9,14 +9,13 @@
 
 #include "core/error.hpp"
 #include "core/model/noted_error.hpp"
-#include "core/text/printable.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/completing.hpp"
 #include "host/cli/help_format.hpp"
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/cli/version.hpp"
-#include "host/job/nearest.hpp"
+#include "host/cli/wrong_usage.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -30,9 +29,6 @@ constexpr std::unique_ptr<Command> (*makers[])() = {
     make_serve,      make_queue,    make_start,  make_status,   make_pause,  // with a daemon
     make_answer,     make_cancel,   make_stop,   make_set,      make_token,
     make_completion, make_check_job};  // of the daemon's own
-
-/// A misspelt command differs by at most this many letters from the one that was meant.
-constexpr std::size_t most_misspelt_letters = 2;
 
 class CommandLine {
  public:
@@ -59,14 +55,14 @@ class CommandLine {
       show(stdout, "{}", answer_of(completion_of(app_, {argv + 2, argv + argc})));
       return Exit::success;
     }
-    check_command(argc, argv);
+    check_words(app_, argc, argv);
     try {
       app_.parse(argc, argv);
     } catch (const CLI::Success& answer) {
       // CLI11 reports --help and --version as exceptions.
       return app_.exit(answer) == 0 ? Exit::success : Exit::failed;
     } catch (const CLI::ParseError& error) {
-      throw core::DataError("", "", error.what(), "see `" + parsed_command() + " --help`");
+      throw usage_error(app_, error);
     }
     for (const auto& [command, app] : commands_) {
       if (app->parsed()) return command->run();
@@ -75,36 +71,10 @@ class CommandLine {
   }
 
  private:
-  /// The command as far as it was recognised: "unicursal plan".
-  std::string parsed_command() const {
-    std::string words = app_.get_name();
-    for (const CLI::App* app = &app_; !app->get_subcommands().empty();) {
-      app = app->get_subcommands().front();
-      words += " " + app->get_name();
-    }
-    return words;
-  }
-
   struct Declared {
     std::unique_ptr<Command> command;
     CLI::App* app;
   };
-
-  /// CLI11 would only report that a command is missing.
-  void check_command(int argc, char** argv) const {
-    if (argc < 2 || argv[1][0] == '-') return;
-    const std::string given = argv[1];
-    std::vector<std::string> names;
-    for (const Declared& known : commands_) {
-      if (known.app->get_name() == given) return;
-      if (!known.app->get_group().empty()) names.push_back(known.app->get_name());  // others are not listed
-    }
-    const std::string meant = nearest(given, names);
-    const std::size_t distance = edit_distance(given, meant);
-    throw core::DataError("", "", "there is no command \"" + core::printable(given) + "\"",
-                          distance <= most_misspelt_letters ? "did you mean \"" + meant + "\"?"
-                                                            : "`unicursal --help` lists the commands");
-  }
 
   CLI::App app_{
       "Prints each layer as one closed space-filling curve, on printers with three feeders and one "

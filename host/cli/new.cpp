@@ -47,14 +47,13 @@ Exit New::run() {
     throw core::DataError(output_.string(), "", "this file exists already",
                           "choose another name, or delete it first");
   }
-  std::optional<fs::path> profile = profile_ ? profile_ : own_profile();
-  if (!profile) {
-    profile = common_frame();
+  const std::optional<fs::path> named = profile_ ? profile_ : own_profile();
+  const fs::path profile = named ? *named : common_frame();
+  const ModelJob job = model_job(files_, load_profile(profile), output_.parent_path());
+  if (!named)
     show_note(
         "no profile is named: a common frame with a nozzle of 0.6 mm is assumed; change `printer` in the "
         "job");
-  }
-  const ModelJob job = model_job(files_, load_profile(*profile), output_.parent_path());
   for (const std::string& note : job.contents.notes) show_note(note);
   write_whole_file(output_, job.text);
   show(stdout, "written: {}, with {} {}\n", output_.string(), job.contents.zones.size(),

@@ -34,7 +34,9 @@ fs::path root_of(const ResumeOptions& options) {
 }
 
 Exit list(const fs::path& root) {
-  for (const fs::path& folder : kept_prints(root)) {
+  const std::vector<fs::path> prints = kept_prints(root);
+  if (prints.empty()) show(stdout, "no prints are kept in {}\n", root.string());
+  for (const fs::path& folder : prints) {
     std::string what;
     try {
       what = describe(folder);

@@ -125,11 +125,15 @@ std::optional<FoundPrinter> Setup::examined(const std::string& port) const {
       options.temperatures = {};  // it would go on with automatic reports afterwards
       const int open = open_port(port, baud, options);
       return FoundPrinter{examine_port(open, options), baud, port};
+    } catch (const PortError& error) {
+      if (port_) throw;
+      problem = error.what();
+      break;  // at no other rate either
     } catch (const LinkError& error) {
       problem = error.what();
     }
   }
-  show(stdout, "  {}\n", problem);
+  if (!port_) show(stdout, "  {}\n", problem);
   return std::nullopt;
 }
 

@@ -83,7 +83,9 @@ void Terminal::make_link() {
     }
     std::filesystem::remove(link);
   }
-  std::filesystem::create_symlink(path_, link);
+  std::error_code problem;
+  std::filesystem::create_symlink(path_, link, problem);
+  if (problem) throw std::filesystem::filesystem_error("no link", link, problem);
   link_ = link;
 }
 

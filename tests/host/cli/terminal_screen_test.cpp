@@ -61,8 +61,9 @@ TEST_CASE("the progress of a print fits a window of 60, 80 or 120 columns") {
 }
 
 TEST_CASE("what a person types stands on a line of its own, and every command is answered") {
+  const int width = GENERATE(60, 80, 120);
   const Bench bench;
-  Terminal terminal(bench.print(), "/nonexistent", {60});
+  Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width)});
   terminal.await("printing layer 1");
   terminal.type("speed 1");
   terminal.await("> speed 1");
@@ -96,8 +97,9 @@ TEST_CASE("what a person types stands on a line of its own, and every command is
 }
 
 TEST_CASE("a print says when and after how long it was done, what had been foretold and what it used") {
+  const int width = GENERATE(60, 80, 120);
   const Bench bench("height = 0.4");
-  Terminal terminal(bench.print(), "/nonexistent", {80});
+  Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width)});
   CHECK(terminal.wait() == 0);
   const std::string done = terminal.screen().last_row("done at ");
   CHECK_THAT(done, Contains(", after ") && Contains(" had been foretold"));
@@ -127,8 +129,10 @@ TEST_CASE("a dumb terminal gets whole lines") {
 }
 
 TEST_CASE("a dry run shows its own progress, and the print's time at the end", "[optimised]") {
+  const int width = GENERATE(60, 80, 120);
   const Bench bench("height = 8.0");
-  Terminal terminal({"dry-run", bench.path("job.toml")}, "/nonexistent", {80});
+  Terminal terminal({"dry-run", bench.path("job.toml")}, "/nonexistent",
+                    {static_cast<unsigned short>(width)});
   terminal.await("dry run layer");
   CHECK(terminal.wait() == 0);
   CHECK(terminal.screen().last_row("printing layer").empty());
