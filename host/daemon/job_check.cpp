@@ -23,6 +23,7 @@
 #include <mutex>
 #include <new>
 #include <set>
+#include <sstream>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -192,10 +193,28 @@ std::vector<std::string> words_for(const JobCheck& check) {
   return words;
 }
 
-std::string verdict(const JobCheck& check, int status, std::string said, bool late) {
-  constexpr std::string_view prefix = "unicursal: ";
-  if (said.starts_with(prefix)) said.erase(0, prefix.size());
-  said.resize(said.find_last_not_of('\n') + 1);
+/// What a child has said: notes, and behind them the refusal, which comes first here.
+std::string in_one_sentence(const std::string& said) {
+  constexpr std::string_view refusal_mark = "unicursal: ", note_mark = "note: ";
+  constexpr std::size_t most_notes = 3;
+  std::string refusal, notes;
+  std::size_t count = 0;
+  std::istringstream lines(said);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(refusal_mark)) {
+      refusal += line.substr(refusal_mark.size());
+    } else if (line.starts_with(note_mark)) {
+      if (++count <= most_notes) notes += (notes.empty() ? "" : "; ") + line.substr(note_mark.size());
+    } else {
+      refusal += line;
+    }
+  }
+  if (count > most_notes) notes += fmt::format("; and {} more notes", count - most_notes);
+  return notes.empty() ? refusal : refusal + " (noted before: " + notes + ")";
+}
+
+std::string verdict(const JobCheck& check, int status, const std::string& output, bool late) {
+  const std::string said = in_one_sentence(output);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))
     return too_slow(check.limits);
@@ -237,7 +256,7 @@ asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop
   if (said.size() == longest_sentence) child.kill();
   const int status = child.wait();
   if (stop.stop_requested()) throw core::Stopped();
-  co_return verdict(check, status, std::move(said), shared->late);
+  co_return verdict(check, status, said, shared->late);
 }
 
 void check_here(const JobCheck& check) {

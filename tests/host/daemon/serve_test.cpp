@@ -454,3 +454,25 @@ TEST_CASE("an upload that was swapped after its job had ended is read by a child
   CHECK(bench.daemon().running());
   CHECK(job(bench, id)["reason"].get<std::string>().find("time") != std::string::npos);
 }
+
+TEST_CASE("an upload is refused with the notes of its reader, behind the refusal") {
+  DaemonBench bench;
+  bench.serve();
+  bench.folder().write(
+      "lines.svg",
+      "<svg xmlns='http://www.w3.org/2000/svg' width='20mm' height='16mm' viewBox='0 0 20 16'>"
+      "<rect id='cut' width='9' height='9' fill='none' stroke='red' stroke-width='0.1'/></svg>");
+  bench.folder().write("bench.toml", test::sample_profile);
+  const std::string job = test::replaced(test::sample_job, "plate.svg", "lines.svg");
+  const Outcome refused =
+      bench.command({"queue", "--upload", bench.folder().write("job.toml", job).string()});
+  INFO(refused.err);
+  CHECK(refused.code == 2);
+  CHECK(count(refused.err, "unicursal: ") == 1);
+  CHECK(count(refused.err, "\n") == 1);
+  CHECK(refused.err.find("note: ") == std::string::npos);
+  const auto refusal = refused.err.find("outline = \"strokes\" in [part] if they are contours"),
+             note = refused.err.find("(noted before: line 1: <rect id=\"cut\">");
+  REQUIRE(note != std::string::npos);
+  CHECK(refusal < note);
+}
