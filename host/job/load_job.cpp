@@ -20,7 +20,7 @@ namespace {
 constexpr double least_flow = 0.01, most_flow = 1000;  ///< mm³/s; below, moves are slower than firmwares can
 
 /// Spacing of the curve ÷ distance of the seeds; the inverse of what the planner takes (tests/bench/spacing).
-constexpr double bead_width_per_seed_distance = 1 / 1.4;
+constexpr double bead_width_per_seed_distance = 1 / 2.05;
 
 /// Far above anything printable, so that a typing error is reported instead of filling the memory.
 constexpr double greatest_length = 10000;  // mm

@@ -58,6 +58,7 @@ TEST_CASE("The other forms of placement, deposit and seed distance are read") {
   CHECK(both.bead_width == 1.0);
   const Job seeds = load(replaced(sample_job, "bead_width = 1.0", "seed_distance = 1.5"));
   CHECK(seeds.bead_width == bead_width_from_seed_distance(1.5));
+  CHECK(bead_width_from_seed_distance(2.05) == Approx(1));  // as the planner places seeds for a bead width
 }
 
 TEST_CASE("Patterns are read into their types") {
