@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <fstream>
 #include <optional>
 #include <set>
 
@@ -124,6 +125,10 @@ std::vector<PortInfo> matching_ports(const std::vector<PortInfo>& ports, std::st
   return matching;
 }
 
+bool must_answer(const std::vector<PortInfo>& meant, std::string_view wanted) {
+  return meant.size() > 1 || (wanted == "auto" && !meant.front().usb);
+}
+
 std::string stable_name_of(const std::string& device, const std::filesystem::path& folder) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
@@ -132,6 +137,12 @@ std::string stable_name_of(const std::string& device, const std::filesystem::pat
       return entry.path().string();
   }
   return {};
+}
+
+bool has_chip(const std::string& path, const std::filesystem::path& folder) {
+  std::ifstream type(folder / std::filesystem::path(path).filename() / "type");
+  int number = -1;
+  return !(type >> number) || number != 0;
 }
 
 int open_answering_port(const std::vector<PortInfo>& ports, unsigned baud) {

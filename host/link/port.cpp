@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <system_error>
@@ -172,14 +171,6 @@ std::string device_words(const sp_port* port) {
   return maker.empty() || product.starts_with(maker) ? product : product + ", by " + maker;
 }
 
-/// The kernel lists serial ports that a board could have; `type` is 0 (PORT_UNKNOWN) where it has found no
-/// chip (Documentation/ABI/testing/sysfs-tty).
-bool has_chip(const std::string& path) {
-  std::ifstream type("/sys/class/tty/" + fs::path(path).filename().string() + "/type");
-  int number = -1;
-  return !(type >> number) || number != 0;
-}
-
 }  // namespace
 
 std::vector<PortInfo> list_ports() {
@@ -208,8 +199,7 @@ int open_port(const std::string& path, unsigned baud) {
 int open_port(const std::string& path, unsigned baud, LinkOptions& options) {
   const std::vector<PortInfo> meant = matching_ports(list_ports(), path);
   if (meant.empty()) throw PortError("no such serial port was found; plug the printer in and switch it on");
-  // What hangs on a port that is not on USB is unknown until it answers.
-  if (meant.size() > 1 || (path == "auto" && !meant.front().usb)) {
+  if (must_answer(meant, path)) {
     options.boot = {};
     return open_answering_port(meant, baud);
   }

@@ -55,6 +55,30 @@ TEST_CASE("a port is chosen by path, by USB numbers, or as a likely port of a pr
   CHECK(matching_ports({}, "auto").empty());
 }
 
+TEST_CASE("a port without a chip is not one, and one of an unknown kind is") {
+  const test::TempFolder folder;
+  for (const auto& [name, type] : std::vector<std::pair<std::string, std::string>>{
+           {"ttyS0", "4\n"}, {"ttyS1", "0\n"}, {"ttyS2", "nonsense\n"}, {"ttyUSB0", ""}}) {
+    std::filesystem::create_directory(folder / name);
+    if (!type.empty()) folder.write(name + "/type", type);
+  }
+  const auto known = [&](const char* port) { return has_chip(port, folder.path()); };
+  CHECK(known("/dev/ttyS0"));
+  CHECK_FALSE(known("/dev/ttyS1"));
+  CHECK(known("/dev/ttyS2"));
+  CHECK(known("/dev/ttyUSB0"));
+  CHECK(known("/dev/pts/3"));
+  for (const PortInfo& port : list_ports()) CHECK((port.usb || has_chip(port.path)));
+}
+
+TEST_CASE("auto asks a port that is not on USB, and one of several, before it takes it") {
+  const std::vector<PortInfo> on_board{listed.back()}, on_usb{listed[1]};
+  CHECK(must_answer(on_board, "auto"));
+  CHECK_FALSE(must_answer(on_usb, "auto"));
+  CHECK_FALSE(must_answer(on_board, "/dev/ttyS0"));
+  CHECK(must_answer(matching_ports(listed, "auto"), "auto"));
+}
+
 TEST_CASE("among several ports the one that answers as a printer is chosen") {
   FakePrinter silent({.inwards = [](const std::string&) { return std::string(); }, .boots = false});
   FakePrinter printer({.boots = false});
