@@ -11,14 +11,6 @@ using namespace unicursal::core::test;
 
 namespace {
 
-PlanOptions options_for(double w, std::uint64_t seed = 1) {
-  PlanOptions options;
-  options.bead_width = w;
-  options.min_bead_width = 0.55 * w;
-  options.seed = seed;
-  return options;
-}
-
 void check_plan(const IslandPlan& plan, const Polygon& outline, double w) {
   REQUIRE(fault_of(plan, outline, std::vector<Zone>(4), w) == "");
 }

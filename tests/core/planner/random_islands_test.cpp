@@ -13,14 +13,6 @@ using namespace unicursal::core::test;
 
 namespace {
 
-PlanOptions options_for(double w, std::uint64_t seed) {
-  PlanOptions options;
-  options.bead_width = w;
-  options.min_bead_width = 0.55 * w;
-  options.seed = seed;
-  return options;
-}
-
 /// Each island has its own seed, so that an island that fails can be reproduced alone.
 void check_islands(std::uint64_t first, std::uint64_t count, double largest) {
   for (std::uint64_t k = first; k < first + count; ++k) {

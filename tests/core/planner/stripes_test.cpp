@@ -18,14 +18,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-PlanOptions options_for(double w, std::uint64_t seed) {
-  PlanOptions options;
-  options.bead_width = w;
-  options.min_bead_width = 0.55 * w;
-  options.seed = seed;
-  return options;
-}
-
 std::vector<Zone> zones_of(PatternKind kind, double angle = 0) {
   std::vector<Zone> zones(1);
   zones[0].pattern.kind = kind;

@@ -6,6 +6,7 @@
 
 #include "core/stripes/zero_lines.hpp"
 #include "tests/core/support/fields.hpp"
+#include "tests/core/support/phases.hpp"
 #include "tests/core/support/shapes.hpp"
 
 using namespace unicursal::core;
@@ -14,11 +15,6 @@ using namespace unicursal::core::test;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Phase phase_of(const Polygon& region, const DirectionField& field, double w) {
-  const BorderIndex border(region, w);
-  return find_phase(stripe_grid(region, border, field, w), border, w);
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 
 #include "core/curve/clearance.hpp"
 #include "tests/core/support/fields.hpp"
+#include "tests/core/support/phases.hpp"
 #include "tests/core/support/random_islands.hpp"
 
 using namespace unicursal::core;
@@ -12,8 +13,7 @@ using namespace unicursal::core::test;
 namespace {
 
 std::vector<Curve> loops_of(const Polygon& region, const DirectionField& field, double w) {
-  const BorderIndex border(region, w);
-  return zero_lines(find_phase(stripe_grid(region, border, field, w), border, w), region, border, w);
+  return zero_lines(phase_of(region, field, w), region, BorderIndex(region, w), w);
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ TEST_CASE("zero lines are simple, lie inside, and have the negative values on th
     const DirectionField field =
         field_of(island, w / 4, [&](const Vec2& p) { return start + bend * p.x() + std::sin(bend * p.y()); });
     const BorderIndex border(island, w);
-    const Phase phase = find_phase(stripe_grid(island, border, field, w), border, w);
+    const Phase phase = phase_of(island, field, w);
     const std::vector<Curve> loops = zero_lines(phase, island, border, w);
     CAPTURE(k, loops.size());
     REQUIRE(!loops.empty());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "core/curve/clearance.hpp"
@@ -11,6 +12,15 @@
 namespace unicursal::core::test {
 
 constexpr double least_relative_area_error = 1e-9;
+
+/// Options for beads of width `w`.
+inline PlanOptions options_for(double w, std::uint64_t seed = 1) {
+  PlanOptions options;
+  options.bead_width = w;
+  options.min_bead_width = 0.55 * w;
+  options.seed = seed;
+  return options;
+}
 
 /// Describes the first fault of a curve; empty for a sound one.
 inline std::string fault_of(const PlannedCurve& curve, const Polygon& outline,

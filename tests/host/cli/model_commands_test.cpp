@@ -16,9 +16,6 @@ using test::Outcome;
 using test::run;
 using test::TempFolder;
 
-/// The profile of the user who runs the tests does not count.
-const int no_own_profile = setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
-
 /// Two boxes of 8 x 8 x 1 mm, one of them `gap` mm above the other, as facets of an STL file.
 std::string boxes(double gap) {
   std::string text = "solid two\n";

@@ -6,6 +6,7 @@
 #include "host/engine/prepared_job.hpp"
 #include "host/job/load_job.hpp"
 #include "tests/host/support/mesh_files.hpp"
+#include "tests/host/support/refusal.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
 
@@ -13,20 +14,12 @@ namespace unicursal::host {
 namespace {
 
 using Catch::Matchers::Contains;
+using test::refusal;
 using test::replaced;
 using test::TempFolder;
 
 std::string box(double x, int first) {
   return test::box_obj({10, 10, 3}, x, first);
-}
-
-std::string refusal(const std::filesystem::path& job) {
-  try {
-    prepare(load_job(job));
-  } catch (const core::DataError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace

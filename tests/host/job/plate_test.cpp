@@ -7,12 +7,14 @@
 #include "host/spool/spool.hpp"
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/mesh_files.hpp"
+#include "tests/host/support/refusal.hpp"
 #include "tests/host/support/sample_job.hpp"
 
 namespace unicursal::host {
 namespace {
 
 using Catch::Matchers::Contains;
+using test::refusal;
 using test::TempFolder;
 
 /// A folder with a profile whose bed is 120 x 100 x 80 mm, and models.
@@ -39,15 +41,6 @@ struct Bench {
   }
   TempFolder folder;
 };
-
-std::string refusal(const std::filesystem::path& job) {
-  try {
-    prepare(load_job(job));
-  } catch (const core::DataError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 }  // namespace
 
