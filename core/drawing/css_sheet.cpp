@@ -14,17 +14,28 @@ constexpr std::size_t most_work = 200'000'000;  ///< comparisons of elements wit
 constexpr std::size_t bytes_per_work = 16;      ///< of a list of classes
 constexpr int deepest_block = 8;                ///< of @media in @media
 
+/// Follows quotation marks through a text.
+class Quotes {
+ public:
+  /// Whether the next character is a quotation mark or stands between two.
+  bool contain(char c) {
+    const bool inside = mark_ != '\0';
+    if (inside ? c == mark_ : c == '"' || c == '\'') mark_ = inside ? '\0' : c;
+    return inside || mark_ != '\0';
+  }
+
+ private:
+  char mark_ = '\0';  ///< the one that is open
+};
+
 /// The offset of the first of `stops` outside of quotes, parentheses and brackets; the text's size if none.
 std::size_t find_outside(std::string_view text, std::string_view stops) {
-  char quote = '\0';
+  Quotes quotes;
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (quote != '\0') {
-      if (c == quote) quote = '\0';
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '(' || c == '[') {
+    if (quotes.contain(c)) continue;
+    if (c == '(' || c == '[') {
       ++depth;
     } else if (c == ')' || c == ']') {
       depth = std::max(0, depth - 1);
@@ -38,14 +49,11 @@ std::size_t find_outside(std::string_view text, std::string_view stops) {
 /// The offset behind the '}' that closes the '{' at the text's start.
 std::size_t end_of_block(std::string_view text) {
   int depth = 0;
-  char quote = '\0';
+  Quotes quotes;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (quote != '\0') {
-      if (c == quote) quote = '\0';
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '{') {
+    if (quotes.contain(c)) continue;
+    if (c == '{') {
       ++depth;
     } else if (c == '}' && --depth == 0) {
       return i + 1;

@@ -62,6 +62,17 @@ void Scene::cut(const pugi::xml_node& node, Entered& entered) {
   }
 }
 
+/// A clip path of a clip path, and a mask of a mask, act in the frame of the element that is cut.
+Region Scene::cut_further(Region region, const pugi::xml_node& node, const Entered& entered,
+                          const std::string& clip_path, const std::string& mask) {
+  Entered same = entered;
+  same.style.clip_path = clip_path;
+  same.style.mask = mask;
+  same.context.clip = std::make_shared<const Region>(std::move(region));
+  cut(node, same);
+  return *same.context.clip;
+}
+
 std::shared_ptr<const Region> Scene::clip_region(const pugi::xml_node& clip, const pugi::xml_node& node,
                                                  const Entered& entered) {
   const bool shares = by_box(clip, "clipPathUnits", false);
@@ -85,15 +96,8 @@ std::shared_ptr<const Region> Scene::clip_region(const pugi::xml_node& clip, con
     pieces_ = std::move(outer);
     purpose_ = before;
   }
-  if (!inner.style.clip_path.empty()) {
-    // The clip path's own clip path acts in the frame of the element.
-    Entered same = entered;
-    same.style.clip_path = inner.style.clip_path;
-    same.style.mask.clear();
-    same.context.clip = std::make_shared<const Region>(std::move(region));
-    cut(node, same);
-    region = *same.context.clip;
-  }
+  if (!inner.style.clip_path.empty())
+    region = cut_further(std::move(region), node, entered, inner.style.clip_path, {});
   auto result = std::make_shared<const Region>(std::move(region));
   if (!shares && inner.style.clip_path.empty()) clips_.emplace(key, result);
   return result;
@@ -142,14 +146,7 @@ Region Scene::mask_region(const pugi::xml_node& mask, const pugi::xml_node& node
   }
   region = intersect(region, frame);
   if (soft) notes_.add(Finding::soft_mask, document_.where(node));
-  if (!inner.style.mask.empty()) {
-    Entered same = entered;
-    same.style.mask = inner.style.mask;
-    same.style.clip_path.clear();
-    same.context.clip = std::make_shared<const Region>(std::move(region));
-    cut(node, same);
-    region = *same.context.clip;
-  }
+  if (!inner.style.mask.empty()) region = cut_further(std::move(region), node, entered, {}, inner.style.mask);
   return region;
 }
 

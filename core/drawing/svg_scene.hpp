@@ -135,6 +135,8 @@ class Scene {
   void narrow(Context& context, Region by) const;
   std::shared_ptr<const Region> clip_region(const pugi::xml_node& clip, const pugi::xml_node& node,
                                             const Entered& entered);
+  Region cut_further(Region region, const pugi::xml_node& node, const Entered& entered,
+                     const std::string& clip_path, const std::string& mask);
   Region mask_region(const pugi::xml_node& mask, const pugi::xml_node& node, const Entered& entered);
   bool in_use(const pugi::xml_node& node) const;
 

@@ -3,24 +3,19 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 
 #include "core/error.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/files/environment.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
 
 using nlohmann::json;
-
-std::optional<std::string> variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr || *value == 0 ? std::nullopt : std::optional<std::string>(value);
-}
 
 std::string heater_text(const json& print, const char* which) {
   const json heater = print.value(which, json::object());
@@ -85,7 +80,7 @@ void DaemonAccess::declare_place(CLI::App& app) {
 
 std::optional<std::string> DaemonAccess::remote() const {
   if (daemon) return daemon;
-  return state ? std::nullopt : variable("UNICURSAL_DAEMON");
+  return state ? std::nullopt : environment("UNICURSAL_DAEMON");
 }
 
 void DaemonAccess::declare(CLI::App& app) {
@@ -94,7 +89,8 @@ void DaemonAccess::declare(CLI::App& app) {
 }
 
 Client DaemonAccess::connect() const {
-  if (const auto address = remote()) return Client::at(*address, token ? token : variable("UNICURSAL_TOKEN"));
+  if (const auto address = remote())
+    return Client::at(*address, token ? token : environment("UNICURSAL_TOKEN"));
   if (token)
     throw DaemonError("", "--token", "is for a daemon on another computer", "name that with --daemon");
   const std::filesystem::path folder = state ? *state : default_state_folder();

@@ -5,25 +5,22 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <string_view>
+#include <string>
+
+#include "host/files/environment.hpp"
 
 namespace unicursal::host {
 namespace {
 
 constexpr std::size_t usual_width = 100;
 
-std::string_view variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? std::string_view() : std::string_view(value);
-}
-
 TerminalLook::Colours colours_here() {
   using Colours = TerminalLook::Colours;
-  if (!variable("NO_COLOR").empty()) return Colours::none;
-  const std::string_view kind = variable("COLORTERM");
+  if (environment("NO_COLOR")) return Colours::none;
+  const std::string kind = environment("COLORTERM").value_or("");
   if (kind == "truecolor" || kind == "24bit") return Colours::all;
-  return variable("TERM").find("256color") != std::string_view::npos ? Colours::palette : Colours::none;
+  return environment("TERM").value_or("").find("256color") != std::string::npos ? Colours::palette
+                                                                                : Colours::none;
 }
 
 /// The nearest entry of the 6 × 6 × 6 colours of the palette, whose levels are 0, 95, 135, 175, 215, 255.
@@ -37,8 +34,7 @@ int palette_entry(picture::Colour colour) {
 }  // namespace
 
 TerminalLook look_of(int descriptor) {
-  const std::string_view kind = variable("TERM");
-  if (isatty(descriptor) != 1 || kind == "dumb") return {};
+  if (isatty(descriptor) != 1 || environment("TERM") == "dumb") return {};
   return {true, colours_here()};
 }
 
