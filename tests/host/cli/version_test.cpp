@@ -1,4 +1,4 @@
-// The version names the commit, wherever the sources came from.
+// The version names the commit, wherever the sources came from: a clone, an archive of git, or a packager.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <regex>
