@@ -76,6 +76,12 @@ json extents(const Extents& box) {
   return {{"min", {box.min_x, box.min_y, box.min_z}}, {"max", {box.max_x, box.max_y, box.max_z}}};
 }
 
+json struck(const Strikes& strikes) {
+  json result = {{"by_nozzle", strikes.by_nozzle()}, {"by_head", strikes.by_head()}};
+  if (const auto& at = strikes.first()) result["first"] = {at->x, at->y, at->z};
+  return result;
+}
+
 json heater(const Heater& heater, double now) {
   return {{"actual", heater.temperature(now)}, {"target", heater.target()}};
 }
@@ -148,6 +154,7 @@ std::string report_json(const Machine& machine, const Printer& printer, const Ou
                     {"deposited_length_mm", deposit.length()},
                     {"layers", layers(deposit)},
                     {"extents", extents(deposit.extents())},
+                    {"struck", struck(outcome.strikes)},
                     {"warnings", warnings(firmware)},
                     {"temperatures",
                      {{"nozzle", heater(firmware.nozzle(), firmware.now())},

@@ -19,6 +19,7 @@ struct Outcome {
   const Nozzle& nozzle;
   const Deposit& deposit;
   const MotionLog& motion;
+  const Strikes& strikes;
 };
 
 std::string report_json(const Machine& machine, const Printer& printer, const Outcome& outcome);

@@ -137,11 +137,14 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   }
   std::optional<RasterWriter> rasters;
   std::optional<Spread> spread;
-  Deposit deposit({.drawing = pictures ? &*pictures : nullptr});
+  Strikes strikes(options.clearance
+                      ? std::optional(HeadShape{options.clearance->first, options.clearance->second})
+                      : std::nullopt);
+  Deposit deposit({.drawing = pictures ? &*pictures : nullptr, .strikes = &strikes});
   if (options.rasters) {
     rasters.emplace(*options.rasters);
     spread.emplace(BedSize{options.bed[0], options.bed[1]}, options.raster_pixel);
-    deposit = Deposit({pictures ? &*pictures : nullptr, &*spread, &*rasters});
+    deposit = Deposit({pictures ? &*pictures : nullptr, &*spread, &*rasters, &strikes});
   }
   Nozzle nozzle(
       options.filament_diameter,
@@ -159,7 +162,7 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   deposit.finish();
 
   if (options.report) {
-    report << report_json(machine_for(options), printer, {feed, nozzle, deposit, motion}) << '\n';
+    report << report_json(machine_for(options), printer, {feed, nozzle, deposit, motion, strikes}) << '\n';
     report.close();
     if (!report)
       throw std::system_error(EIO, std::generic_category(), "cannot write " + options.report->string());

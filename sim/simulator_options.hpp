@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace unicursal::sim {
@@ -47,6 +48,9 @@ struct SimulatorOptions {
   double feeder_acceleration = 10000;                        ///< mm/s²,
   double feeder_jerk = 5;                                    ///< mm/s.
   std::size_t feeders = 3;
+  /// How far the head reaches around the nozzle, and the height above its tip at which everything else
+  /// begins, mm; nullopt: only the tip can strike what was laid.
+  std::optional<std::pair<double, double>> clearance;
   bool once = false;  ///< Whether to end when the host has used the line and closed it.
 };
 

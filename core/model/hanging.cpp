@@ -86,6 +86,7 @@ void HangingCheck::look_for_overhang(const Layer& layer, const Region& resting) 
 }
 
 void HangingCheck::add(const Layer& layer) {
+  if (rests_on_bed(layer)) begin_part();
   if (layer.islands.empty()) {
     if (begun_ && empty_.layers++ == 0) empty_.layer = layer.index, empty_.z = underside(layer);
     below_.clear();
@@ -113,6 +114,12 @@ void HangingCheck::add(const Layer& layer) {
   begun_ = true;
   empty_ = {HangingPlace::Kind::empty_layers, 0, 0, 0, {0, 0}, 0};
   below_ = std::move(outlines);
+}
+
+void HangingCheck::begin_part() {
+  begun_ = overhung_ = false;
+  below_.clear();
+  empty_ = {HangingPlace::Kind::empty_layers, 0, 0, 0, {0, 0}, 0};
 }
 
 std::vector<std::string> HangingCheck::sentences() const {

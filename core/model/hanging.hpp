@@ -35,7 +35,7 @@ class HangingCheck {
  public:
   explicit HangingCheck(double bead_width) : bead_width_(bead_width) {}
 
-  /// Takes the layers in order, from the first one on.
+  /// Takes the layers in order, from the first one on. A layer on the bed begins another part.
   void add(const Layer& layer);
 
   /// In the order of the layers, at most a thousand. Empty layers at the end do not count.
@@ -46,6 +46,7 @@ class HangingCheck {
   std::vector<std::string> sentences() const;
 
  private:
+  void begin_part();
   void keep(const HangingPlace& place);
   void look_for_overhang(const Layer& layer, const Region& resting);
 

@@ -51,6 +51,12 @@ struct Layer {
   std::vector<Island> islands;  ///< largest first; may be empty
 };
 
+/// Whether the layer lies on the bed, as the first of a part does.
+inline bool rests_on_bed(const Layer& layer) {
+  constexpr double rounding = 1e-6;  // mm
+  return layer.top - layer.height < rounding;
+}
+
 /// What to read and how to cut it.
 struct PartSource {
   std::vector<std::filesystem::path> files;  ///< one SVG, or one or more STL

@@ -16,9 +16,20 @@ void move(Polygon& polygon, const Vec2& offset) {
   }
 }
 
-class Plate final : public Part {
+Layer moved(Layer layer, const Vec2& offset) {
+  for (Island& island : layer.islands) {
+    move(island.outline, offset);
+    for (ZoneRegion& region : island.zones) {
+      for (Polygon& polygon : region.polygons) move(polygon, offset);
+    }
+  }
+  return layer;
+}
+
+/// What both kinds of plates share.
+class Items : public Part {
  public:
-  explicit Plate(std::vector<PlateItem> items) : items_(std::move(items)) {
+  explicit Items(std::vector<PlateItem> items) : items_(std::move(items)) {
     for (const PlateItem& item : items_) {
       if (!highest_ || item.part->layer_count() > highest_->layer_count()) highest_ = item.part.get();
       const Box own = item.part->extent();
@@ -32,25 +43,39 @@ class Plate final : public Part {
     }
   }
 
-  std::size_t layer_count() const override { return highest_->layer_count(); }
+  Box extent() const override { return extent_; }
+  double height() const override { return highest_->height(); }
+  const std::vector<Zone>& zones() const override { return highest_->zones(); }
+  const std::vector<std::string>& warnings() const override { return warnings_; }
+
+ protected:
+  const std::vector<PlateItem>& items() const { return items_; }
+  const Part& highest() const { return *highest_; }
+
+ private:
+  std::vector<PlateItem> items_;
+  const Part* highest_ = nullptr;
+  Box extent_;
+  std::vector<std::string> warnings_;
+};
+
+class Plate final : public Items {
+ public:
+  using Items::Items;
+
+  std::size_t layer_count() const override { return highest().layer_count(); }
   Layer layer(std::size_t index) const override {
     Layer result;
     const Part* known = nullptr;  // copies of a part are sliced once
     Layer layer;
-    for (const PlateItem& item : items_) {
+    for (const PlateItem& item : items()) {
       if (index >= item.part->layer_count()) continue;
       if (item.part.get() != known) layer = item.part->layer(index), known = item.part.get();
-      Layer copy = layer;
-      for (Island& island : copy.islands) {
-        move(island.outline, item.offset);
-        for (ZoneRegion& region : island.zones) {
-          for (Polygon& polygon : region.polygons) move(polygon, item.offset);
-        }
-      }
+      Layer copy = moved(layer, item.offset);
       std::vector<Island> islands = std::move(result.islands);
       islands.insert(islands.end(), std::make_move_iterator(copy.islands.begin()),
                      std::make_move_iterator(copy.islands.end()));
-      if (result.height == 0 || item.part.get() == highest_) {
+      if (result.height == 0 || item.part.get() == &highest()) {
         result = std::move(copy);
       }
       result.islands = std::move(islands);
@@ -59,16 +84,25 @@ class Plate final : public Part {
                      [](const Island& a, const Island& b) { return area(a.outline) > area(b.outline); });
     return result;
   }
-  Box extent() const override { return extent_; }
-  double height() const override { return highest_->height(); }
-  const std::vector<Zone>& zones() const override { return highest_->zones(); }
-  const std::vector<std::string>& warnings() const override { return warnings_; }
+};
+
+class PlateInTurn final : public Items {
+ public:
+  explicit PlateInTurn(std::vector<PlateItem> all) : Items(std::move(all)) {
+    for (const PlateItem& item : items()) ends_.push_back(layer_count() + item.part->layer_count());
+  }
+
+  std::size_t layer_count() const override { return ends_.empty() ? 0 : ends_.back(); }
+  Layer layer(std::size_t index) const override {
+    const auto end = std::upper_bound(ends_.begin(), ends_.end(), index);
+    const PlateItem& item = items()[static_cast<std::size_t>(end - ends_.begin())];
+    Layer layer = moved(item.part->layer(index - (*end - item.part->layer_count())), item.offset);
+    layer.index = index;
+    return layer;
+  }
 
  private:
-  std::vector<PlateItem> items_;
-  const Part* highest_ = nullptr;
-  Box extent_;
-  std::vector<std::string> warnings_;
+  std::vector<std::size_t> ends_;  ///< per item: layers up to its last one
 };
 
 struct Rows {
@@ -102,6 +136,10 @@ Rows rows_of(const std::vector<Vec2>& sizes, double width, double gap) {
 
 std::unique_ptr<const Part> plate_of(std::vector<PlateItem> items) {
   return std::make_unique<Plate>(std::move(items));
+}
+
+std::unique_ptr<const Part> plate_in_turn(std::vector<PlateItem> items) {
+  return std::make_unique<PlateInTurn>(std::move(items));
 }
 
 std::optional<std::vector<Vec2>> arranged(const std::vector<Vec2>& sizes, const Vec2& bed, double gap) {

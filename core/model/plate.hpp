@@ -1,4 +1,5 @@
-// Several parts, or copies of one, on one plate. They are printed together, layer by layer. Lengths in mm.
+// Several parts, or copies of one, on one plate: printed together, layer by layer, or one after the other.
+// mm.
 #pragma once
 
 #include <memory>
@@ -16,6 +17,11 @@ struct PlateItem {
 
 /// Preconditions: at least one item; all have the same zones and layer heights; none overlap.
 std::unique_ptr<const Part> plate_of(std::vector<PlateItem> items);
+
+/// The same, but the items are printed one after the other: the layers of the first, then those of the
+/// second, and so on. A layer that lies on the bed begins the next item. Items may have different layer
+/// counts and overlap in nothing.
+std::unique_ptr<const Part> plate_in_turn(std::vector<PlateItem> items);
 
 /// Places rectangles of these sizes in rows, at least `gap` apart, as compactly as rows allow. Returns the
 /// lower left corner of each; nullopt if they do not fit on the bed so.

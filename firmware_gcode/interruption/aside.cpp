@@ -76,8 +76,9 @@ std::optional<core::Vec2> place_beside(const Printer& printer, const core::Box& 
   return distance(*best) >= part_clearance ? std::optional(*best) : std::nullopt;
 }
 
-double rise_aside(const Printer& printer, double height) {
-  return std::clamp(printer.bed[2] - height, 0.0, rise);
+double height_aside(const Printer& printer, double height, const ModalState& state) {
+  const double top = std::max(height, state.laid_top);
+  return top + std::clamp(printer.bed[2] - top, 0.0, rise);
 }
 
 AsideWriter::AsideWriter(const Printer& printer, const ModalState& state, double drawn)

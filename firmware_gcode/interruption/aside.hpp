@@ -21,8 +21,10 @@ namespace unicursal::gcode {
 /// there.
 std::optional<core::Vec2> place_beside(const Printer& printer, const core::Box& extent);
 
-/// The rise of the nozzle before it moves aside; reduced near the top of the printer.
-double rise_aside(const Printer& printer, double height);
+/// The height at which the nozzle, which is at `height`, moves aside: above everything that the print has
+/// laid, since higher parts may stand beside the one that is being printed; less high near the top of the
+/// printer.
+double height_aside(const Printer& printer, double height, const ModalState& state);
 
 class AsideWriter {
  public:

@@ -19,10 +19,9 @@ void heat(AsideWriter& writer, const ModalState& state) {
   writer.heat();
 }
 
-void find_position(AsideWriter& writer, const Printer& printer, double height) {
-  const double up = rise_aside(printer, height);
-  writer.lines({"G21", "G90", "G92 Z" + short_number(height, 3)});
-  writer.height(height + up);
+void find_position(AsideWriter& writer, const Printer& printer, const LeadIn& to) {
+  writer.lines({"G21", "G90", "G92 Z" + short_number(to.height, 3)});
+  writer.height(height_aside(printer, to.height, to.state));
   writer.line("G28 X Y");
   writer.lines(modes());
   writer.lines(calibration(printer));
@@ -49,15 +48,11 @@ void squeeze_out(AsideWriter& writer, const Printer& printer, const LeadIn& to) 
 
 }  // namespace
 
-double lead_in_rise(const Printer& printer, double height) {
-  return rise_aside(printer, height);
-}
-
 Chunk lead_in(const Printer& printer, const LeadIn& to) {
   assert(to.state.position[0] && to.state.position[1] && to.state.position[2] && !to.state.relative);
   AsideWriter writer(printer, to.state, to.drawn);
   heat(writer, to.state);
-  find_position(writer, printer, to.height);
+  find_position(writer, printer, to);
   mixtures(writer, to.state);
   squeeze_out(writer, printer, to);
   writer.approach();

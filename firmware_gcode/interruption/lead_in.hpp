@@ -27,7 +27,4 @@ struct LeadIn {
 /// all inlets retract alike. Precondition: the state has absolute positions, and its x, y and z are known.
 Chunk lead_in(const Printer& printer, const LeadIn& to);
 
-/// The first rise of the nozzle, mm; reduced near the top of the printer.
-double lead_in_rise(const Printer& printer, double height);
-
 }  // namespace unicursal::gcode

@@ -69,6 +69,8 @@ void move(ModalState& state, const Command& command) {
       *coordinate += *to;
   }
   const auto filament = value(command, 'E');
+  if (filament && *filament > 0 && travels)
+    state.laid_top = std::max(state.laid_top, state.position[2].value_or(0));
   if (!filament || travels || !state.relative_filament) return;
   state.drawn_back = std::max(0.0, state.drawn_back - *filament);
 }

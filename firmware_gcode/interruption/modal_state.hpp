@@ -17,6 +17,7 @@ struct ModalState {
 
   /// x y z as G-code counts them; absent before the first move of the axis and after homing.
   std::array<std::optional<double>, 3> position;
+  double laid_top = 0;            ///< the greatest z at which plastic was laid
   bool relative = false;          ///< G91
   bool relative_filament = true;  ///< M83; every job sends it before it extrudes
   std::optional<double> feed;     ///< mm/min, from the last F

@@ -23,7 +23,7 @@ Chunk go_aside(const Printer& printer, const Pause& pause) {
   AsideWriter writer(printer, pause.state, pause.state.drawn_back);
   const double z = *pause.state.position[2];
   writer.draw_back();
-  writer.height(z + rise_aside(printer, z));
+  writer.height(height_aside(printer, z, pause.state));
   writer.travel(place_beside(printer, pause.extent).value_or(core::Vec2(0, printer.bed[1])));
   if (pause.cool) writer.line("{}", cool_aside(pause.state));
   writer.line("M400");

@@ -16,7 +16,7 @@ double axis_limited_speed(const core::Vec2& displacement, const std::array<doubl
 struct LaidBead {
   core::Vec2 displacement;
   double volume;
-  std::size_t layer;  ///< the first may be slower
+  std::size_t layer;  ///< of its part; the first may be slower
   double layer_height;
 };
 

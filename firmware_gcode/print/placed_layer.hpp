@@ -18,6 +18,12 @@ struct PlacedLayer {
   std::vector<core::Polygon> outlines = {};  ///< of the islands, for hidden seams and detours; may be absent
 };
 
+/// Whether the layer lies on the bed, as the first of each part does.
+inline bool rests_on_bed(const PlacedLayer& layer) {
+  constexpr double rounding = 1e-6;  // mm, of a sum of layer heights
+  return layer.top <= layer.height + rounding;
+}
+
 /// Where the closed curve of a layer begins and ends. A seam moves at most 1.5 bead widths per layer, so that
 /// none of these adds a travel.
 enum class Seam {

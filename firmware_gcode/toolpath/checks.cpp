@@ -14,7 +14,6 @@ namespace unicursal::gcode {
 namespace {
 
 constexpr double outside_tolerance = 5e-4;   ///< mm; half the resolution of a written position
-constexpr double floating_tolerance = 1e-6;  ///< mm; rounding of a sum of layer heights
 constexpr std::size_t longest_command = 80;  ///< characters; leaves room for line number and checksum
 
 void require(bool good, const std::string& place, const std::string& problem, const std::string& remedy) {
@@ -156,8 +155,7 @@ void check_layer(const PlacedLayer& layer, const PrintSettings& settings, const 
 }
 
 void check_on_bed(const PlacedLayer& layer) {
-  require(layer.index == 0 || layer.top <= layer.height + floating_tolerance,
-          fmt::format("layer {}", layer.index),
+  require(layer.index == 0 || rests_on_bed(layer), fmt::format("layer {}", layer.index),
           fmt::format("nothing is printed below it, so that it would begin in the air at {:g} mm",
                       layer.top - layer.height),
           "turn or place the part so that it stands on the bed");

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/dialect/number.hpp"
@@ -30,6 +29,7 @@
 #include "firmware_gcode/toolpath/move_writer.hpp"
 #include "firmware_gcode/toolpath/prime_line.hpp"
 #include "firmware_gcode/toolpath/skirt.hpp"
+#include "firmware_gcode/toolpath/steps.hpp"
 
 namespace unicursal::gcode {
 namespace {
@@ -47,31 +47,6 @@ using Lines = std::vector<std::string>;
 void append(Lines& lines, Lines more) {
   lines.insert(lines.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
-
-// The steps that are to be written, in order.
-struct BeginLayer {
-  std::size_t index;
-  double top, height;
-  double flow;  ///< mm³/s
-};
-struct EndLayer {};
-struct Remark {
-  std::string line;
-};
-struct Warning {
-  std::string text;
-};
-struct Approach {
-  std::vector<core::Vec2> via;
-  core::Vec2 to;
-  double z, bead_width;
-};
-struct Lay {
-  core::Vec2 from, to;
-  double volume;
-  bool prime = false;
-};
-using Step = std::variant<BeginLayer, EndLayer, Remark, Warning, Approach, Lay>;
 
 core::Box grown(core::Box box, double by) {
   box.min -= core::Vec2(by, by);
@@ -169,6 +144,7 @@ struct Encoder::State {
   std::string name_of(const Mixture& delivered) const;
   void define_tool(std::size_t tool);
   void switch_mixture(Chunk& chunk);
+  void leave_part(Chunk& chunk);
   void draw_back(Chunk& chunk);
   void push_forward(Chunk& chunk);
   void write_width(Chunk& chunk, double width);
@@ -193,8 +169,11 @@ struct Encoder::State {
   std::optional<core::Vec2> planned_to;  ///< end of the last planned path
   double laid = 0;                       ///< mm³ along beads that are written
   bool ended = false;
-  std::size_t layer = 0;    ///< being written
-  bool layer_ends = false;  ///< its end is being written
+  std::size_t layer = 0;              ///< being written
+  std::size_t level = 0;              ///< of this layer in its part
+  double highest = 0;                 ///< mm, top of all layers that are written
+  std::optional<double> above_parts;  ///< height of the way to the next part
+  bool layer_ends = false;            ///< its end is being written
   double layer_height = 0;
   std::size_t prime_material = 0;
   bool drawn_back = true;
@@ -255,7 +234,8 @@ void Encoder::State::plan_decided() {
 
 void Encoder::State::plan(const RoutedLayer& routed) {
   const PlacedLayer& of = routed.layer;
-  steps.push_back(BeginLayer{of.index, of.top, of.height, flow_for(routed)});
+  if (rests_on_bed(of)) planned_to.reset();  // the way to another part leads above all parts
+  steps.push_back(BeginLayer{of.index, of.top, of.height, rests_on_bed(of), flow_for(routed)});
   std::vector<std::size_t> materials;
   for (const Traversal& leg : routed.traversals) {
     const core::BeadPath& path = of.paths[leg.path];
@@ -418,11 +398,24 @@ void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
 }
 
 void Encoder::State::write(Chunk& chunk, const BeginLayer& step) {
+  const bool next_part = step.on_bed && highest > 0;
   layer_height = step.height;
+  level = step.on_bed ? 0 : level + 1;
   pace.run_at(step.flow);
   append(chunk.lines,
          {";LAYER_CHANGE", ";Z:" + short_number(step.top, 3), ";HEIGHT:" + short_number(step.height, 3)});
-  append(chunk.lines, layer_events(step.index, settings));
+  if (next_part) leave_part(chunk);
+  highest = std::max(highest, step.top);
+  append(chunk.lines, layer_events(level, settings));
+}
+
+/// Rises above everything that is printed. The next approach stays at that height until it is at its place.
+void Encoder::State::leave_part(Chunk& chunk) {
+  constexpr double least_way = 1;  // mm above the parts, which curl up less
+  draw_back(chunk);
+  above_parts = std::min(highest + std::max(printer.z_hop, least_way), printer.bed[2]);
+  if (writer.position()) writer.rise(chunk, *above_parts);
+  append(chunk.lines, next_part_events(printer, settings));
 }
 
 void Encoder::State::write(Chunk&, const EndLayer&) {
@@ -453,7 +446,8 @@ void Encoder::State::write(Chunk& chunk, const Approach& step) {
   const auto here = writer.position();
   if (!here || (step.to - *here).norm() > travel_widths * step.bead_width) draw_back(chunk);
   // Rise first: at the old height, the nozzle would plough through the layer.
-  writer.rise(chunk, drawn_back ? std::min(step.z + printer.z_hop, printer.bed[2]) : step.z);
+  const double hop = drawn_back ? std::min(step.z + printer.z_hop, printer.bed[2]) : step.z;
+  writer.rise(chunk, std::exchange(above_parts, std::nullopt).value_or(hop));
   for (const core::Vec2& place : step.via) writer.travel(chunk, place);
   writer.travel(chunk, step.to);
   writer.rise(chunk, step.z);
@@ -482,7 +476,7 @@ void Encoder::State::write(Chunk& chunk, const Lay& bead) {
   const core::Vec2 way = bead.to - bead.from;
   const double width = way.norm() > 0 ? bead.volume / layer_height / way.norm() : 0;
   const double speed =
-      way.norm() > 0 ? pace.speed(way, bead.volume, layer, layer_height) : printer.max_speed[0];
+      way.norm() > 0 ? pace.speed(way, bead.volume, level, layer_height) : printer.max_speed[0];
   if (way.norm() > 0) write_width(chunk, width);
   for (double done = 0;;) {
     switch_mixture(chunk);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/dialect/number.hpp"
 #include "firmware_gcode/dialect/share_writing.hpp"
@@ -84,6 +86,18 @@ std::vector<std::string> layer_events(std::size_t layer, const PrintSettings& se
     if (change.nozzle) lines.push_back("M104 S" + degrees(*change.nozzle));
     if (change.bed) lines.push_back("M140 S" + degrees(*change.bed));
   }
+  return lines;
+}
+
+std::vector<std::string> next_part_events(const Printer& printer, const PrintSettings& settings) {
+  std::vector<std::string> lines;
+  if (settings.fan.percent > 0 && settings.fan.from > 0) lines.push_back("M107");
+  const bool changes = std::any_of(settings.temperatures.begin(), settings.temperatures.end(),
+                                   [](const LayerTemperature& change) { return change.layer > 0; });
+  if (!changes) return lines;
+  const HeatTargets first = first_temperatures(printer, settings);
+  const std::string nozzle = degrees(first.nozzle), bed = degrees(first.bed);
+  lines.insert(lines.end(), {"M140 S" + bed, "M104 S" + nozzle, "M190 S" + bed, "M109 S" + nozzle});
   return lines;
 }
 

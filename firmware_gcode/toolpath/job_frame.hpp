@@ -28,8 +28,12 @@ std::vector<std::string> script_lines(const std::string& text, const std::string
 /// The user's lines between their comments; empty without lines.
 std::vector<std::string> framed(const std::vector<std::string>& user_lines);
 
-/// The changes of fan and heaters at the beginning of a layer. The print does not wait for them.
+/// The changes of fan and heaters at the beginning of a layer of a part. The print does not wait for them.
 std::vector<std::string> layer_events(std::size_t layer, const PrintSettings& settings);
+
+/// Sets fan and heaters as for the first layer of the first part, before another part is begun; waits for the
+/// heat.
+std::vector<std::string> next_part_events(const Printer& printer, const PrintSettings& settings);
 
 /// Sets extruder, inactivity shutdown and modes again, in case the user's own lines have changed them.
 std::vector<std::string> after_user_start(const Printer& printer);

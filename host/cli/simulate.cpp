@@ -30,6 +30,7 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.dead_volume = printer.dead_volume;
   options.mixing_volume = printer.mixing_volume;
   if (!options.tanks) options.tanks = printer.tanks;
+  if (profile.clearance) options.clearance = {profile.clearance->radius, profile.clearance->height};
   options.feeders = static_cast<std::size_t>(printer.feeders);
 }
 

@@ -125,6 +125,19 @@ nlohmann::json seen_by(SimulatorProcess& simulator, Books& books, StreamResult r
   }
 }
 
+/// The simulator looks at every move, while the plan only keeps parts apart.
+std::vector<std::string> warnings_of_strikes(const nlohmann::json& simulator) {
+  const nlohmann::json struck = simulator.value("struck", nlohmann::json::object());
+  const auto moves = struck.value("by_nozzle", 0) + struck.value("by_head", 0);
+  if (moves == 0) return {};
+  const std::vector<double> at = struck.at("first");
+  return {fmt::format(
+      "the head struck what it had printed on {} {}, first at ({:.1f}, {:.1f}, {:.2f}) mm; do not print "
+      "this job; if it was in the profile's own lines, raise the nozzle there, else report a fault of "
+      "this program",
+      moves, moves == 1 ? "move" : "moves", at.at(0), at.at(1), at.at(2))};
+}
+
 }  // namespace
 
 DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream) {
@@ -158,8 +171,10 @@ DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, 
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
   check_bare(maker.bare(), prepared.job);
-  return {result, books.totals(), lookahead.effort(),    comparison,
-          motion, check.total(),  maker.late_warnings(), check.problem()};
+  std::vector<std::string> warnings = maker.late_warnings();
+  for (std::string& warning : warnings_of_strikes(seen)) warnings.push_back(std::move(warning));
+  return {result, books.totals(), lookahead.effort(),  comparison,
+          motion, check.total(),  std::move(warnings), check.problem()};
 }
 
 }  // namespace unicursal::host

@@ -82,7 +82,8 @@ void HeaterWatch::raise_level(double reading, double target) {
 }
 
 bool HeaterWatch::is_cold(TimePoint at, double reading) {
-  if (!falls_from_ || reading >= last_) falls_from_ = Mark{at, reading};
+  // One that cools to a lower target is not heated; it has fallen by what it is below that target.
+  if (!falls_from_ || reading >= last_ || reading > level_) falls_from_ = Mark{at, reading};
   const double lost = falls_from_->reading - reading;
   const bool fallen = at - falls_from_->at >= long_fall &&
                       lost >= rules_.rate * seconds(at - falls_from_->at) &&

@@ -1,7 +1,4 @@
 #include "host/engine/prepared_job.hpp"
-#include "core/model/plate.hpp"
-#include "core/model/read_part.hpp"
-#include "core/text/wording.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "core/model/read_part.hpp"
+#include "host/engine/read_plate.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -180,6 +180,10 @@ void choose_layers(PreparedJob& prepared, const std::optional<LayerRange>& layer
   }
   prepared.first = range.first;
   prepared.count = std::min(range.last, all - 1) - range.first + 1;
+  if (layers && prepared.job.one_by_one && is_plate(prepared.job)) {
+    throw core::DataError("", "--layers", "cannot pick layers of parts that are printed one by one",
+                          "leave it out, or write order = \"together\" in the job");
+  }
   prepared.layers = layers;
   prepared.lowered = underside(prepared.job.source, prepared.first);
 }
@@ -213,62 +217,6 @@ gcode::PrintFrame frame_of(const PreparedJob& prepared) {
   frame.extent.max += prepared.offset;
   frame.part_height = prepared.part->height() - prepared.lowered;
   return frame;
-}
-
-/// The corners of all copies, part by part. Throws JobError with the number of copies that fit, if one part
-/// is copied.
-std::vector<core::Vec2> corners_on(const Job& job, const std::vector<core::Vec2>& sizes,
-                                   const std::vector<std::size_t>& copies) {
-  const core::Vec2 bed(job.profile.printer.bed[0], job.profile.printer.bed[1]);
-  const auto corners_of = [&](std::size_t first) {
-    std::vector<core::Vec2> all;
-    for (std::size_t i = 0; i < sizes.size(); ++i)
-      all.insert(all.end(), sizes.size() == 1 ? first : copies[i], sizes[i]);
-    return core::arranged(all, bed, job.gap);
-  };
-  if (const auto corners = corners_of(copies.front())) return *corners;
-  std::size_t fitting = 0;
-  if (sizes.size() == 1) {
-    for (std::size_t low = 1, high = copies.front(); low < high;) {
-      const std::size_t middle = (low + high) / 2;
-      if (corners_of(middle))
-        fitting = middle, low = middle + 1;
-      else
-        high = middle;
-    }
-  }
-  refuse(
-      job, "part",
-      fmt::format("does not fit on the bed of {:.1f} x {:.1f} mm together with its copies or the other parts",
-                  bed.x(), bed.y()),
-      fitting > 0 ? fmt::format("write copies = {}, or a smaller gap", fitting)
-                  : "take parts away, turn them, or write a smaller gap");
-}
-
-std::unique_ptr<const core::Part> read_plate(const Job& job) {
-  std::vector<bool> matched(job.source.zones.size(), false);
-  std::vector<std::shared_ptr<const core::Part>> parts{core::read_part(job.source, job.shaping, &matched)};
-  std::vector<std::size_t> copies{job.copies};
-  for (const PlatePart& part : job.more) {
-    parts.push_back(core::read_part(part.source, part.shaping, &matched));
-    copies.push_back(part.copies);
-  }
-  for (std::size_t i = 0; i < matched.size(); ++i) {
-    if (!matched[i])
-      refuse(
-          job, "zone",
-          fmt::format("select = {} matches nothing in any part", core::in_quotes(job.source.zones[i].select)),
-          "see what zones can select with `unicursal inspect`");
-  }
-  std::vector<core::Vec2> sizes;
-  for (const auto& part : parts) sizes.push_back(part->extent().size());
-  const std::vector<core::Vec2> corners = corners_on(job, sizes, copies);
-  std::vector<core::PlateItem> items;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (std::size_t n = 0; n < copies[i]; ++n)
-      items.push_back({parts[i], corners[items.size()] - parts[i]->extent().min});
-  }
-  return core::plate_of(std::move(items));
 }
 
 bool has_curve(const PreparedJob& prepared, const core::Layer& layer) {
@@ -352,21 +300,39 @@ gcode::PlacedLayer placed(const PreparedJob& prepared, const PlannedLayer& plann
   return layer;
 }
 
+namespace {
+
+/// A part whose lowest layers hold nothing that can be printed would begin in the air.
+[[noreturn]] void refuse_beginning(const PreparedJob& prepared, const core::Layer& lowest,
+                                   const core::Layer& first) {
+  const std::size_t empty = first.index - lowest.index;
+  throw core::DataError(
+      prepared.job.file.string(), "part",
+      fmt::format("{} nothing that can be printed; printing would begin in the air at z = {:.2f} mm",
+                  empty == 1 ? "the first layer holds" : fmt::format("the first {} layers hold", empty),
+                  first.top - first.height - prepared.lowered),
+      prepared.job.one_by_one && is_plate(prepared.job)
+          ? "turn the part, or choose a smaller bead_width"
+          : fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", first.index));
+}
+
+}  // namespace
+
 void check_beginning(const PreparedJob& prepared) {
   const std::size_t end = prepared.first + prepared.count;
+  std::optional<core::Layer> lowest;  // of a part of which no layer with a curve has been seen
+  bool any = false;
   for (std::size_t index = prepared.first; index < end; ++index) {
-    const core::Layer layer = prepared.part->layer(index);
-    if (!has_curve(prepared, layer)) continue;
-    if (index == prepared.first) return;
-    throw core::DataError(
-        prepared.job.file.string(), "part",
-        fmt::format("{} nothing that can be printed; printing would begin in the air at z = {:.2f} mm",
-                    index - prepared.first == 1
-                        ? "the first layer holds"
-                        : fmt::format("the first {} layers hold", index - prepared.first),
-                    layer.top - layer.height - prepared.lowered),
-        fmt::format("begin higher with --layers {}:, or choose a smaller bead_width", layer.index));
+    // Of parts that are printed layer by layer, only the first layers matter.
+    if (any && !(prepared.job.one_by_one && is_plate(prepared.job))) return;
+    core::Layer layer = prepared.part->layer(index);
+    if (index == prepared.first || core::rests_on_bed(layer)) lowest = layer;
+    if (!lowest || !has_curve(prepared, layer)) continue;
+    if (layer.index != lowest->index) refuse_beginning(prepared, *lowest, layer);
+    any = true;
+    lowest.reset();
   }
+  if (any) return;
   throw core::DataError(
       prepared.job.file.string(), "part", "is nowhere wide enough for a closed curve",
       fmt::format("choose a bead_width below {:g} mm, or scale the part", prepared.job.bead_width));

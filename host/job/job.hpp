@@ -38,6 +38,7 @@ struct Job {
   std::size_t copies = 1;       ///< of the part of `source`
   std::vector<PlatePart> more;  ///< further parts
   double gap = 5;               ///< mm between parts and copies
+  bool one_by_one = false;      ///< parts and copies are printed one after the other, not layer by layer
   double bead_width = 0;
   std::optional<double> seed_distance;
   int perimeters = 0;                ///< contours around the fill

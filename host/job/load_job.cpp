@@ -291,6 +291,8 @@ Job read_job(const SettingsFile& file, const std::filesystem::path& path,
   job.shaping = {read_pose(part, job.source), read_paint_depth(part, job.bead_width)};
   job.copies = read_copies(part);
   job.gap = part.number_or("gap", job.gap, between(0.5, 1000, "mm"), "write for example gap = 5.0");
+  if (const toml::node* order = part.find("order"))
+    job.one_by_one = part.choice("order", *order, {"together", "one-by-one"}) == "one-by-one";
   read_flow(part, job);
   read_print_keys(part, job);
   read_perimeters(part, job);

@@ -27,6 +27,18 @@ unsigned read_whole(const Section& section, const char* key, unsigned otherwise,
   return static_cast<unsigned>(number);
 }
 
+std::optional<HeadClearance> read_clearance(const Section& section) {
+  if (!section.has("clearance_radius") && !section.has("clearance_height")) return std::nullopt;
+  constexpr double greatest = 1000;
+  return HeadClearance{
+      section.number("clearance_radius", {0, greatest, true, "mm"},
+                     "measure from the nozzle to the farthest part of the hot end beside it, for example "
+                     "clearance_radius = 45"),
+      section.number("clearance_height", {0, greatest, true, "mm"},
+                     "measure from the nozzle's tip up to the lowest rod or belt, for example "
+                     "clearance_height = 25")};
+}
+
 void read_machine(const Section& section, Profile& profile) {
   gcode::Printer& printer = profile.printer;
   printer.name = section.text_or("name", profile.file.stem().string(), "write a name in quotes");
@@ -52,6 +64,7 @@ void read_machine(const Section& section, Profile& profile) {
   printer.max_acceleration = section.numbers_or("max_acceleration", printer.max_acceleration,
                                                 within(gcode::bounds::acceleration, "mm/s²"),
                                                 "write max_acceleration = [x, y, z] in mm/s²");
+  profile.clearance = read_clearance(section);
   gcode::Motion& motion = printer.motion;
   motion.jerk = section.numbers_or("jerk", motion.jerk, within(gcode::bounds::jerk, "mm/s"),
                                    "write jerk = [x, y, z] in mm/s, as M503 reports");

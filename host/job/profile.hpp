@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,20 @@
 
 namespace unicursal::host {
 
+/// What of the head could strike a finished part while another is printed beside it, mm.
+struct HeadClearance {
+  double radius = 0;  ///< from the nozzle to the farthest of what is near its height: heater, fans, ducts
+  double height = 0;  ///< from the nozzle's tip up to what reaches farther: rods, belts, the whole carriage
+};
+
 struct Profile {
   std::filesystem::path file;
   gcode::Printer printer;
   std::string port = "auto";  ///< "auto": the only serial port there is
   unsigned baud = 250000;
-  std::vector<std::string> filaments;  ///< their names, one for each feeder; empty: unknown
-  unsigned receive_buffer = 128;       ///< bytes, of the firmware
+  std::optional<HeadClearance> clearance;  ///< absent: not measured
+  std::vector<std::string> filaments;      ///< their names, one for each feeder; empty: unknown
+  unsigned receive_buffer = 128;           ///< bytes, of the firmware
 };
 
 /// Throws core::FileError or JobError.

@@ -29,6 +29,7 @@ void Deposit::laid(const Bead& bead) {
   for (std::size_t f = 0; f < max_feeders; ++f) by_feeder_[f] += bead.shares[f] * bead.volume;
   const double length = in_plane(bead.from, bead.to);
   if (length == 0) return drop(bead);
+  if (takers_.strikes != nullptr) takers_.strikes->laid(bead.from, bead.to);
   if (layers_.empty()) first_start_ = bead.start;
   if (layers_.empty() || layers_.back().z != bead.to.z) begin_layer(bead.to.z);
   DepositedLayer& layer = layers_.back();
@@ -62,6 +63,7 @@ void Deposit::finish() {
 
 void Deposit::travelled(const Position& from, const Position& to) {
   travel_ += in_plane(from, to);
+  if (takers_.strikes != nullptr) takers_.strikes->travelled(from, to);
 }
 
 void Deposit::begin_layer(double z) {

@@ -12,6 +12,7 @@
 
 #include "sim/bed/raster.hpp"
 #include "sim/bed/spread.hpp"
+#include "sim/bed/strikes.hpp"
 #include "sim/nozzle/nozzle.hpp"
 
 namespace unicursal::sim {
@@ -47,6 +48,7 @@ class Deposit : public BedSink {
     BeadSink* drawing = nullptr;    ///< Receives every bead.
     Spread* spread = nullptr;       ///< Spreads the beads on the raster of the layer.
     RasterSink* rasters = nullptr;  ///< Receives every finished layer.
+    Strikes* strikes = nullptr;     ///< Looks where the head strikes what was laid.
   };
 
   /// Each of the takers may be null.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace unicursal::sim {
 
@@ -22,6 +23,7 @@ HeaterModel HeaterModel::bed() {
   model.sensor_lag = 5;
   model.gain = 0.4;  // holds it within the runaway margin before the integral has grown
   model.integral_time = 60;
+  model.damping = 0;
   model.watch_period = 60;
   model.runaway_period = 20;
   model.runaway_margin = 2;
@@ -66,9 +68,10 @@ void Heater::set_target(double now, double target) {
   if (target != target_) {
     reached_ = false;
     behind_since_.reset();
-    integral_ = 0;
   }
+  if (target == 0) integral_ = 0;  // Marlin keeps it as long as the reading is near the target
   target_ = target;
+  last_reading_.reset();
   start_watch(now);
   set_power(now, wanted(temperature(now)));
   tick_at_ = now + period;
@@ -97,6 +100,7 @@ std::optional<Heater::Alarm> Heater::tick(double now) {
 }
 
 int Heater::wanted(double reading) {
+  const double falls = (std::exchange(last_reading_, reading).value_or(reading) - reading) / period;  // °C/s
   if (target_ <= 0) return 0;
   const double error = target_ - reading;
   if (std::abs(error) > control_range) {
@@ -104,7 +108,8 @@ int Heater::wanted(double reading) {
     return error > 0 ? full : 0;
   }
   integral_ = std::clamp(integral_ + model_.gain * error * period / model_.integral_time, 0.0, 1.0);
-  return static_cast<int>(std::lround(full * std::clamp(model_.gain * error + integral_, 0.0, 1.0)));
+  return static_cast<int>(
+      std::lround(full * std::clamp(model_.gain * error + integral_ + model_.damping * falls, 0.0, 1.0)));
 }
 
 std::optional<Heater::Alarm> Heater::protect(double now, double reading) {

@@ -3,9 +3,10 @@
 // Physics). Between two steps of the control the power is constant, so every temperature has a closed-form
 // solution and the clock can jump. °C, printer seconds.
 //
-// Control: full power far below the target, none far above, proportional and integral in between (Marlin's
-// PID without D, which the noise-free sensor of this model does not need). Protection as in Marlin 2.1 with
-// its default periods: a heater that does not warm up, one that falls behind its target, and an impossible
+// Control: full power far below the target, none far above, and in between Marlin's PID, which begins with an
+// empty integral there. Its D, without the smoothing that the noise-free sensor of this model does not need,
+// keeps a nozzle whose target was lowered from falling far below it. Protection as in Marlin 2.1 with its
+// default periods: a heater that does not warm up, one that falls behind its target, and an impossible
 // reading of the sensor.
 #pragma once
 
@@ -20,10 +21,11 @@ struct HeaterModel {
   double sensor_lag = 2;        ///< Time constant of the sensor, s.
   double gain = 0.06;           ///< Share of full power for each °C below the target.
   double integral_time = 20;    ///< s.
-  double watch_period = 40;     ///< Time within which it must warm up by 2 °C, s.
-  double runaway_period = 40;   ///< Time for which it may be behind its target, s.
-  double runaway_margin = 4;    ///< Difference from the target that counts as behind, °C.
-  double max_temp = 275;        ///< Above this the firmware stops everything, °C.
+  double damping = 0.4;  ///< Share of full power for each °C/s by which it falls (Marlin's DEFAULT_Kd ÷ 255).
+  double watch_period = 40;    ///< Time within which it must warm up by 2 °C, s.
+  double runaway_period = 40;  ///< Time for which it may be behind its target, s.
+  double runaway_margin = 4;   ///< Difference from the target that counts as behind, °C.
+  double max_temp = 275;       ///< Above this the firmware stops everything, °C.
 
   static HeaterModel bed();
 };
@@ -86,6 +88,7 @@ class Heater {
   double target_ = 0;
   int power_ = 0;
   double integral_ = 0;                              ///< Share of full power.
+  std::optional<double> last_reading_;               ///< One period ago.
   double since_ = 0;                                 ///< Time of the last change of power.
   Sample from_{room_temperature, room_temperature};  ///< Temperatures at that time.
   double tick_at_ = 0;

@@ -72,4 +72,27 @@ TEST_CASE("a plate has the islands of all its parts, each at its place, and is a
   CHECK(top.height == Approx(0.5));
 }
 
+TEST_CASE("parts that are printed in turn each begin on the bed") {
+  const TempFolder folder;
+  const auto read = [&](const char* name, double height) -> std::shared_ptr<const Part> {
+    PartSource source{
+        {folder.write(name, binary_stl(box_mesh({0, 0, 0}, {10, 10, height})))}, 0, 0.5, zones({name})};
+    return read_part(source, {});
+  };
+  const auto low = read("low.stl", 2), high = read("high.stl", 3);
+  const auto plate = plate_in_turn({{low, {0, 0}}, {low, {20, 0}}, {high, {40, 5}}});
+  REQUIRE(plate->layer_count() == 4 + 4 + 6);
+  CHECK(plate->height() == Approx(3));
+  CHECK(plate->extent().max == Vec2(50, 15));
+  const std::vector<double> tops{0.5, 1, 1.5, 2, 0.5, 1, 1.5, 2, 0.5, 1, 1.5, 2, 2.5, 3};
+  for (std::size_t i = 0; i < tops.size(); ++i) {
+    const Layer layer = plate->layer(i);
+    CHECK(layer.index == i);
+    CHECK(layer.top == Approx(tops[i]));
+    CHECK(rests_on_bed(layer) == (tops[i] == 0.5));
+    REQUIRE(layer.islands.size() == 1);
+    CHECK(bounds(layer.islands[0].outline).min == (i < 4 ? Vec2(0, 0) : i < 8 ? Vec2(20, 0) : Vec2(40, 5)));
+  }
+}
+
 }  // namespace unicursal::core

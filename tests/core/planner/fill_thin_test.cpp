@@ -17,7 +17,7 @@ namespace {
 
 constexpr double w = 0.8, least = 0.36, greatest = 1.6;
 
-PlanOptions options_for(int perimeters = 0) {
+PlanOptions options_with(int perimeters = 0) {
   PlanOptions options;
   options.bead_width = w;
   options.min_bead_width = least;
@@ -27,7 +27,7 @@ PlanOptions options_for(int perimeters = 0) {
 }
 
 IslandPlan plan_of(const Polygon& outline, int perimeters = 0) {
-  const IslandPlan plan = plan_island(whole(outline), one_zone(), options_for(perimeters));
+  const IslandPlan plan = plan_island(whole(outline), one_zone(), options_with(perimeters));
   REQUIRE(fault_of(plan, outline, one_zone(), w) == "");
   REQUIRE(plan.curves.size() == 1);
   return plan;
@@ -133,7 +133,7 @@ TEST_CASE("rings of one bead are a single strand, wider ones run there and back,
   if (wall < least) return;
   CAPTURE(bead, wall / bead);
   const Polygon ring = tube(8, wall);
-  PlanOptions options = options_for();
+  PlanOptions options = options_with();
   options.bead_width = bead;
   const IslandPlan plan = plan_island(whole(ring), one_zone(), options);
   REQUIRE(fault_of(plan, ring, one_zone(), bead) == "");
@@ -174,7 +174,7 @@ TEST_CASE("random islands with thin walls are filled by sound curves, with the s
     const Polygon island = *std::max_element(
         region.begin(), region.end(), [](const Polygon& l, const Polygon& r) { return area(l) < area(r); });
     CAPTURE(k, area(island));
-    PlanOptions options = options_for(k % 3);
+    PlanOptions options = options_with(k % 3);
     const IslandPlan plan = plan_island(whole(island), one_zone(), options);
     REQUIRE(fault_of(plan, island, one_zone(), w) == "");
     options.threads = 2;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double w = 0.5;
 
-PlanOptions options_for(int perimeters, std::uint64_t seed = 1) {
+PlanOptions options_with(int perimeters, std::uint64_t seed = 1) {
   PlanOptions options;
   options.bead_width = w;
   options.min_bead_width = 0.55 * w;
@@ -62,7 +62,7 @@ std::vector<Zone> two_materials() {
 TEST_CASE("one, two or three contours and the fill are one curve that follows the border") {
   const int count = GENERATE(1, 2, 3);
   const Polygon square = square_with_hole();
-  const IslandPlan plan = plan_island(whole(square), one_zone(), options_for(count));
+  const IslandPlan plan = plan_island(whole(square), one_zone(), options_with(count));
   check_plan(plan, square);
   REQUIRE(plan.curves.size() == 1);
   const PlannedCurve& curve = plan.curves.front();
@@ -76,14 +76,14 @@ TEST_CASE("one, two or three contours and the fill are one curve that follows th
 }
 
 TEST_CASE("without contours no strand follows the border that closely") {
-  const IslandPlan plan = plan_island(whole(square_with_hole()), one_zone(), options_for(0));
+  const IslandPlan plan = plan_island(whole(square_with_hole()), one_zone(), options_with(0));
   CHECK(plan.curves.front().perimeters == 0);
   CHECK(followed_share(plan.curves.front().path, square_with_hole()) < 0.5);
 }
 
 TEST_CASE(
     "if more contours are asked for than fit, contours fill the island, and the plan reports how many") {
-  const IslandPlan plan = plan_island(whole(rectangle(10, 4)), one_zone(), options_for(20));
+  const IslandPlan plan = plan_island(whole(rectangle(10, 4)), one_zone(), options_with(20));
   check_plan(plan, rectangle(10, 4));
   REQUIRE(plan.curves.size() == 1);
   CHECK(plan.curves.front().perimeters == 4);
@@ -93,7 +93,7 @@ TEST_CASE(
 TEST_CASE("specks and strips get as many contours as fit") {
   const double width = GENERATE(0.35, 0.5, 0.8, 1.1, 1.5, 1.9, 2.3, 3.0);
   for (const Polygon& island : {rectangle(width, width), rectangle(15, width)}) {
-    const IslandPlan plan = plan_island(whole(island), one_zone(), options_for(2));
+    const IslandPlan plan = plan_island(whole(island), one_zone(), options_with(2));
     check_plan(plan, island);
     REQUIRE(plan.curves.size() == 1);
     CHECK(plan.far_area == Approx(0).margin(0.02));
@@ -105,7 +105,7 @@ TEST_CASE("the fills on both sides of a neck and their contour are one curve") {
   const double neck = GENERATE(0.7, 1.2, 1.9, 2.5) * w;
   Region two = unite({rectangle(7, 7)}, {{{{6, 3}, {11, 3}, {11, 3 + neck}, {6, 3 + neck}}, {}}});
   two = unite(two, {{{{10, 0}, {17, 0}, {17, 7}, {10, 7}}, {}}});
-  const IslandPlan plan = plan_island(whole(two.front()), one_zone(), options_for(2));
+  const IslandPlan plan = plan_island(whole(two.front()), one_zone(), options_with(2));
   check_plan(plan, two.front());
   REQUIRE(plan.curves.size() == 1);
   CHECK(plan.curves.front().perimeters == 2);
@@ -116,7 +116,7 @@ TEST_CASE("each material traces its part of the outline, and each border is cros
   const int count = GENERATE(1, 2, 3);
   const Polygon left{{{0, 0}, {8, 0}, {8, 12}, {0, 12}}, {}}, right{{{8, 0}, {16, 0}, {16, 12}, {8, 12}}, {}};
   const Island island{rectangle(16, 12), {{0, {left}}, {1, {right}}}};
-  const IslandPlan plan = plan_island(island, two_materials(), options_for(count));
+  const IslandPlan plan = plan_island(island, two_materials(), options_with(count));
   check_plan(plan, island.outline);
   REQUIRE(plan.curves.size() == 1);
   const PlannedCurve& curve = plan.curves.front();
@@ -134,7 +134,7 @@ TEST_CASE("a material that lies inside another has no part of the outline") {
   const Polygon plate = rectangle(16, 16);
   const Region disc{{circle({8, 8}, 4, 60), {}}};
   const Island island{plate, {{0, subtract({plate}, disc)}, {1, disc}}};
-  const IslandPlan plan = plan_island(island, two_materials(), options_for(2));
+  const IslandPlan plan = plan_island(island, two_materials(), options_with(2));
   check_plan(plan, plate);
   REQUIRE(plan.curves.size() == 1);
   CHECK(plan.curves.front().perimeters == 2);
@@ -149,7 +149,7 @@ TEST_CASE("stripes too thin for a curve of their own are crossed by contours aro
     (k % 2 == 0 ? even : odd).push_back({{{x, 0}, {x + 0.15, 0}, {x + 0.15, 8}, {x, 8}}, {}});
   }
   const Island island{rectangle(6, 8), {{0, even}, {1, odd}}};
-  const IslandPlan plan = plan_island(island, two_materials(), options_for(2));
+  const IslandPlan plan = plan_island(island, two_materials(), options_with(2));
   check_plan(plan, island.outline);
   REQUIRE(plan.curves.size() == 1);
   CHECK(plan.curves.front().perimeters == 2);
@@ -164,7 +164,7 @@ TEST_CASE("random islands with contours: plans are sound, no area is lost, and t
     const Polygon island = random_island(random, random.uniform(0.3, 6), 6);
     CAPTURE(k, area(island));
     const IslandPlan plan =
-        plan_island(whole(island), one_zone(), options_for(1 + k % 3, static_cast<std::uint64_t>(k)));
+        plan_island(whole(island), one_zone(), options_with(1 + k % 3, static_cast<std::uint64_t>(k)));
     check_plan(plan, island);
     CHECK(plan.far_area == Approx(0).margin(0.08));
     for (const PlannedCurve& curve : plan.curves) laid += curve.perimeters > 0;
@@ -177,7 +177,7 @@ TEST_CASE("many random islands with contours: plans are sound, and no area is lo
   for (int k = 0; k < 1000; ++k) {
     const Polygon island = random_island(random, random.uniform(0.2, 6), 8);
     CAPTURE(k, area(island));
-    check_plan(plan_island(whole(island), one_zone(), options_for(1 + k % 3, static_cast<std::uint64_t>(k))),
+    check_plan(plan_island(whole(island), one_zone(), options_with(1 + k % 3, static_cast<std::uint64_t>(k))),
                island);
   }
 }

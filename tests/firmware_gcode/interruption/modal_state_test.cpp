@@ -208,10 +208,15 @@ TEST_CASE(
 }
 
 TEST_CASE("a lead-in keeps below the printer's height, and warns if nothing can be squeezed out") {
-  Printer printer;
-  CHECK(lead_in_rise(printer, 0.2) == 10);
-  CHECK(lead_in_rise(printer, 195) == Approx(5));
-  CHECK(lead_in_rise(printer, 200) == 0);
+  const Printer printer;
+  const auto rises_to = [&](double height) {
+    const Chunk chunk = lead_in(printer, {after(a_print), height, 2, core::Box{{0, 0}, {10, 10}}});
+    return *std::find_if(chunk.lines.begin(), chunk.lines.end(),
+                         [](const std::string& line) { return line.starts_with("G1 Z"); });
+  };
+  CHECK(rises_to(0.2).starts_with("G1 Z10.2 "));
+  CHECK(rises_to(195).starts_with("G1 Z200 "));
+  CHECK(rises_to(200).starts_with("G1 Z200 "));
   const Chunk chunk = lead_in(printer, {after(a_print), 0.2, 2, core::Box{{0, 0}, {200, 200}}});
   REQUIRE(chunk.warnings.size() == 1);
   CHECK(chunk.volume == 0);

@@ -125,4 +125,22 @@ TEST_CASE("Feeders that slip are corrected by their factors, and the report show
   CHECK(report["comparison"]["worst_relative_error"].get<double>() < 0.01);
 }
 
+TEST_CASE("A layer may be cooler or hotter than the one before, in every dialect, without a pause") {
+  for (const char* const firmware : {"marlin", "repetier", "reprapfirmware"}) {
+    for (const int nozzle : {190, 205, 225}) {
+      const test::TempFolder folder;
+      folder.write("bench.toml", profile_for(firmware));
+      folder.write("plate.svg", test::sample_drawing);
+      const auto job = folder.write(
+          "job.toml", replaced(replaced(test::sample_job, "height = 0.4", "height = 1.2"), "flow = 3.0",
+                               "flow = 3.0\ntemperatures = [{ layer = 1, nozzle = " + std::to_string(nozzle) +
+                                   ", bed = 50 }]"));
+      const test::Outcome outcome = test::run({"dry-run", job.string()});
+      INFO(firmware << ", " << nozzle << " °C: " << outcome.err);
+      CHECK(outcome.code == 0);
+      CHECK(outcome.err.find("paus") == std::string::npos);
+    }
+  }
+}
+
 }  // namespace unicursal

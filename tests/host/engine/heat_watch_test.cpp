@@ -150,6 +150,10 @@ TEST_CASE(
 TEST_CASE("A heater that becomes hotter and hotter is noticed, and one that cools to a new target is not") {
   CHECK(objects_at([](double t) { return 210 + t; }, 210, 210, HeatTrouble::hot) == 26);
   CHECK(objects_at([](double t) { return std::max(195.0, 240 - t / 2); }, 195) == -1);
+  // It cools by 1 °C/s, and then somewhat below its target, as under a control that has to find its power
+  // again.
+  CHECK(objects_at([](double t) { return t < 20 ? 210 - t : std::max(181.0, 190 - 0.64 * (t - 20)); }, 190) ==
+        -1);
 }
 
 TEST_CASE(

@@ -1,0 +1,42 @@
+// What the encoder has planned and not written yet. It is written when the mixtures on its way are certain.
+// mm, mm³.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/polygon.hpp"
+
+namespace unicursal::gcode {
+
+struct BeginLayer {
+  std::size_t index;
+  double top, height;
+  bool on_bed;  ///< begins a part
+  double flow;  ///< mm³/s
+};
+struct EndLayer {};
+/// A comment.
+struct Remark {
+  std::string line;
+};
+struct Warning {
+  std::string text;
+};
+/// A way without laying.
+struct Approach {
+  std::vector<core::Vec2> via;
+  core::Vec2 to;
+  double z, bead_width;
+};
+/// A bead.
+struct Lay {
+  core::Vec2 from, to;
+  double volume;
+  bool prime = false;
+};
+using Step = std::variant<BeginLayer, EndLayer, Remark, Warning, Approach, Lay>;
+
+}  // namespace unicursal::gcode
