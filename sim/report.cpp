@@ -86,6 +86,13 @@ json heater(const Heater& heater, double now) {
   return {{"actual", heater.temperature(now)}, {"target", heater.target()}};
 }
 
+json screen(const PrinterScreen& screen) {
+  json all{{"text", screen.text}, {"texts", screen.texts}};
+  if (screen.percent) all["percent"] = *screen.percent;
+  if (screen.minutes_left) all["minutes_left"] = *screen.minutes_left;
+  return all;
+}
+
 json warnings(const Firmware& firmware) {
   json all = json::array();
   for (const auto& [what, times] : firmware.warnings()) {
@@ -156,6 +163,7 @@ std::string report_json(const Machine& machine, const Printer& printer, const Ou
                     {"extents", extents(deposit.extents())},
                     {"struck", struck(outcome.strikes)},
                     {"warnings", warnings(firmware)},
+                    {"display", screen(firmware.screen())},
                     {"temperatures",
                      {{"nozzle", heater(firmware.nozzle(), firmware.now())},
                       {"bed", heater(firmware.bed(), firmware.now())}}},

@@ -60,7 +60,7 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'M', 17}, &F::nothing},
       {{'M', 18}, &F::motors_off},
       {{'M', 31}, &F::print_time},
-      {{'M', 73}, &F::nothing},
+      {{'M', 73}, &F::set_progress},
       {{'M', 75}, &F::nothing},
       {{'M', 76}, &F::nothing},
       {{'M', 77}, &F::nothing},
@@ -80,7 +80,7 @@ const std::map<std::pair<char, int>, Firmware::Handler>& Firmware::handlers() {
       {{'M', 113}, &F::keepalive},
       {{'M', 114}, &F::report_position},
       {{'M', 115}, &F::report_firmware},
-      {{'M', 117}, &F::nothing},
+      {{'M', 117}, &F::show_text},
       {{'M', 118}, &F::echo_text},
       {{'M', 119}, &F::endstops},
       {{'M', 140}, &F::bed_target},
@@ -134,6 +134,7 @@ void Firmware::say_unknown(const std::string& body) {
 
 bool Firmware::knows(const Command& command) const {
   if (command.is('M', 155) && !personality_.capabilities) return false;
+  if (command.is('M', 73) && !personality_.progress) return false;
   return personality_.direct_mixing || !command.is('M', 165);
 }
 
@@ -481,9 +482,11 @@ void Firmware::say_position() {
 void Firmware::report_firmware(const Command&) {
   say("FIRMWARE_NAME:Marlin 2.1.2 (simulated) SOURCE_CODE_URL:none PROTOCOL_VERSION:1.0 "
       "MACHINE_TYPE:unicursal simulator EXTRUDER_COUNT:1 UUID:00000000-0000-0000-0000-000000000000");
+  if (!personality_.capabilities) return;
   // As a stock Marlin 2.1.2 lists them. BUSY_PROTOCOL is not among them.
   std::vector<std::string_view> can{"AUTOREPORT_TEMP", "PRINT_JOB", "THERMAL_PROTECTION", "ARCS"};
   if (personality_.emergency_parser) can.emplace_back("EMERGENCY_PARSER");
+  if (personality_.progress) can.emplace_back("BUILD_PERCENT");
   if (personality_.host_prompts) can.insert(can.end(), {"HOST_ACTION_COMMANDS", "PROMPT_SUPPORT"});
   for (const char* name : {"SERIAL_XON_XOFF",
                            "BINARY_FILE_TRANSFER",

@@ -78,6 +78,7 @@ void Firmware::reset() {
   runout_sensor_ = true;
   ran_out_ = at_long_work_ = false;
   emergency_line_.clear();
+  screen_ = {};
   check_.set_last(0);
   last_executed_ = 0;
   buffer_.flush();

@@ -29,6 +29,7 @@
 #include "sim/firmware/heater.hpp"
 #include "sim/firmware/mixer.hpp"
 #include "sim/firmware/personality.hpp"
+#include "sim/firmware/screen.hpp"
 #include "sim/line/line_assembler.hpp"
 #include "sim/line/line_check.hpp"
 #include "sim/line/receive_buffer.hpp"
@@ -130,6 +131,7 @@ class Firmware {
   std::int64_t last_line() const { return check_.last(); }
   const Planner& planner() const { return planner_; }
   const Coordinates& coordinates() const { return coordinates_; }
+  const PrinterScreen& screen() const { return screen_; }
   const Heater& nozzle() const { return nozzle_; }
   const Heater& bed() const { return bed_; }
   Heater& nozzle() { return nozzle_; }
@@ -261,6 +263,10 @@ class Firmware {
   void print_time(const Command& command);
   void endstops(const Command& command);
 
+  // show.cpp: the printer's own display
+  void show_text(const Command& command);
+  void set_progress(const Command& command);
+
   void move(const Command& command);
   void arc(const Command& command);
   void run_arc(std::vector<MoveTarget> pieces);
@@ -320,6 +326,7 @@ class Firmware {
   Mixer mixer_;
   Heater nozzle_, bed_;
   std::map<std::string, std::uint64_t> warnings_;
+  PrinterScreen screen_;
 
   double now_ = 0;
   double filament_ = 0;             ///< Filament that the feeders were asked for since power-up, mm.

@@ -45,7 +45,7 @@ Personality marlin_advanced_ok() {
 Personality marlin_host() {
   Personality one = marlin();
   one.name = "marlin-host";
-  one.emergency_parser = one.host_prompts = one.homes_first = true;
+  one.emergency_parser = one.host_prompts = one.homes_first = one.progress = true;
   one.homing_clearance = 4;
   return one;
 }
@@ -57,12 +57,21 @@ Personality marlin_few_tools() {
   return one;
 }
 
+/// Built without EXTENDED_CAPABILITIES_REPORT, as boards with little memory are.
+Personality marlin_plain() {
+  Personality one = marlin_8bit();
+  one.name = "marlin-plain";
+  one.capabilities = false;
+  return one;
+}
+
 Personality repetier() {
   Personality one;
   one.name = "repetier";
   one.cold = 150;
   one.family = Personality::Family::repetier;
   one.direct_mixing = false;
+  one.longest_text = 20;
   one.step_rate = eight_bit_step_rate;
   one.boot_seconds = eight_bit_boot;
   one.resets_on_open = true;
@@ -82,6 +91,8 @@ Personality reprapfirmware() {
   one.name = "reprapfirmware";
   one.family = Personality::Family::reprapfirmware;
   one.direct_mixing = false;
+  one.progress = true;
+  one.longest_text = 120;
   one.queue_size = 1;
   one.boot_seconds = 4;
   one.chatter = {"RepRapFirmware for Duet 2 WiFi/Ethernet is up and running."};
@@ -89,8 +100,9 @@ Personality reprapfirmware() {
 }
 
 const auto& all_personalities() {
-  static const std::array all{marlin(),           marlin_8bit(), marlin_advanced_ok(), marlin_host(),
-                              marlin_few_tools(), repetier(),    repetier_092(),       reprapfirmware()};
+  static const std::array all{marlin(),      marlin_8bit(),      marlin_advanced_ok(),
+                              marlin_host(), marlin_few_tools(), marlin_plain(),
+                              repetier(),    repetier_092(),     reprapfirmware()};
   return all;
 }
 

@@ -24,6 +24,8 @@ struct Personality {
   bool homes_first = false;          ///< Whether it refuses moves of an axis that was not homed.
   double homing_clearance = 0;       ///< z that the nozzle is raised to before x or y is homed alone, mm.
   bool capabilities = true;          ///< Whether M115 lists what it can do, and M155 exists.
+  bool progress = false;             ///< Whether it knows M73.
+  std::size_t longest_text = 63;     ///< Characters of M117 that are kept; a display may show fewer.
   std::size_t queue_size = 4;        ///< Commands in the queue, the running one included.
   double cold = 170;                 ///< °C of the nozzle below which nothing is extruded.
   double step_rate = 0;              ///< Limit of each axis, steps/s; 0 = none.
@@ -33,7 +35,7 @@ struct Personality {
 };
 
 /// Returns the personality of this name: marlin, marlin-8bit, marlin-advanced-ok, marlin-host,
-/// marlin-few-tools, repetier, repetier-0.92 or reprapfirmware.
+/// marlin-few-tools, marlin-plain, repetier, repetier-0.92 or reprapfirmware.
 /// Throws std::invalid_argument, whose message lists them.
 const Personality& personality(std::string_view name);
 

@@ -187,7 +187,7 @@ void Repetier::say_unknown(const std::string& body) {
 }
 
 bool Repetier::knows(const Command& command) const {
-  constexpr std::array unknown{0, 1, 31, 75, 76, 77, 108, 113, 118, 165, 211, 410, 412, 503, 600, 876};
+  constexpr std::array unknown{0, 1, 31, 73, 75, 76, 77, 108, 113, 118, 165, 211, 410, 412, 503, 600, 876};
   if (command.is('M', 155) && !personality_.capabilities) return false;
   return command.letter() != 'M' ||
          std::find(unknown.begin(), unknown.end(), command.code()) == unknown.end();

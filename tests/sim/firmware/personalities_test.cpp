@@ -162,7 +162,7 @@ TEST_CASE("a reset also ends the hang of a mixture of zeros") {
 
 TEST_CASE("personalities have names") {
   for (const char* name : {"marlin", "marlin-8bit", "marlin-advanced-ok", "marlin-host", "marlin-few-tools",
-                           "repetier", "repetier-0.92", "reprapfirmware"})
+                           "marlin-plain", "repetier", "repetier-0.92", "reprapfirmware"})
     CHECK(personality(name).name == name);
   CHECK_THROWS_WITH(personality("klipper"), Catch::Contains("marlin-8bit"));
 }
