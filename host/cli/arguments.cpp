@@ -120,6 +120,7 @@ void JobOptions::declare(CLI::App& app) {
       .group("Output");
   add_value(app, "--picture", outputs.pictures, "DIR", "Write pictures of each layer to this folder.")
       .group("Output");
+  declare_quiet(app, quiet);
   app.add_flag_callback(
          "--no-look-ahead", [this] { look_ahead = false; },
          "Switch mixtures at the borders instead of ahead of them, for comparison.")
@@ -144,7 +145,7 @@ void SimulatedPrinter::declare(CLI::App& app) {
   constexpr auto group = "Simulated printer";
   add_value(app, "--personality", personality, "FIRMWARE",
             "Firmware to simulate: marlin, marlin-8bit, marlin-advanced-ok, marlin-host, marlin-few-tools, "
-            "repetier, repetier-0.92 or reprapfirmware. Default: the firmware of the profile.")
+            "marlin-plain, repetier, repetier-0.92 or reprapfirmware. Default: the firmware of the profile.")
       .group(group);
   add_value(app, "--usb", options.usb, "none|cdc|ftdi",
             "USB chip of the cable: cdc delays by 1 ms, ftdi by 16 ms. Default: cdc.")
@@ -203,6 +204,10 @@ void declare_state(CLI::App& app, std::optional<std::filesystem::path>& state) {
 void declare_events(CLI::App& app, DisplayOptions& display) {
   app.add_flag("--json", display.json, "Write events to standard output, one JSON object on each line.")
       ->group("Output");
+}
+
+void declare_quiet(CLI::App& app, bool& quiet) {
+  app.add_flag("-q,--quiet", quiet, "Show only warnings, errors and the end.")->group("Output");
 }
 
 void declare_pause_heat(CLI::App& app, PauseHeat& heat) {

@@ -14,7 +14,7 @@
 
 #include "host/engine/prepared_job.hpp"
 #include "host/engine/session_types.hpp"
-#include "host/report/books.hpp"
+#include "host/report/run_outputs.hpp"
 #include "sim/simulator_options.hpp"
 
 namespace unicursal::host {
@@ -71,6 +71,7 @@ struct JobOptions {
   std::optional<std::filesystem::path> profile;
   std::optional<LayerRange> layers;
   RunOutputs outputs;
+  bool quiet = false;         ///< show only warnings, errors and the end
   bool allow_bare = false;    ///< accept layers that stay mostly without plastic
   std::size_t threads = 0;    ///< planning threads; 0: one for each core
   bool look_ahead = true;     ///< switch mixtures ahead of borders
@@ -93,7 +94,8 @@ struct SimulatedPrinter {
 
 /// How a print reports its progress.
 struct DisplayOptions {
-  bool json = false;  ///< events as JSON on standard output
+  bool json = false;   ///< events as JSON on standard output
+  bool quiet = false;  ///< only warnings, errors and the end, in words
 };
 
 void declare_layers(CLI::App& app, std::optional<LayerRange>& layers, const std::string& help);
@@ -102,6 +104,7 @@ void declare_log(CLI::App& app, std::optional<std::filesystem::path>& log);
 void declare_spool(CLI::App& app, std::optional<std::filesystem::path>& spool);
 void declare_state(CLI::App& app, std::optional<std::filesystem::path>& state);
 void declare_events(CLI::App& app, DisplayOptions& display);
+void declare_quiet(CLI::App& app, bool& quiet);
 void declare_pause_heat(CLI::App& app, PauseHeat& heat);
 void declare_tanks(CLI::App& app, std::optional<std::size_t>& tanks);
 /// Adds the paragraph on the words that steer a print from its terminal.

@@ -10,6 +10,7 @@
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/report/curve_file.hpp"
+#include "host/report/layer_log.hpp"
 #include "host/report/peak_memory.hpp"
 #include "host/report/picture_writer.hpp"
 #include "host/report/stage_pictures.hpp"

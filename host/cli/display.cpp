@@ -32,6 +32,15 @@ bool is_news(const SessionEvent& event) {
   return false;
 }
 
+/// Whether a person must see this event, whatever else they do not want to see.
+bool is_urgent(const SessionEvent& event) {
+  if (event.kind != SessionEvent::Kind::notice && event.kind != SessionEvent::Kind::printer) return false;
+  for (const char* start : {"Warning", "Error", "echo: cold", "echo: too long", "!!"}) {
+    if (event.text.starts_with(start)) return true;
+  }
+  return false;
+}
+
 /// Goes from the typed line to the beginning of the progress line, and erases both.
 constexpr auto erase_both = "\r\x1b[1A\x1b[J";
 constexpr auto erase_one = "\r\x1b[K";
@@ -71,14 +80,22 @@ void Display::show(const Session& session, const SessionEvent& event) {
     if (!often || is_due(event_interval)) write(event, session.status());
     return;
   }
-  if (is_news(event)) return say(event.text);
   const bool changed = event.kind == SessionEvent::Kind::state;
+  if (form_ == DisplayForm::urgent_words) {
+    if (is_urgent(event)) return say(event.text);
+    if (changed && session.status().state == SessionState::paused) say_why(session.status());
+    return;
+  }
+  if (is_news(event)) return say(event.text);
   if (changed || !terminal_.rewrites || is_due(redraw_interval)) {
     const SessionStatus status = session.status();
-    if (changed && !status.reason.empty() && !has_ended(status.state))
-      say(fmt::format("{}: {}", name(status.state), status.reason));
+    if (changed && !has_ended(status.state)) say_why(status);
     draw(status);
   }
+}
+
+void Display::say_why(const SessionStatus& status) {
+  if (!status.reason.empty()) say(fmt::format("{}: {}", name(status.state), status.reason));
 }
 
 bool Display::is_due(std::chrono::milliseconds interval) {

@@ -15,7 +15,11 @@
 
 namespace unicursal::host {
 
-enum class DisplayForm { words, json };
+enum class DisplayForm {
+  words,
+  urgent_words,  ///< only what goes wrong, and what waits for a person
+  json
+};
 
 class Display {
  public:
@@ -42,6 +46,8 @@ class Display {
   void draw(const SessionStatus& status);
   void draw_again();
   void say(const std::string& sentence);
+  /// The state with its reason, if it has one.
+  void say_why(const SessionStatus& status);
   void clear();
   void write(const SessionEvent& event, const SessionStatus& status);
   bool is_due(std::chrono::milliseconds interval);

@@ -48,6 +48,7 @@ CLI::App& DryRun::declare(CLI::App& program) {
 }
 
 Exit DryRun::run() {
+  display_.quiet = job_.quiet;
   if (simulated_.personality) simulated_.options.personality = *simulated_.personality;
   simulated_.check();
   const PreparedJob prepared = prepare_and_warn(job_, present({log_}));
@@ -65,12 +66,14 @@ Exit DryRun::run() {
       });
   const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   std::FILE* const messages = message_stream(display_);
-  show(messages, "{}", summary(result.totals, result.effort));
+  if (!display_.quiet) show(messages, "{}", summary(result.totals, result.effort));
   const Exit exit = show_ending(result.stream, display_);
   if (exit != Exit::success) return exit;
-  show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
+  if (!display_.quiet)
+    show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
   for (const std::string& warning : result.warnings) show(stderr, "warning: {}\n", warning);
-  show(messages, "{}", used_filament(result.totals, prepared.job.profile.printer.filament_diameter));
+  if (!display_.quiet)
+    show(messages, "{}", used_filament(result.totals, prepared.job.profile.printer.filament_diameter));
   show(messages, "done:      the print takes {} with heating{}; the dry run took {}\n",
        rough_duration(shown.seconds),
        shown.foretold ? " (" + rough_duration(*shown.foretold) + " were foretold)" : "",

@@ -27,11 +27,15 @@ std::string dump(const nlohmann::json& event) {
   return event.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+DisplayForm form_of(const DisplayOptions& options) {
+  if (options.json) return DisplayForm::json;
+  return options.quiet ? DisplayForm::urgent_words : DisplayForm::words;
+}
+
 /// Streams as long as it takes, with one display.
 class Shown {
  public:
-  Shown(const DisplayOptions& options, StatusLook look)
-      : display_(options.json ? DisplayForm::json : DisplayForm::words, std::move(look)) {}
+  Shown(const DisplayOptions& options, StatusLook look) : display_(form_of(options), std::move(look)) {}
 
   ForegroundResult stream(int port, Source& source, const StreamSettings& settings) {
     ForegroundResult result;

@@ -8,6 +8,7 @@
 #include "host/cli/progress_line.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/files/whole_file.hpp"
+#include "host/report/books.hpp"
 #include "host/report/print_report.hpp"
 #include "host/report/summary.hpp"
 
@@ -46,7 +47,7 @@ Exit Plan::run() {
   write(file, maker.start());
   Lookahead lookahead(*prepared.part, lookahead_options(prepared));
   {
-    ProgressLine progress("planning", prepared.count);
+    ProgressLine progress("planning", job_.quiet ? 0 : prepared.count);
     for (std::size_t done = 0; std::optional<PlannedLayer> layer = lookahead.wait(); ++done) {
       write(file, maker.layer(std::move(*layer)).chunk);
       progress.update(done, 1);
@@ -58,7 +59,8 @@ Exit Plan::run() {
   file.publish();
   books.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
   show_late_warnings(maker);
-  show(stdout, "{}written:   {}\n", summary(books.totals(), lookahead.effort()), output_.string());
+  show(stdout, "{}written:   {}\n", job_.quiet ? "" : summary(books.totals(), lookahead.effort()),
+       output_.string());
   return Exit::success;
 }
 

@@ -86,13 +86,15 @@ PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::pa
     job.print.look_ahead = options.look_ahead;
     job.full_quality = options.full_quality;
     job.allow_bare = job.allow_bare || options.allow_bare;
-    return prepare(std::move(job), options.layers, show_note);
+    return prepare(std::move(job), options.layers, [&](const std::string& note) {
+      if (!options.quiet) show_note(note);
+    });
   });
   prepared.threads = options.threads;
   std::vector<fs::path> outputs = more_outputs;
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
   check_outputs(files_of(prepared.job).all(), outputs);
-  for (const std::string& sentence : hanging_places(prepared)) show_note(sentence);
+  for (const std::string& sentence : hanging_places(prepared)) show(stderr, "warning: {}\n", sentence);
   return prepared;
 }
 

@@ -7,6 +7,7 @@
 #include "host/cli/foreground.hpp"
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
+#include "host/report/books.hpp"
 #include "host/report/print_report.hpp"
 #include "host/report/summary.hpp"
 
@@ -39,6 +40,7 @@ CLI::App& PrintCommand::declare(CLI::App& program) {
 }
 
 Exit PrintCommand::run() {
+  display_.quiet = job_.quiet;
   Print print(prepare_and_warn(job_, present({options_.log}), UnnamedPrinter::refuse), options_);
   Books books(print.maker(), "print", job_.outputs);
   print.connect();
@@ -55,8 +57,9 @@ Exit PrintCommand::run() {
   show_late_warnings(print.maker());
   if (result.ending == Ending::completed) {
     const double diameter = print.prepared().job.profile.printer.filament_diameter;
-    show(message_stream(display_), "{}{}", summary(books.totals(), print.lookahead().effort()),
-         used_filament(books.totals(), diameter));
+    if (!display_.quiet)
+      show(message_stream(display_), "{}{}", summary(books.totals(), print.lookahead().effort()),
+           used_filament(books.totals(), diameter));
     show_done(shown, display_);
   }
   return show_ending(result, display_);

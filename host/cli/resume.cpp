@@ -215,6 +215,7 @@ CLI::App& Resume::declare(CLI::App& program) {
   declare_spool(app, options_.on.spool);
   daemon_.declare_place(app);
   declare_events(app, options_.display);
+  declare_quiet(app, options_.display.quiet);
   declare_log(app, options_.on.log);
   add_steering_note(app);
   return app;

@@ -19,15 +19,10 @@
 #include "host/report/deposit_check.hpp"
 #include "host/report/layer_log.hpp"
 #include "host/report/picture_writer.hpp"
+#include "host/report/run_outputs.hpp"
 #include "host/report/totals.hpp"
 
 namespace unicursal::host {
-
-struct RunOutputs {
-  std::optional<std::filesystem::path> report;    ///< JSON
-  std::optional<std::filesystem::path> pictures;  ///< folder
-  bool repeatable = false;                        ///< leave out what was measured of this computer
-};
 
 /// A layer's entry in the report, while the layer is still being written or waited for.
 struct LayerEntry;

@@ -21,7 +21,7 @@ namespace unicursal::test {
 
 /// What a simulated printer has run and laid.
 struct Seen {
-  std::vector<std::string> lines;  ///< without the hosts' questions
+  std::vector<std::string> lines;  ///< without the hosts' questions, and what the display shows
   nlohmann::json report;
 };
 
@@ -65,6 +65,7 @@ class PrintBench {
     return std::filesystem::directory_iterator(path("spool"))->path();
   }
 
+  const Child& printer() const { return *printer_; }
   /// Another printer, cold and sound, stands at the old one's port.
   void replace_printer() {
     end_printer();
@@ -101,7 +102,8 @@ class PrintBench {
       asks_for_tools = line == "M163 S99 P1" || (asks_for_tools && (line.starts_with('T') || line == "M105"));
       const bool question = asks_for_tools || line == "*" || line == "M115" || line == "M105" ||
                             line == "M114" || line.starts_with("M155") || line.starts_with("M110") ||
-                            line == "M567 P0" || line == "G4 S1";  // until the nozzle cools
+                            line == "M567 P0" || line == "G4 S1" ||  // until the nozzle cools
+                            line.starts_with("M117 ") || line.starts_with("M73 ");
       if (!question) lines_.push_back(line);
     }
   }
