@@ -98,6 +98,7 @@ asio::awaitable<void> Holding::go_aside(std::string why, bool moving) {
     co_await parts_.link.drain();
     parts_.places.record_progress();
     parts_.places.record_aside();
+    co_await parts_.places.interpose(parts_.printer.display.word("Paused"));
   }
   hot_until_ = std::exchange(cool_soon_, false) ? now() : now() + hot_patience;
   parts_.announcer.enter(SessionState::paused, why);

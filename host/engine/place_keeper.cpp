@@ -41,6 +41,7 @@ asio::awaitable<void> PlaceKeeper::send(std::vector<std::string> lines) {
 /// next line.
 asio::awaitable<void> PlaceKeeper::interpose(std::vector<std::string> lines) {
   gcode::keep_commands(lines);
+  if (lines.empty()) co_return;
   const std::uint64_t before = link_.statistics().lines;
   interposed_ += lines.size();
   interposing_ = true;

@@ -50,6 +50,7 @@ StreamSettings settings_for(const PreparedJob& prepared, const PrintOptions& opt
   StreamSettings settings;
   settings.profile = prepared.job.profile.file;
   settings.pause_heat = options.pause_heat;
+  settings.display = prepared.job.profile.display;
   return settings;
 }
 

@@ -8,6 +8,7 @@
 
 #include "firmware_gcode/interruption/modal_state.hpp"
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/engine/printer_display.hpp"
 #include "host/link/host_prompt.hpp"
 
 namespace unicursal::host {
@@ -45,6 +46,7 @@ struct PrinterView {
   bool halted = false;               ///< the firmware has said that it has stopped itself
   gcode::ModalState expected;        ///< its state after all lines of the print that were handed to the link
   HostPrompt prompt;                 ///< what it asks a person
+  PrinterDisplay display;            ///< what its own display shows
   std::string mixture;               ///< fed after those lines: name or shares; empty before the first
   bool may_wait_for_heat = false;    ///< it may be in a wait for heat, and read nothing until that ends
   bool must_not_move = false;        ///< it does not know where its nozzle is

@@ -51,6 +51,7 @@ void Session::State::hear(const std::string& line) {
     wake.notify();
     return announcer.event(SessionEvent::Kind::heat);
   }
+  if (printer.display.hear(line)) return;
   announcer.quote(line);
   if (link.identity().family == gcode::Family::repetier && link.statistics().resends > 0)
     announcer.warn(unchecked_damage);

@@ -133,6 +133,7 @@ void Session::State::check_firmware() {
   }
   if (const auto why = lacks_feeders(identity)) refuse(*why);
   if (const auto strange = strangeness(identity)) announcer.warn(*strange);
+  if (settings.display) printer.display.begin(identity, source.printer().firmware);
 }
 
 /// Nothing has heated or moved.
@@ -226,11 +227,11 @@ asio::awaitable<void> Session::State::send_spooled() {
   bool& heating = printer.may_wait_for_heat;
   heating = places.begin() < hot;
   printer.must_not_move = heating && !leg.lead_in.empty();
-  const auto show_progress = [&] {
+  const auto note_progress = [&] {
     const std::uint64_t line = leg.line(places.next());
     progress.replay(layers.before(line), layers.fraction(line));
   };
-  show_progress();
+  note_progress();
   announcer.enter(heating ? SessionState::heating : SessionState::printing);
   while (!intent.ends()) {
     // The lines that lead back to the part are not interrupted.
@@ -239,8 +240,9 @@ asio::awaitable<void> Session::State::send_spooled() {
     std::vector<std::string> lines =
         reader.next(heating ? std::min<std::uint64_t>(batch, hot - places.next()) : batch);
     if (lines.empty()) break;
-    show_progress();
+    note_progress();
     printer.mixture = reader.mixture();
+    if (!heating && places.next() >= leg.lead_in.size()) co_await show_progress();
     co_await send_batch(std::move(lines));
     if (heating && places.next() >= hot) co_await get_hot();
     printer.must_not_move = printer.must_not_move && intent.ends();
@@ -373,6 +375,7 @@ asio::awaitable<void> Session::State::see_it_cool() {
 asio::awaitable<void> Session::State::hand_back() {
   co_await holding.guard_again();
   co_await link.drain();
+  co_await show_end();
   co_await see_it_cool();
   if (settings.link.temperatures.count() > 0 && link.identity().can("AUTOREPORT_TEMP")) {
     std::vector<std::string> lines(1, "M155 S0");
@@ -415,6 +418,7 @@ asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
     if (intent.ends() && !announcer.is_ending()) co_return;
     if (!whole) progress.sent(static_cast<double>(i) / static_cast<double>(chunk.lines.size()));
     const std::size_t end = std::min(i + batch, chunk.lines.size());
+    if (!whole) co_await show_progress();
     for (; mixture != chunk.mixtures.end() && mixture->line < end; ++mixture) printer.mixture = mixture->name;
     co_await send_batch({chunk.lines.begin() + static_cast<std::ptrdiff_t>(i),
                          chunk.lines.begin() + static_cast<std::ptrdiff_t>(end)});

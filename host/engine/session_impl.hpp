@@ -73,6 +73,10 @@ struct Session::State {
   asio::awaitable<std::string> try_to_spool(SpooledChunk& record, gcode::Chunk& chunk);
   asio::awaitable<std::string> write(const SpooledChunk& record);
 
+  // The printer's own display (session_display.cpp)
+  asio::awaitable<void> show_progress();
+  asio::awaitable<void> show_end();
+
   // What comes from outside (session_commands.cpp)
   void hear(const std::string& line);
   void watch_heat();

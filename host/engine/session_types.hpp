@@ -77,6 +77,7 @@ struct StreamSettings {
   /// For a resumed print. Precondition: a spool that holds the first layers; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;
+  bool display = false;  ///< the printer's own display shows how far the print is
   /// s after which a pause ends by itself, for prints without an operator; absent: never.
   std::optional<double> longest_pause;
 };

@@ -49,6 +49,7 @@ void read_machine(const Section& section, Profile& profile) {
   profile.baud = read_whole(section, "baud", profile.baud, between(300, 4000000, "bits/s"));
   profile.receive_buffer =
       read_whole(section, "receive_buffer", profile.receive_buffer, between(32, 65536, "bytes"));
+  profile.display = section.flag_or("display", profile.display, "write true or false");
   printer.bed =
       section.numbers_or("bed", printer.bed, within(gcode::bounds::bed, "mm"), "write bed = [x, y, z] in mm");
   printer.nozzle = section.number_or("nozzle", printer.nozzle, within(gcode::bounds::nozzle, "mm"),

@@ -25,6 +25,7 @@ struct Profile {
   std::optional<HeadClearance> clearance;  ///< absent: not measured
   std::vector<std::string> filaments;      ///< their names, one for each feeder; empty: unknown
   unsigned receive_buffer = 128;           ///< bytes, of the firmware
+  bool display = true;                     ///< the printer's own display shows how far a print is
 };
 
 /// Throws core::FileError or JobError.
