@@ -22,15 +22,21 @@ asio::awaitable<void> Session::State::show_progress() {
   if (!prints || link.waits_for_user() || starves(link.queues())) co_return;
   const PrinterDisplay::Progress now{progress.percent(ahead(), false), progress.layer(source.layers()),
                                      source.layers(), left()};
-  co_await places.interpose(printer.display.due(now, moment_of(*clock)));
+  std::vector<std::string> lines = printer.display.due(now, moment_of(*clock));
+  co_await places.interpose(std::move(lines));
 }
 
 asio::awaitable<void> Session::State::show_end() {
   if (!settings.display) co_return;
   const bool completed = announcer.state() == SessionState::finishing;
   const bool cancelled = intent.stopped() && gave_up_heating.empty();
-  co_await places.interpose(completed ? printer.display.done(moment_of(*clock))
-                                      : printer.display.word(cancelled ? "Cancelled" : "Failed"));
+  // g++ 12 destroys the temporaries of a conditional expression in a co_await twice.
+  std::vector<std::string> lines;
+  if (completed)
+    lines = printer.display.done(moment_of(*clock));
+  else
+    lines = printer.display.word(cancelled ? "Cancelled" : "Failed");
+  co_await places.interpose(std::move(lines));
 }
 
 }  // namespace unicursal::host

@@ -109,7 +109,7 @@ TEST_CASE("Tab offers an option once, unless it may be repeated") {
 
 TEST_CASE("Tab offers the values of an option") {
   CHECK(offers({"dry-run", "--personality", "mar"}) ==
-        " marlin marlin-8bit marlin-advanced-ok marlin-host marlin-few-tools ");
+        " marlin marlin-8bit marlin-advanced-ok marlin-host marlin-few-tools marlin-plain ");
   CHECK(offers({"simulate", "--personality=rep"}) ==
         " --personality=repetier --personality=repetier-0.92 --personality=reprapfirmware ");
   CHECK(offers({"simulate", "--usb", ""}) == " none cdc ftdi ");
