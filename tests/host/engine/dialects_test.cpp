@@ -125,7 +125,8 @@ TEST_CASE("Feeders that slip are corrected by their factors, and the report show
   CHECK(report["comparison"]["worst_relative_error"].get<double>() < 0.01);
 }
 
-TEST_CASE("A layer may be cooler or hotter than the one before, in every dialect, without a pause") {
+TEST_CASE("A layer may be cooler or hotter than the one before, in every dialect, without a pause",
+          "[optimised]") {
   for (const char* const firmware : {"marlin", "repetier", "reprapfirmware"}) {
     for (const int nozzle : {190, 205, 225}) {
       const test::TempFolder folder;

@@ -208,7 +208,8 @@ TEST_CASE("While a printer waits for a person its display is left alone") {
   CHECK(display_lines(shown).back().starts_with("M117 Done"));
 }
 
-TEST_CASE("A print that is killed and resumed goes on line by line, whatever its display shows") {
+TEST_CASE("A print that is killed and resumed goes on line by line, whatever its display shows",
+          "[optimised]") {
   const std::string who = GENERATE("marlin-host", "repetier", "reprapfirmware");
   CAPTURE(who);
   const std::string firmware = who == "marlin-host" ? "marlin" : who;

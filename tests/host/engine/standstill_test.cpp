@@ -37,7 +37,8 @@ Course print_with(const std::string& firmware, const std::vector<std::string>& f
 
 }  // namespace
 
-TEST_CASE("Lost words hold the nozzle for less than a second, and the print for less than a tenth") {
+TEST_CASE("Lost words hold the nozzle for less than a second, and the print for less than a tenth",
+          "[optimised]") {
   const std::string firmware = GENERATE("marlin", "marlin-advanced-ok", "marlin-8bit");
   CAPTURE(firmware);
   const Course plain = print_with(firmware, {});

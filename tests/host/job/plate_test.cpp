@@ -90,7 +90,7 @@ TEST_CASE("A kept print holds the models of all its parts") {
   CHECK(prepare(spool.job()).part->layer(0).islands.size() == 2);
 }
 
-TEST_CASE("A plate of copies takes as much plastic as they do one by one") {
+TEST_CASE("A plate of copies takes as much plastic as they do one by one", "[optimised]") {
   const Bench bench;
   const auto volume = [&](const char* copies) {
     const auto report = bench.folder / "r.json";

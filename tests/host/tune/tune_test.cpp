@@ -62,7 +62,7 @@ void wait_until_said(const Child& child, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("Tuning on the simulated printer finds its hidden volumes", "[tuning]") {
+TEST_CASE("Tuning on the simulated printer finds its hidden volumes", "[tuning][optimised]") {
   const Workshop shop;
   std::vector<test::HiddenNozzle> nozzles = test::hidden_nozzles();
   nozzles.push_back({test::least_dead, test::least_mixing, 1});
