@@ -51,7 +51,7 @@ std::string in_quotes(const std::string& word) {
   }
   const std::string meant = nearest(given, names);
   const bool near = edit_distance(given, meant) <= most_misspelt_letters;
-  throw core::DataError("", name_of(app), "there is no command " + in_quotes(given),
+  throw core::DataError("", name_of(app), in_quotes(given) + " is not a command",
                         near ? did_you_mean(meant) : see_help(app, " lists the commands"));
 }
 
@@ -74,7 +74,7 @@ std::string meant_option(const CLI::App& app, const std::string& given) {
 
 [[noreturn]] void refuse_option(const CLI::App& app, const std::string& given) {
   const std::string meant = meant_option(app, given);
-  throw core::DataError("", name_of(app), "there is no option " + in_quotes(given),
+  throw core::DataError("", name_of(app), in_quotes(given) + " is not an option",
                         meant.empty() ? see_help(app, " lists the options") : did_you_mean(meant));
 }
 

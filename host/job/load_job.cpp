@@ -313,7 +313,7 @@ Job read_job(const SettingsFile& file, const std::filesystem::path& path,
 Job job_for_model(const std::filesystem::path& model, const std::optional<std::filesystem::path>& chosen,
                   UnnamedPrinter unnamed) {
   if (std::error_code error; !std::filesystem::exists(model, error))
-    throw core::FileError(model.string(), "", "there is no such file", "check the path");
+    throw core::FileError(model.string(), "", "does not exist", "check the path");
   const std::optional<std::filesystem::path> own = chosen ? chosen : own_profile();
   if (!own && unnamed == UnnamedPrinter::refuse) {
     throw JobError(model.string(), "", "is a model, which does not say on which printer it is printed",

@@ -26,7 +26,7 @@ std::string read_text(const std::filesystem::path& file) {
     throw core::FileError(file.string(), "", "is a folder", "name a file in it");
   }
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw core::FileError(file.string(), "", "there is no such file", "check the path");
+    throw core::FileError(file.string(), "", "does not exist", "check the path");
   }
   if (std::filesystem::file_size(file, error) > largest_file) {
     throw core::FileError(file.string(), "", "is too big for a settings file",

@@ -53,7 +53,7 @@ TEST_CASE("a quiet command still warns, and says why it fails") {
   CHECK_THAT(outcome.err, Contains("Warning: the printer does not know one of the lines that prepare it"));
   CHECK(outcome.err.find("layer") == std::string::npos);
   CHECK_THAT(run({"plan", bench.path("none.toml"), "-q", "-o", bench.path("a")}).err,
-             Contains("there is no such file"));
+             Contains("does not exist"));
 }
 
 TEST_CASE("a quiet print shows nothing in a terminal until it ends, and what is typed is answered") {

@@ -47,19 +47,19 @@ std::string said(const Words& words) {
 
 TEST_CASE("a mistyped option, command or word is named, with what was probably meant") {
   for (const auto& [words, sentence] : std::vector<std::pair<Words, std::string>>{
-           {{"print", "--prt", "x"}, "print: there is no option \"--prt\"; did you mean \"--port\"?"},
+           {{"print", "--prt", "x"}, "print: \"--prt\" is not an option; did you mean \"--port\"?"},
            {{"plan", "a.toml", "--layer", "0:1"},
-            "plan: there is no option \"--layer\"; did you mean \"--layers\"?"},
+            "plan: \"--layer\" is not an option; did you mean \"--layers\"?"},
            {{"dry-run", "--pers", "x"},
-            "dry-run: there is no option \"--pers\"; did you mean \"--personality\"?"},
-           {{"queue", "--uplaod=x"}, "queue: there is no option \"--uplaod\"; did you mean \"--upload\"?"},
-           {{"--vers"}, "there is no option \"--vers\"; did you mean \"--version\"?"},
+            "dry-run: \"--pers\" is not an option; did you mean \"--personality\"?"},
+           {{"queue", "--uplaod=x"}, "queue: \"--uplaod\" is not an option; did you mean \"--upload\"?"},
+           {{"--vers"}, "\"--vers\" is not an option; did you mean \"--version\"?"},
            {{"print", "--nonsense"},
-            "print: there is no option \"--nonsense\"; `unicursal print --help` lists the options"},
-           {{"ports", "-x"}, "ports: there is no option \"-x\"; `unicursal ports --help` lists the options"},
-           {{"prnt", "--help"}, "there is no command \"prnt\"; did you mean \"print\"?"},
-           {{"fly"}, "there is no command \"fly\"; `unicursal --help` lists the commands"},
-           {{"tune", "transitoin"}, "tune: there is no command \"transitoin\"; did you mean \"transition\"?"},
+            "print: \"--nonsense\" is not an option; `unicursal print --help` lists the options"},
+           {{"ports", "-x"}, "ports: \"-x\" is not an option; `unicursal ports --help` lists the options"},
+           {{"prnt", "--help"}, "\"prnt\" is not a command; did you mean \"print\"?"},
+           {{"fly"}, "\"fly\" is not a command; `unicursal --help` lists the commands"},
+           {{"tune", "transitoin"}, "tune: \"transitoin\" is not a command; did you mean \"transition\"?"},
            {{}, "a command is missing; `unicursal --help` lists the commands"},
            {{"tune"}, "tune: a command is missing; `unicursal tune --help` lists the commands"},
            {{"set", "speed", "80"},
@@ -109,7 +109,7 @@ TEST_CASE("every refusal has one hint") {
 
 TEST_CASE("a missing model is missed before its printer") {
   const std::string sentence = said({"print", "/none/plate.stl"});
-  CHECK(sentence.find("there is no such file") != std::string::npos);
+  CHECK(sentence.find("does not exist") != std::string::npos);
 }
 
 TEST_CASE("a simulator names the link that it cannot make") {
@@ -138,9 +138,9 @@ TEST_CASE(
     "mistakes and missing files are said in one row of their own in windows of 60, 80 and 120 columns") {
   const int width = GENERATE(60, 80, 120);
   for (const auto& [words, row] : std::vector<std::pair<Words, std::string>>{
-           {{"prnt"}, "unicursal: there is no command \"prnt\"; did"},
-           {{"print", "--prt"}, "unicursal: print: there is no option \"--prt\"; did"},
-           {{"print", "/none.toml"}, "unicursal: /none.toml: there is no such file; check the"}}) {
+           {{"prnt"}, "unicursal: \"prnt\" is not a command; did"},
+           {{"print", "--prt"}, "unicursal: print: \"--prt\" is not an option; did"},
+           {{"print", "/none.toml"}, "unicursal: /none.toml: does not exist; check the"}}) {
     test::Terminal terminal(words, "/nonexistent", {static_cast<unsigned short>(width)});
     CHECK(terminal.wait() == 2);
     CHECK(terminal.screen().rows().size() <= (width == 60 ? 3 : 2));
