@@ -13,9 +13,7 @@ constexpr double fine = 1.0 / 16;           ///< of the mixing volume: step wher
 constexpr double coarse = 1.0 / 4;          ///< step elsewhere
 constexpr double finest = 0.05;             ///< mm³, for chambers that hardly mix
 constexpr double gradient_step = 1.0 / 16;  ///< of the mixing volume: closer shades do not show
-constexpr double early = 0.95;              ///< fraction of a change: no switch is earlier before its border
 constexpr double late = 0.25;    ///< mixing volumes behind a border within which a switch may still come
-constexpr double horizon = 1.5;  ///< mixing volumes after which a decision is final
 constexpr double switch_cost = 0.002;  ///< mixing volumes: avoids useless switches
 constexpr double hopeless =
     1.5;  ///< mixing volumes: survivors more expensive than the best by this are dropped
@@ -53,7 +51,7 @@ struct Schedule::State {
         step(std::max(fine * with.chamber.mixing_volume, finest)),
         long_step(std::max(coarse * with.chamber.mixing_volume, finest)),
         lead(with.chamber.delay(with.before_border) - with.chamber.dead_volume),
-        reach(std::max(with.chamber.delay(early) - with.chamber.dead_volume, step)),
+        reach(std::max(with.chamber.delay(with.early) - with.chamber.dead_volume, step)),
         after(std::max(late * with.chamber.mixing_volume, step)),
         gradient_lead(with.chamber.mean_delay() - with.chamber.dead_volume),
         at(with.chamber.dead_volume) {}
@@ -281,7 +279,7 @@ void Schedule::State::settle() {
   const double dead = options.chamber.dead_volume;
   const double overdue = ended && at >= wanted.end() - same_place
                              ? std::numeric_limits<double>::infinity()
-                             : at - dead - std::max(horizon * options.chamber.mixing_volume, step);
+                             : at - dead - std::max(options.horizon * options.chamber.mixing_volume, step);
   for (;;) {
     const std::vector<Switch>& best = survivors.front().switches;
     const auto agrees = [&best](const Survivor& s) {

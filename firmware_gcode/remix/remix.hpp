@@ -11,10 +11,11 @@
 //   Remix remix(file, "part.gcode", printer, survey, settings);
 //   use(remix.start());
 //   while (auto chunk = remix.next()) use(*chunk);
-//   use(remix.finish());
+//   use(remix.finish(false));
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <istream>
 #include <map>
 #include <memory>
@@ -36,6 +37,7 @@ struct RemixSettings {
   bool look_ahead = true;            ///< false, for comparison: switch where the slicer changes the tool
   bool hide = true;                  ///< changes fall where they are not seen; false: all beads count alike
   bool leave_out_tower = false;      ///< the wipe tower is not printed
+  std::function<void()> stop = {};   ///< is called now and then while the file is read; it may throw
   SlicedLimits limits;               ///< as for the survey
 };
 
@@ -78,10 +80,10 @@ class Remix {
   /// of the encoder do (";LAYER_CHANGE", ";Z:", ";HEIGHT:"). nullopt after the last bead. Throws
   /// core::DataError if the file has changed since the survey.
   std::optional<Chunk> next();
-  /// The end of the print: after the last chunk the file's own end; if the print was ended before, the nozzle
-  /// rises and moves away. Both end with heaters, fan and motors off. May be called at any time after
-  /// start().
-  Chunk finish();
+  /// The end of the print. `stopped` false: the file's own end, after the last chunk. Else the print was
+  /// ended somewhere in what was given: the nozzle rises above all of it and moves away. Both end with
+  /// heaters, fan and motors off. Once, after start().
+  Chunk finish(bool stopped);
 
   /// The mixture that will be delivered for a material, after floor share and rounding.
   Mixture intended(std::size_t material) const;

@@ -10,10 +10,12 @@
 #include <cstdint>
 #include <functional>
 #include <istream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/geometry/polygon.hpp"
+#include "firmware_gcode/print/mixture.hpp"
 #include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
@@ -21,8 +23,9 @@ namespace unicursal::gcode {
 /// A tool of the file. A mixing nozzle prints it with a mixture.
 struct SlicedTool {
   int number = 0;
-  std::string colour;  ///< of its filament, "#rrggbb"; empty: the file does not say
-  double volume = 0;   ///< mm³ that it extrudes
+  std::string colour;                   ///< of its filament, "#rrggbb"; empty: the file does not say
+  double volume = 0;                    ///< mm³ that it extrudes
+  std::optional<Mixture> mixture = {};  ///< that the file itself gives it (M163, M165, M567)
 };
 
 struct SlicedSurvey {
@@ -30,11 +33,12 @@ struct SlicedSurvey {
   std::vector<SlicedTool> tools;  ///< those that extrude, by number
   std::size_t layers = 0;         ///< at least 1
   double first_layer_height = 0, layer_height = 0;
-  core::Box extent;            ///< of all that is laid, tower and skirt included, without the user's lines
-  double height = 0;           ///< greatest z at which plastic is laid
-  double volume = 0;           ///< mm³ fed beyond what was drawn back
-  double tower_volume = 0;     ///< mm³ of it in the wipe tower
-  double seconds = 0;          ///< estimated, without heating
+  core::Box extent;         ///< of all that is laid, tower and skirt included, without the user's lines
+  double height = 0;        ///< greatest z at which plastic is laid
+  double volume = 0;        ///< mm³ fed beyond what was drawn back
+  double tower_volume = 0;  ///< mm³ of it in the wipe tower
+  double seconds = 0;       ///< estimated, without heating
+  std::vector<double> layer_seconds;
   double nozzle = 0, bed = 0;  ///< highest targets
   std::size_t changes = 0;     ///< of tool, between beads
   std::uint64_t lines = 0;

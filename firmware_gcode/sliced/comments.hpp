@@ -1,0 +1,43 @@
+// What slicers write into comments: their name, what a bead belongs to, its width, where layers and wipe
+// towers begin, and their settings. mm.
+//
+// Sources: PrusaSlicer 2.5 src/libslic3r/GCode/GCodeProcessor.cpp (tags, also those of SuperSlicer),
+// OrcaSlicer and Bambu Studio (same file: "FEATURE:", "CHANGE_LAYER"), src/libslic3r/GCode/WipeTower.cpp ("CP
+// …"); CuraEngine 4.13 src/gcodeExport.cpp ("LAYER:", "TYPE:"); files of Simplify3D 4.1 and KISSlicer 1.6.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware_gcode/sliced/feature.hpp"
+
+namespace unicursal::gcode {
+
+/// What the comments so far say about the next moves.
+struct CommentState {
+  std::string slicer;  ///< with its version; empty: unknown
+  Feature feature = Feature::unknown;
+  bool any_feature = false;  ///< features are named at all
+  std::optional<double> width, height;
+  bool tower = false;                ///< inside the wipe tower, whatever the feature
+  bool ramming = false;              ///< filament is unloaded or loaded, which no mixing nozzle needs
+  std::vector<std::string> colours;  ///< of the tools, "#rrggbb" or empty
+  std::optional<double> filament_diameter;
+  bool volumetric = false;  ///< E is mm³
+
+  Feature present() const { return tower ? Feature::tower : feature; }
+};
+
+enum class CommentMeaning {
+  none,
+  layer,       ///< a layer begins
+  layer_mark,  ///< says more about a layer that has begun, such as its height
+  config,      ///< a setting of the slicer
+};
+
+/// Takes a comment without its ';' into account.
+CommentMeaning read_comment(std::string_view comment, CommentState& state);
+
+}  // namespace unicursal::gcode

@@ -1,0 +1,105 @@
+// Reads a slicer's file step by step, and refuses what would break a print: motion outside the bed, heat
+// beyond the limits, cold extrusion, settings written into the printer, waits for a person who may not be
+// there. All modes of the file (units, relative positions, absolute extrusion, offsets) are resolved; arcs
+// become chords; the firmware's own retraction (G10, G11) becomes the profile's. mm, mm/min, °C.
+//
+// Departure: G90 does not change how E counts after M82 or M83, as Marlin 1.1 and Repetier have it and
+// slicers mean it; in Marlin 2 it does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <istream>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware_gcode/print/printer.hpp"
+#include "firmware_gcode/sliced/commands.hpp"
+#include "firmware_gcode/sliced/comments.hpp"
+#include "firmware_gcode/sliced/line_source.hpp"
+#include "firmware_gcode/sliced/step.hpp"
+#include "firmware_gcode/sliced/survey.hpp"
+
+namespace unicursal::gcode {
+
+class SlicedReader {
+ public:
+  /// `file` must outlive this object.
+  SlicedReader(std::istream& file, std::string name, const Printer& printer, const SlicedLimits& limits);
+
+  /// nullopt at the end of the file. Throws core::DataError.
+  std::optional<SlicedStep> next();
+
+  /// Whether next() has to read a line.
+  bool nothing_pending() const { return steps_.empty(); }
+  const CommentState& comments() const { return comments_; }
+  /// Lines and bytes that were read.
+  std::uint64_t lines() const { return source_.number(); }
+  std::uint64_t bytes() const { return source_.bytes(); }
+  double hottest_nozzle() const { return hottest_nozzle_; }
+  double hottest_bed() const { return hottest_bed_; }
+  /// The shares that the file itself gives to a tool (M163, M165, M567), by the tool's number in the steps.
+  const std::map<int, Mixture>& own_mixtures() const { return own_mixtures_; }
+  /// What was left out or is strange, one sentence each.
+  std::vector<std::string> notes() const;
+
+ private:
+  void read(std::string_view line);
+  void comment(std::string_view text);
+  void command(const SlicedCommand& command);
+  void motion(const SlicedCommand& command);
+  void straight(const SlicedCommand& command, const Place& to, double filament);
+  void arc(const SlicedCommand& command, const Place& to, double filament, bool clockwise);
+  void move(const Place& to, double filament);
+  void relative_from_nowhere(const SlicedCommand& command, double filament);
+  void retract_by_firmware(bool back);
+  double filament_of(const SlicedCommand& command);
+  Place target_of(const SlicedCommand& command) const;
+  void set_mode(const SlicedCommand& command);
+  void set_position(const SlicedCommand& command);
+  void home(const SlicedCommand& command);
+  void heat(const SlicedCommand& command);
+  void wait_for_person(const SlicedCommand& command);
+  void mixture(const SlicedCommand& command);
+  void change_tool(const SlicedCommand& command);
+  void enter_tool(int tool);
+  void pass(std::string text);
+  void check_inside(const Place& place) const;
+  void check_warm() const;
+  void begin_layer_by_height(double z);
+  void begin_layer();
+  void note(const std::string& key, const std::string& sentence);
+  [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
+  double unit(double value) const { return inches_ ? value * 25.4 : value; }
+
+  LineSource source_;
+  std::string name_;
+  Printer printer_;
+  SlicedLimits limits_;
+  CommentState comments_;
+  std::deque<SlicedStep> steps_;  ///< read, and not given yet
+  Place at_{};
+  std::array<double, 3> offset_{};  ///< native minus logical position (G92)
+  double e_ = 0;                    ///< the file's E
+  double feed_ = 0;
+  bool inches_ = false, relative_ = false, relative_filament_ = false;
+  bool drawn_by_firmware_ = false;
+  int tool_ = 0;          ///< the file's number
+  int mixture_tool_ = 0;  ///< the number in the steps
+  double nozzle_ = 0, hottest_nozzle_ = 0, hottest_bed_ = 0;
+  bool laid_ = false;
+  bool marked_ = false;  ///< comments mark the layers
+  std::size_t layers_ = 0;
+  double layer_z_ = 0;
+  std::array<std::optional<double>, max_feeders> collected_{};  ///< M163 since the last M164
+  std::map<int, int> numbers_;                                  ///< of tools whose mixture the file gives
+  std::map<int, Mixture> own_mixtures_;
+  std::map<std::string, std::pair<std::string, std::uint64_t>> noted_;  ///< sentence and how often, by kind
+};
+
+}  // namespace unicursal::gcode
