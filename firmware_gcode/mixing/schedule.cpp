@@ -13,7 +13,7 @@ constexpr double fine = 1.0 / 16;           ///< of the mixing volume: step wher
 constexpr double coarse = 1.0 / 4;          ///< step elsewhere
 constexpr double finest = 0.05;             ///< mm³, for chambers that hardly mix
 constexpr double gradient_step = 1.0 / 16;  ///< of the mixing volume: closer shades do not show
-constexpr double late = 0.25;    ///< mixing volumes behind a border within which a switch may still come
+constexpr double late = 0.25;  ///< mixing volumes behind a border within which a switch may still come
 constexpr double switch_cost = 0.002;  ///< mixing volumes: avoids useless switches
 constexpr double hopeless =
     1.5;  ///< mixing volumes: survivors more expensive than the best by this are dropped

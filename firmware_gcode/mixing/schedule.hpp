@@ -29,8 +29,8 @@ struct ScheduleOptions {
   bool look_ahead = true;      ///< false, for comparison: switch at the border
   /// Null: changes have no overshoots. Must outlive the schedule.
   const Overshoots* overshoots = nullptr;
-  /// No switch precedes its border by more than the volume in which this fraction of the change arrives. Greater if
-  /// the plastic before a border matters less than that behind it.
+  /// No switch precedes its border by more than the volume in which this fraction of the change arrives.
+  /// Greater if the plastic before a border matters less than that behind it.
   double early = 0.95;
   double horizon = 1.5;  ///< mixing volumes after which a switch is final
 };

@@ -20,10 +20,9 @@
 #include "firmware_gcode/mixing/schedule.hpp"
 #include "firmware_gcode/mixing/tool_table.hpp"
 #include "firmware_gcode/motion/time_estimate.hpp"
+#include "firmware_gcode/remix/entries.hpp"
 #include "firmware_gcode/remix/line_writer.hpp"
 #include "firmware_gcode/remix/outflow.hpp"
-#include "firmware_gcode/sliced/reader.hpp"
-#include "firmware_gcode/sliced/retraction.hpp"
 #include "firmware_gcode/toolpath/checks.hpp"
 #include "firmware_gcode/toolpath/job_frame.hpp"
 
@@ -34,37 +33,12 @@ constexpr double unseen = 0.02;       ///< weight of plastic beside the part if 
 constexpr double early = 0.999;       ///< fraction of a change that a switch may precede its border by
 constexpr double horizon = 3;         ///< mixing volumes after which a switch is final
 constexpr double least_piece = 1e-3;  ///< mm³; beads are not cut nearer to their ends
-constexpr double same_draw = 1e-4;    ///< mm of filament
-constexpr double above = 0.6;         ///< mm by which a way round a tower that is left out rises, at least
 constexpr double park_lift = 10;      ///< mm above the last layer
 constexpr std::size_t chunk_lines = 2000;
-constexpr std::uint64_t lines_between_stops = 1 << 14;
 
 void append(std::vector<std::string>& lines, std::vector<std::string> more) {
   lines.insert(lines.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
-
-// ---- what was read and is not written yet
-
-struct Text {
-  std::string line;
-};
-struct BeginLayer {
-  std::size_t index;
-  std::optional<double> top;
-  double height = 0;
-};
-/// Motion and filament together; either may be absent.
-struct Go {
-  Place from, to;
-  double feed;
-  double fed = 0;    ///< mm³ that come out of the nozzle
-  double other = 0;  ///< mm of filament that are drawn back (negative) or pushed forward again
-  double width = 0, height = 0;
-  std::size_t material = 0;
-  Feature feature = Feature::unknown;
-};
-using Entry = std::variant<Text, BeginLayer, Go>;
 
 /// The mixtures of a print, and the tools that hold them at its start.
 struct Mixtures {
@@ -111,24 +85,13 @@ struct Remix::State {
   State(std::istream& file, const std::string& name, const Printer& of, const SlicedSurvey& surveyed,
         const RemixSettings& with, const Dialect& speaks, Mixtures mixtures);
 
+  void want(const Go& go, std::size_t of_layer);
   void read_more();
-  void take(const SlicedMove& step);
-  void take(const SlicedToolChange& step);
-  void take(const SlicedLayer& step);
-  void take(const SlicedPass& step);
-  void take(const SlicedRemark& step);
-  bool leaves_out(const SlicedMove& step);
-  void release();
-  void come_back(const SlicedMove& step);
-  void draw(double length, double feed);
-  void note_layer(std::optional<double> top, double height);
-  std::size_t material_of(const SlicedMove& step) const;
-  void end_reading();
 
   bool is_certain(const Entry& entry) const;
   bool write_some(std::size_t most_lines);
   void write(const Text& entry);
-  void write(const BeginLayer& entry);
+  void write(const LayerMark& entry);
   void write(const Go& entry);
   void write_feed(const Go& entry);
   void switch_mixture();
@@ -153,30 +116,9 @@ struct Remix::State {
   Schedule schedule;
   Outflow outflow;
   TimeEstimate time;
-  SlicedReader reader;
   const LayerMaterials materials;
+  Entries entries;
 
-  // Reading.
-  std::deque<Entry> entries;  ///< read, not written yet
-  std::vector<Entry>
-      held;  ///< travels that may lead to a tower that is left out, and what stands between them
-  std::vector<SlicedStep> end;  ///< the file's own end
-  Retraction retraction;
-  double drawn = 0;     ///< mm of filament that are really drawn back, when all entries are carried out
-  Place planned{};      ///< the nozzle's place then
-  bool away = false;    ///< the file's nozzle is somewhere else, in a part of the file that is left out
-  bool rammed = false;  ///< filament was unloaded or loaded there
-  int tool = 0;
-  std::optional<std::size_t> last_material;
-  std::size_t reading_layer = 0;
-  double last_top = 0;
-  bool layer_noted = true;  ///< the last layer's height is known
-  bool read_all = false;
-  bool in_end = false;
-  std::uint64_t looked = 0;
-  double left_out = 0;
-
-  // Writing.
   std::deque<Switch> switches;
   std::optional<Shade> shade;  ///< in use
   std::size_t shade_tool = 0;
@@ -186,6 +128,7 @@ struct Remix::State {
   LayerMixing mixing;
   double assigned = 0;  ///< s of the chunks so far
   double highest = 0;
+  std::optional<std::size_t> last_material;
   bool begun = false;  ///< a layer has begun
   bool listens = false;
   WantedLayer wanted;
@@ -209,8 +152,9 @@ Remix::State::State(std::istream& file, const std::string& of_name, const Printe
       schedule(palette, schedule_options(of, with, overshoots)),
       outflow(chamber_of(of)),
       time(of),
-      reader(file, of_name, of, with.limits),
-      materials(all_materials(with)) {
+      materials(all_materials(with)),
+      entries(file, name, printer, survey, settings,
+              [this](const Go& go, std::size_t of_layer) { want(go, of_layer); }) {
   for (std::size_t i = 0; i < tools.size(); ++i) define_tool(i);
 }
 
@@ -223,184 +167,22 @@ void Remix::State::define_tool(std::size_t which) {
   writer.define_tool(which, std::move(called), mixture);
 }
 
-// ---- reading
+void Remix::State::want(const Go& go, std::size_t of_layer) {
+  const bool beside =
+      go.feature == Feature::custom || go.feature == Feature::aside || go.feature == Feature::tower;
+  const double matters = settings.hide ? weight(go.feature) : beside ? unseen : 1;
+  schedule.add({go.fed, go.material, 0, matters, false, of_layer, materials});
+}
 
 void Remix::State::read_more() {
-  const auto step = reader.next();
-  if (!step) return end_reading();
-  if (settings.stop && reader.lines() / lines_between_stops != looked) {
-    looked = reader.lines() / lines_between_stops;
-    settings.stop();
-  }
-  if (in_end) {
-    end.push_back(*step);
-    return;
-  }
-  std::visit([this](const auto& kind) { take(kind); }, *step);
+  entries.read();
+  if (entries.complete()) schedule.end();
   for (const Switch& next : schedule.take()) switches.push_back(next);
-  if (reader.lines() >= survey.last_bead && reader.nothing_pending()) {
-    in_end = true;
-    schedule.end();
-    for (const Switch& next : schedule.take()) switches.push_back(next);
-  }
 }
-
-void Remix::State::end_reading() {
-  read_all = true;
-  if (!in_end) {
-    throw core::DataError(name, "", "has become shorter since it was looked at",
-                          "start again when nothing writes to it any more");
-  }
-}
-
-void Remix::State::take(const SlicedRemark& step) {
-  held.emplace_back(Text{step.text});
-}
-
-void Remix::State::take(const SlicedPass& step) {
-  const bool heats =
-      step.text.starts_with("M10") || step.text.starts_with("M14") || step.text.starts_with("M19");
-  if (step.tower && settings.leave_out_tower && !heats) return;
-  held.emplace_back(Text{step.text});
-}
-
-void Remix::State::take(const SlicedLayer& step) {
-  release();
-  note_layer(std::nullopt, 0);  // of a layer without beads
-  layer_noted = false;
-  reading_layer = step.index;
-  entries.emplace_back(BeginLayer{step.index, std::nullopt, 0});
-}
-
-void Remix::State::take(const SlicedToolChange& step) {
-  tool = step.tool;
-  retraction.change_tool(tool);
-}
-
-std::size_t Remix::State::material_of(const SlicedMove& step) const {
-  const auto known = settings.tools.find(tool);
-  if (known == settings.tools.end()) {
-    throw core::DataError(name, fmt::format("line {}", step.line),
-                          fmt::format("uses tool T{}, which has no mixture", tool),
-                          "start again if the file has changed meanwhile");
-  }
-  return known->second;
-}
-
-/// What the file does in a tower that is left out, or while it loads and unloads filament.
-bool Remix::State::leaves_out(const SlicedMove& step) {
-  if (step.ramming) {
-    away = rammed = true;
-  } else if (settings.leave_out_tower && step.feature == Feature::tower) {
-    if (std::exchange(rammed, false)) retraction.forget();
-    left_out += retraction.take(step.filament, !step.moves_flat()) * filament_area;
-    away = true;
-  } else {
-    return away && step.filament == 0;  // on its way back
-  }
-  // The way to the tower is left out as well.
-  std::erase_if(held, [](const Entry& entry) { return std::holds_alternative<Go>(entry); });
-  return true;
-}
-
-/// What was held becomes certain.
-void Remix::State::release() {
-  for (Entry& entry : held) {
-    if (const Go* go = std::get_if<Go>(&entry)) planned = go->to;
-    entries.push_back(std::move(entry));
-  }
-  held.clear();
-}
-
-void Remix::State::draw(double length, double feed) {
-  Go go{planned, planned, feed, 0, length, 0, 0, 0, Feature::unknown};
-  drawn -= length;
-  entries.emplace_back(go);
-}
-
-/// From where the nozzle is to where the file goes on: drawn back, and above what was laid.
-void Remix::State::come_back(const SlicedMove& step) {
-  away = false;
-  if (std::exchange(rammed, false)) retraction.forget();
-  bool same = true;
-  for (std::size_t i = 0; i < planned.size(); ++i)
-    same = same && (!step.from[i] || planned[i] == step.from[i]);
-  if (same) return;
-  if (drawn < printer.retraction_length - same_draw)
-    draw(drawn - printer.retraction_length, printer.retraction_speed * 60);
-  const double travel = 60 * std::min(printer.max_speed[0], printer.max_speed[1]),
-               rise = 60 * printer.max_speed[2];
-  const auto go = [&](Place to, double feed) {
-    entries.emplace_back(Go{planned, to, feed, 0, 0, 0, 0, 0, Feature::unknown});
-    planned = to;
-  };
-  const double top =
-      std::max(planned[2].value_or(0), step.from[2].value_or(0)) + std::max(printer.z_hop, above);
-  Place up = planned;
-  up[2] = std::min(top, printer.bed[2]);
-  go(up, rise);
-  Place over = up;
-  over[0] = step.from[0], over[1] = step.from[1];
-  go(over, travel);
-  go(step.from, rise);
-}
-
-/// The layer's own height is that of its first bead.
-void Remix::State::note_layer(std::optional<double> top, double height) {
-  if (std::exchange(layer_noted, true)) return;
-  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
-    BeginLayer* begin = std::get_if<BeginLayer>(&*entry);
-    if (!begin) continue;
-    begin->top = top.value_or(last_top);
-    begin->height = height > 0               ? height
-                    : *begin->top > last_top ? *begin->top - last_top
-                                             : survey.layer_height;
-    last_top = *begin->top;
-    return;
-  }
-}
-
-void Remix::State::take(const SlicedMove& step) {
-  if (leaves_out(step)) return;
-  if (away) come_back(step);
-  Go go;
-  go.from = step.from;
-  go.to = step.to;
-  go.feed = step.feed;
-  go.feature = step.feature;
-  go.width = step.width;
-  go.height = step.height;
-  if (step.filament == 0) {
-    held.emplace_back(go);
-    return;
-  }
-  release();
-  // A tool that counts its own retraction has come: the one nozzle follows before it lays a bead.
-  if (step.lays() && std::abs(drawn - retraction.drawn()) > same_draw)
-    draw(drawn - retraction.drawn(), printer.retraction_speed * 60);
-  const double fed = retraction.take(step.filament, !step.moves_flat());
-  go.fed = fed * filament_area;
-  go.other = drawn - retraction.drawn();
-  drawn = retraction.drawn();
-  planned = step.to;
-  if (go.fed > 0) {
-    go.material = material_of(step);
-    if (step.moves_flat() && step.feature != Feature::custom) note_layer(step.to[2], step.height);
-    const bool beside =
-        step.feature == Feature::custom || step.feature == Feature::aside || step.feature == Feature::tower;
-    const double matters = settings.hide ? weight(step.feature) : beside ? unseen : 1;
-    schedule.add({go.fed, go.material, 0, matters, false, reading_layer, materials});
-    if (last_material && *last_material != go.material) ++mixing.changes;
-    last_material = go.material;
-  }
-  if (go.fed > 0 || go.other != 0 || step.moves()) entries.emplace_back(go);
-}
-
-// ---- writing
 
 bool Remix::State::is_certain(const Entry& entry) const {
-  if (in_end) return true;
-  if (const BeginLayer* begin = std::get_if<BeginLayer>(&entry)) return begin->top.has_value();
+  if (entries.complete()) return true;
+  if (const LayerMark* begin = std::get_if<LayerMark>(&entry)) return begin->top.has_value();
   const Go* go = std::get_if<Go>(&entry);
   return !go || go->fed == 0 || laid + go->fed <= schedule.certain() + least_piece;
 }
@@ -412,7 +194,7 @@ void Remix::State::write(const Text& entry) {
     chunk.lines.push_back(entry.line);
 }
 
-void Remix::State::write(const BeginLayer& entry) {
+void Remix::State::write(const LayerMark& entry) {
   end_layer(true);
   begun = true;
   share = {entry.index, 0, 0, false};
@@ -474,6 +256,8 @@ void Remix::State::write(const Go& entry) {
 
 /// Cuts the move where a switch falls inside it. What was drawn back is pushed forward with the first piece.
 void Remix::State::write_feed(const Go& entry) {
+  if (last_material && *last_material != entry.material) ++mixing.changes;
+  last_material = entry.material;
   Place from = entry.from;
   for (double done = 0;;) {
     switch_mixture();
@@ -532,14 +316,14 @@ void Remix::State::account(const Go& entry, const Place& from, const Place& to, 
 
 /// Writes what is certain; returns false when more has to be read.
 bool Remix::State::write_some(std::size_t most_lines) {
-  while (!entries.empty()) {
-    if (!is_certain(entries.front())) return false;
-    if (std::holds_alternative<BeginLayer>(entries.front()) && begun && !chunk.lines.empty()) {
+  while (!entries.queue().empty()) {
+    if (!is_certain(entries.queue().front())) return false;
+    if (std::holds_alternative<LayerMark>(entries.queue().front()) && begun && !chunk.lines.empty()) {
       end_layer(true);
       return true;
     }
-    const Entry entry = std::move(entries.front());
-    entries.pop_front();
+    const Entry entry = std::move(entries.queue().front());
+    entries.queue().pop_front();
     std::visit([this](const auto& kind) { write(kind); }, entry);
     if (chunk.lines.size() >= most_lines) return true;
   }
@@ -586,13 +370,15 @@ Chunk Remix::start() {
   append(s.chunk.lines, s.tools.define());
   // The file's own lines up to its first layer.
   for (;;) {
-    while (!s.entries.empty() && !std::holds_alternative<BeginLayer>(s.entries.front()) &&
-           s.is_certain(s.entries.front())) {
-      const Entry entry = std::move(s.entries.front());
-      s.entries.pop_front();
+    while (!s.entries.queue().empty() && !std::holds_alternative<LayerMark>(s.entries.queue().front()) &&
+           s.is_certain(s.entries.queue().front())) {
+      const Entry entry = std::move(s.entries.queue().front());
+      s.entries.queue().pop_front();
       std::visit([&s](const auto& kind) { s.write(kind); }, entry);
     }
-    if (s.read_all || (!s.entries.empty() && std::holds_alternative<BeginLayer>(s.entries.front()))) break;
+    if (s.entries.complete() ||
+        (!s.entries.queue().empty() && std::holds_alternative<LayerMark>(s.entries.queue().front())))
+      break;
     s.read_more();
   }
   return s.hand_over();
@@ -602,9 +388,8 @@ std::optional<Chunk> Remix::next() {
   State& s = *state_;
   for (;;) {
     if (s.write_some(chunk_lines)) return s.hand_over();
-    if (s.read_all) break;
+    if (s.entries.complete()) break;
     s.read_more();
-    if (s.in_end && !s.held.empty()) s.release();
   }
   if (s.begun) s.end_layer(true);
   if (s.chunk.lines.empty()) return std::nullopt;
@@ -627,10 +412,8 @@ Chunk Remix::finish(bool stopped) {
                     60 * std::min(s.printer.max_speed[0], s.printer.max_speed[1]));
     }
   } else {
-    s.in_end = false;
-    for (const SlicedStep& step : std::exchange(s.end, {})) {
+    for (const SlicedStep& step : s.entries.rest()) {
       if (const auto* pass = std::get_if<SlicedPass>(&step)) s.write(Text{pass->text});
-      if (const auto* remark = std::get_if<SlicedRemark>(&step)) s.write(Text{remark->text});
       const auto* move = std::get_if<SlicedMove>(&step);
       if (!move) continue;
       if (move->filament != 0) s.select_equal_shares();
@@ -658,7 +441,7 @@ SeenMixing Remix::seen() const {
 }
 
 double Remix::left_out() const {
-  return state_->left_out;
+  return state_->entries.left_out();
 }
 
 }  // namespace unicursal::gcode

@@ -1,7 +1,7 @@
 // What becomes of a slicer's commands other than moves. A command that no table names is sent as it is.
 //
-// Sources: Marlin 2.1 src/gcode/gcode.cpp; Repetier 1.0 src/ArduinoAVR/Repetier/Commands.cpp;
-// RepRapFirmware 3.4 (the Duet G-code dictionary); Prusa-Firmware 3.13 Marlin_main.cpp (M862, M701, M702).
+// Sources: Marlin 2.1, its GcodeSuite; Repetier 1.0, its Commands; RepRapFirmware 3.4 (the Duet G-code
+// dictionary); Prusa-Firmware 3.13 (M862, M701, M702).
 #pragma once
 
 #include <string_view>

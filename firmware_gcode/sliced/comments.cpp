@@ -172,6 +172,13 @@ CommentMeaning read_comment(std::string_view raw, CommentState& state) {
       comment.starts_with("BEGIN_LAYER_OBJECT") || comment.starts_with("BEGIN_LAYER_RAFT"))
     return CommentMeaning::layer;
   if (comment.starts_with("Z:") || comment.starts_with("Z_HEIGHT:")) return CommentMeaning::layer_mark;
+  if (take(comment, "COLOR_CHANGE,")) {  // "T0,#ff0000"
+    const auto colour = comment.find('#');
+    if (colour == std::string_view::npos || !is_colour(comment.substr(colour, 7)))
+      return CommentMeaning::none;
+    state.changed_to = lower(comment.substr(colour, 7));
+    return CommentMeaning::colour;
+  }
   if (take(comment, "CP ")) {
     read_tower(trimmed(comment), state);
     return CommentMeaning::none;

@@ -1,9 +1,10 @@
 // What slicers write into comments: their name, what a bead belongs to, its width, where layers and wipe
 // towers begin, and their settings. mm.
 //
-// Sources: PrusaSlicer 2.5 src/libslic3r/GCode/GCodeProcessor.cpp (tags, also those of SuperSlicer),
-// OrcaSlicer and Bambu Studio (same file: "FEATURE:", "CHANGE_LAYER"), src/libslic3r/GCode/WipeTower.cpp ("CP
-// …"); CuraEngine 4.13 src/gcodeExport.cpp ("LAYER:", "TYPE:"); files of Simplify3D 4.1 and KISSlicer 1.6.
+// Sources: PrusaSlicer 2.5, its GCodeProcessor (tags, also those of SuperSlicer) and its WipeTower ("CP …");
+// the GCodeProcessor of OrcaSlicer and Bambu Studio ("FEATURE:", "CHANGE_LAYER"); CuraEngine 4.13, its
+// GCodeExport
+// ("LAYER:", "TYPE:"); files of Simplify3D 4.1 and KISSlicer 1.6.
 #pragma once
 
 #include <optional>
@@ -25,6 +26,7 @@ struct CommentState {
   bool ramming = false;              ///< filament is unloaded or loaded, which no mixing nozzle needs
   std::vector<std::string> colours;  ///< of the tools, "#rrggbb" or empty
   std::optional<double> filament_diameter;
+  std::string changed_to;   ///< the colour of the last change of filament that the slicer has planned
   bool volumetric = false;  ///< E is mm³
 
   Feature present() const { return tower ? Feature::tower : feature; }
@@ -35,6 +37,7 @@ enum class CommentMeaning {
   layer,       ///< a layer begins
   layer_mark,  ///< says more about a layer that has begun, such as its height
   config,      ///< a setting of the slicer
+  colour,      ///< filament of another colour is to follow
 };
 
 /// Takes a comment without its ';' into account.

@@ -15,7 +15,7 @@ struct Traits {
 // A wrong colour in an inner wall shines through a little; infill, support and what is thrown away take
 // changes gladly, in this order.
 constexpr std::array<Traits, 11> traits{{{"outer wall", true, 1},
-                                         {"inner wall", false, 0.1},
+                                         {"inner wall", false, 0.05},
                                          {"top surface", true, 1},
                                          {"bottom surface", true, 1},
                                          {"solid infill", false, 0.02},

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/numeric/vec2.hpp"
 #include "core/text/printable.hpp"
 #include "firmware_gcode/dialect/number.hpp"
 
@@ -23,7 +24,8 @@ constexpr double longest_filament = 1000;  ///< mm in one move; more is a typing
 constexpr double new_layer = 0.04;         ///< mm by which a layer is higher, if no comment says so
 constexpr double farthest = 1e5;           ///< mm
 constexpr int most_tools = 255;
-constexpr int first_own_number = 1000;  ///< of tools whose mixture the file changes as it goes
+constexpr int first_own_number = 1000;     ///< of tools whose mixture the file changes as it goes
+constexpr int first_colour_number = 2000;  ///< of tools whose filament the file changes as it goes
 constexpr std::array<char, 3> axes{'X', 'Y', 'Z'};
 
 std::string shown(std::string_view text) {
@@ -41,15 +43,19 @@ void SlicedReader::refuse(const std::string& problem, const std::string& remedy)
 }
 
 void SlicedReader::note(const std::string& key, const std::string& sentence) {
-  auto& [text, count] = noted_[key];
-  if (count++ == 0) text = fmt::format("line {}: {}", source_.number(), sentence);
+  Noted& noted = noted_[key];
+  if (noted.count++ == 0) noted.line = source_.number(), noted.sentence = sentence;
 }
 
 std::vector<std::string> SlicedReader::notes() const {
+  std::vector<Noted> sorted;
+  for (const auto& [key, noted] : noted_) sorted.push_back(noted);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Noted& a, const Noted& b) { return a.line < b.line; });
   std::vector<std::string> sentences;
-  for (const auto& [key, noted] : noted_) {
-    const auto& [text, count] = noted;
-    sentences.push_back(count == 1 ? text : fmt::format("{} (and {} more)", text, count - 1));
+  for (const auto& [line, count, sentence] : sorted) {
+    const std::string more = count == 1 ? "" : fmt::format(" (and {} more)", count - 1);
+    sentences.push_back(fmt::format("line {}: {}{}", line, sentence, more));
   }
   return sentences;
 }
@@ -80,6 +86,9 @@ void SlicedReader::comment(std::string_view text) {
       return begin_layer();
     case CommentMeaning::layer_mark:
       return;
+    case CommentMeaning::colour:
+      change_colour();
+      break;
     case CommentMeaning::config:
       if (comments_.volumetric)
         refuse("E is measured in mm³",
@@ -416,6 +425,7 @@ void SlicedReader::heat(const SlicedCommand& line) {
 }
 
 void SlicedReader::wait_for_person(const SlicedCommand& line) {
+  if (std::exchange(changes_colour_, false)) return;
   const bool timed =
       (line.is('M', 0) || line.is('M', 1)) && (line.value_or('S', 0) > 0 || line.value_or('P', 0) > 0);
   if (!timed && !limits_.allow_stops) {
@@ -442,6 +452,23 @@ void SlicedReader::change_tool(const SlicedCommand& line) {
   tool_ = line.code;
   const auto own = numbers_.find(tool_);
   enter_tool(own == numbers_.end() ? tool_ : own->second);
+}
+
+/// A pause for filament of another colour becomes a change of mixture.
+void SlicedReader::change_colour() {
+  changes_colour_ = true;
+  note("colour",
+       fmt::format("the file waits for filament of the colour {}; the mixture changes there instead",
+                   comments_.changed_to));
+  const auto same = std::find_if(own_colours_.begin(), own_colours_.end(),
+                                 [&](const auto& known) { return known.second == comments_.changed_to; });
+  if (same == own_colours_.end() && own_colours_.size() >= most_tools)
+    refuse("is one colour too many", "use fewer colours in one file");
+  const int number =
+      same == own_colours_.end() ? first_colour_number + static_cast<int>(own_colours_.size()) : same->first;
+  own_colours_.emplace(number, comments_.changed_to);
+  numbers_[tool_] = number;
+  enter_tool(number);
 }
 
 /// A file that mixes already: each mixture that it gives to a tool counts as a tool of its own.

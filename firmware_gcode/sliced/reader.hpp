@@ -18,12 +18,13 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware_gcode/print/mixture.hpp"
 #include "firmware_gcode/print/printer.hpp"
 #include "firmware_gcode/sliced/commands.hpp"
 #include "firmware_gcode/sliced/comments.hpp"
+#include "firmware_gcode/sliced/limits.hpp"
 #include "firmware_gcode/sliced/line_source.hpp"
 #include "firmware_gcode/sliced/step.hpp"
-#include "firmware_gcode/sliced/survey.hpp"
 
 namespace unicursal::gcode {
 
@@ -45,6 +46,8 @@ class SlicedReader {
   double hottest_bed() const { return hottest_bed_; }
   /// The shares that the file itself gives to a tool (M163, M165, M567), by the tool's number in the steps.
   const std::map<int, Mixture>& own_mixtures() const { return own_mixtures_; }
+  /// The colour that a planned change of filament gives to a tool, by the tool's number in the steps.
+  const std::map<int, std::string>& own_colours() const { return own_colours_; }
   /// What was left out or is strange, one sentence each.
   std::vector<std::string> notes() const;
 
@@ -68,6 +71,7 @@ class SlicedReader {
   void mixture(const SlicedCommand& command);
   void change_tool(const SlicedCommand& command);
   void enter_tool(int tool);
+  void change_colour();
   void pass(std::string text);
   void check_inside(const Place& place) const;
   void check_warm() const;
@@ -99,7 +103,13 @@ class SlicedReader {
   std::array<std::optional<double>, max_feeders> collected_{};  ///< M163 since the last M164
   std::map<int, int> numbers_;                                  ///< of tools whose mixture the file gives
   std::map<int, Mixture> own_mixtures_;
-  std::map<std::string, std::pair<std::string, std::uint64_t>> noted_;  ///< sentence and how often, by kind
+  std::map<int, std::string> own_colours_;
+  bool changes_colour_ = false;  ///< the wait for new filament that follows is not needed
+  struct Noted {
+    std::uint64_t line = 0, count = 0;
+    std::string sentence;
+  };
+  std::map<std::string, Noted> noted_;  ///< by kind
 };
 
 }  // namespace unicursal::gcode

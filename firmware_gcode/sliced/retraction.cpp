@@ -6,7 +6,8 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double rounding = 1e-7;  ///< mm of filament, of sums of E
+constexpr double rounding =
+    1e-4;  ///< mm of filament that are pushed forward too far; the next bead gets them
 
 }  // namespace
 
@@ -15,9 +16,9 @@ double Retraction::take(double filament, bool alone) {
   // A tool that was never used and is pushed forward first: the file counts for all tools together after all.
   if (std::exchange(new_tool_, false) && alone && filament > 0 && drawn_ == 0 && !others_.contains(tool_))
     drawn_ = std::min(before_, filament);
-  const double drawn = drawn_ - filament;
-  drawn_ = drawn > rounding ? drawn : 0;
-  return -drawn > rounding ? -drawn : 0;
+  drawn_ -= filament;
+  if (drawn_ >= 0 || (alone && drawn_ > -rounding)) return 0;
+  return -std::exchange(drawn_, 0);
 }
 
 void Retraction::change_tool(int tool) {

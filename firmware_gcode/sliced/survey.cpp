@@ -30,6 +30,11 @@ class Surveyor {
         time_(printer) {}
 
   void take(const SlicedMove& move) {
+    if (move.ramming) {  // is never printed
+      rammed_ = true;
+      return;
+    }
+    if (move.filament != 0 && std::exchange(rammed_, false)) retraction_.forget();
     const double fed = retraction_.take(move.filament, !move.moves_flat());
     PerAxis way{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -40,10 +45,11 @@ class Surveyor {
     const double volume = fed * area_;
     survey_.volume += volume;
     tools_[tool_] += volume;
-    if (move.feature == Feature::tower || move.ramming) survey_.tower_volume += volume;
+    if (move.feature == Feature::tower) survey_.tower_volume += volume;
     if (!move.moves_flat()) return;
     survey_.last_bead = move.line;
     if (move.feature == Feature::custom) return;
+    if (is_seen(move.feature) && !seen_any_) seen_any_ = true, before_part_ = survey_.volume - volume;
     if (last_tool_ && *last_tool_ != tool_) ++survey_.changes;
     last_tool_ = tool_;
     for (const Place& place : {move.from, move.to}) extend(place);
@@ -79,6 +85,8 @@ class Surveyor {
       SlicedTool tool{number, {}, volume, {}};
       if (number >= 0 && static_cast<std::size_t>(number) < comments.colours.size())
         tool.colour = comments.colours[static_cast<std::size_t>(number)];
+      if (const auto own = reader_.own_colours().find(number); own != reader_.own_colours().end())
+        tool.colour = own->second;
       if (const auto own = reader_.own_mixtures().find(number); own != reader_.own_mixtures().end())
         tool.mixture = own->second;
       survey_.tools.push_back(std::move(tool));
@@ -90,6 +98,12 @@ class Surveyor {
           "diameter, or {:.0f} % of the plastic come out",
           *comments.filament_diameter, printer_.filament_diameter,
           100 * std::pow(printer_.filament_diameter / *comments.filament_diameter, 2)));
+    }
+    if (comments.any_feature && before_part_ < printer_.dead_volume + printer_.mixing_volume) {
+      survey_.notes.push_back(fmt::format(
+          "only {:.1f} mm³ are printed before the part is seen, and a change of mixture takes {:g} mm³, so "
+          "that the first beads may come out in a former colour; add loops to the skirt in the slicer",
+          before_part_, printer_.dead_volume + printer_.mixing_volume));
     }
     if (!comments.any_feature) {
       survey_.notes.push_back(
@@ -138,7 +152,8 @@ class Surveyor {
   int tool_ = 0;
   std::optional<int> last_tool_;
   double last_z_ = 0, layer_began_ = 0;
-  bool any_ = false, in_layers_ = false;
+  bool any_ = false, in_layers_ = false, rammed_ = false, seen_any_ = false;
+  double before_part_ = 0;  ///< mm³ before the first bead that is seen
 };
 
 }  // namespace

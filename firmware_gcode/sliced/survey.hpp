@@ -17,6 +17,7 @@
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/print/mixture.hpp"
 #include "firmware_gcode/print/printer.hpp"
+#include "firmware_gcode/sliced/limits.hpp"
 
 namespace unicursal::gcode {
 
@@ -44,12 +45,6 @@ struct SlicedSurvey {
   std::uint64_t lines = 0;
   std::uint64_t last_bead = 0;  ///< line of the last move that lays plastic; what follows is the file's end
   std::vector<std::string> notes;  ///< for the user, one sentence each
-};
-
-struct SlicedLimits {
-  double hottest_nozzle = 450, hottest_bed = 200;
-  /// The file may wait for a person (M0, M1, M25, M226, M600, M601).
-  bool allow_stops = false;
 };
 
 /// `name` is that of the file, for messages. Reads to the end; memory does not grow with the file. Throws

@@ -1,7 +1,7 @@
 // One line of G-code taken apart: a letter and a number, and the words behind them.
 //
 // Sources: the NIST RS274/NGC interpreter, section 3 (words, comments in parentheses); Marlin 2.1
-// src/gcode/parser.cpp (a subcode behind a point; N and the checksum).
+// (its GCodeParser: a subcode behind a point; N and the checksum).
 #pragma once
 
 #include <array>

@@ -36,6 +36,7 @@
 #include "tests/fuzz/models.hpp"
 #include "tests/fuzz/replies.hpp"
 #include "tests/fuzz/simulator.hpp"
+#include "tests/fuzz/sliced.hpp"
 #include "tests/fuzz/spool.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/paths.hpp"
@@ -152,6 +153,7 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"package", test::package},
     {"wavefront", test::wavefront},
     {"amf", test::amf},
+    {"sliced", test::sliced},
     {"directions", directions},
     {"job", job},
     {"plan", plan},

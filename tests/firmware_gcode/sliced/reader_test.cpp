@@ -1,0 +1,243 @@
+#include "firmware_gcode/sliced/reader.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace unicursal::gcode {
+namespace {
+
+const std::string warm = "M109 S210\n";
+const std::string layer = ";LAYER_CHANGE\n;TYPE:External perimeter\n";
+
+struct Read {
+  std::vector<SlicedMove> moves;
+  std::vector<std::string> passed;
+  std::vector<int> tools;
+  std::vector<std::string> notes;
+  std::size_t layers = 0;
+  std::map<int, Mixture> mixtures;
+};
+
+Read read(const std::string& text, SlicedLimits limits = {}) {
+  std::istringstream stream(text);
+  SlicedReader reader(stream, "part.gcode", Printer(), limits);
+  Read result;
+  while (const auto step = reader.next()) {
+    if (const auto* move = std::get_if<SlicedMove>(&*step)) result.moves.push_back(*move);
+    if (const auto* pass = std::get_if<SlicedPass>(&*step)) result.passed.push_back(pass->text);
+    if (const auto* tool = std::get_if<SlicedToolChange>(&*step)) result.tools.push_back(tool->tool);
+    if (std::get_if<SlicedLayer>(&*step)) ++result.layers;
+  }
+  result.notes = reader.notes();
+  result.mixtures = reader.own_mixtures();
+  return result;
+}
+
+std::string refusal(const std::string& text, SlicedLimits limits = {}) {
+  try {
+    read(text, limits);
+  } catch (const core::DataError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Moves come out in absolute millimetres and relative filament, whatever the modes", "[sliced]") {
+  const auto last = [](const std::string& text) { return read(warm + text).moves.back(); };
+  const std::string lines = GENERATE(
+      "G90\nM83\nG1 X10 Y20 Z1\nG1 X12 Y21 E0.5 F1200",
+      "G90\nM82\nG92 E7\nG1 X10 Y20 Z1\nG1 X12 Y21 E7.5 F1200", "g1 x10 y20 z1\nm83\ng1x12y21e0.5f1200",
+      "M83\nG1 X10 Y20 Z1\nG91\nG1 X2 Y1 E.5 F1200", "M83\nN1 G1 X10 Y20 Z1*99\nN2 G1 X12 Y21 E0.5 F1200 *12",
+      "G20\nM83\nG1 X.393700787 Y.787401575 Z.039370079\nG1 X.472440945 Y.826771654 E.019685039 F47.244094",
+      "M83\nG1 X10 Y20 Z1 F1200 ; go\nG1 X12 (right) Y21 E0.5",
+      "M83\nG1 X10 Y20 Z1\nG92 X110\nG1 X112 Y21 E0.5 F1200\nG92 X12\nG1 X10 F1200\nG1 X12 E.5");
+  CAPTURE(lines);
+  const SlicedMove move = last(lines);
+  CHECK(*move.to[0] == Approx(12));
+  CHECK(*move.to[1] == Approx(21));
+  CHECK(*move.to[2] == Approx(1));
+  CHECK(move.filament == Approx(0.5));
+  CHECK(move.feed == Approx(1200));
+}
+
+TEST_CASE("A relative move from an unknown place stays relative, and the next absolute one is whole",
+          "[sliced]") {
+  const Read file = read("G91\nG1 Z5 F600\nG90\nG28\nG1 X10 Y10\nG1 Z5\n");
+  CHECK(file.passed == std::vector<std::string>{"G91", "G1 Z5 F600", "G90", "M83", "G28"});
+  REQUIRE(file.moves.size() == 2);
+  CHECK(!file.moves[0].to[2]);
+  CHECK(*file.moves[1].to[2] == 5);
+}
+
+TEST_CASE("Homing forgets the axes that it moves", "[sliced]") {
+  const Read file = read("G1 X10 Y10 Z10\nG28 X\nG1 Y20\n");
+  CHECK(!file.moves.back().from[0]);
+  CHECK(*file.moves.back().from[2] == 10);
+}
+
+TEST_CASE("A nozzle that waits is not this printer's", "[sliced]") {
+  const Read file = read(
+      "T0\nM104 S210\nM104 T1 S150\nM109 T0 S210\nT1\nM109 T1 S215\nM104 T0 S150\nM104 T0 S0\nM104 T1 S0\n");
+  CHECK(file.passed == std::vector<std::string>{"M104 S210", "M109 S210", "M109 S215", "M104 S0"});
+  CHECK(file.tools == std::vector<int>{0, 1});
+}
+
+TEST_CASE("Waiting for heat over the part is left out", "[sliced]") {
+  const Read file = read(warm + layer + "M109 S215\nM190 R60\n");
+  CHECK(file.passed == std::vector<std::string>{"M109 S210", "M104 S215", "M140 S60"});
+}
+
+TEST_CASE("The firmware's own retraction becomes the profile's", "[sliced]") {
+  const Read file = read(warm + "M83\nG1 X1 Y1 Z1\nG10\nG10\nG11\nG10 P0 S200 R180\n");
+  REQUIRE(file.moves.size() == 3);
+  CHECK(file.moves[1].filament == -Printer().retraction_length);
+  CHECK(file.moves[2].filament == Printer().retraction_length);
+  CHECK(file.passed.back() == "M104 S200");
+}
+
+TEST_CASE("What would break a print is refused with its line", "[sliced]") {
+  struct Case {
+    const char *text, *says;
+  };
+  const Case one = GENERATE(
+      Case{"M0", "M0 waits for a person"}, Case{"M600", "waits for a person"}, Case{"M112", "emergency stop"},
+      Case{"M997", "firmware"}, Case{"M500", "keeps when it is switched off"}, Case{"M502", "settings back"},
+      Case{"M302 S0", "cold extrusion"}, Case{"M28 x.gco", "own card"},
+      Case{"G1 X201", "x = 201 mm, outside the bed"}, Case{"G1 Y-3", "outside the bed"},
+      Case{"G1 Z-2", "outside the bed"}, Case{"M104 S500", "500 °C"}, Case{"M140 S250", "250 °C"},
+      Case{"G1 X1 E1", "before the file has heated"}, Case{"M104 S100\nG1 X1 E1", "100 °C"},
+      Case{"M200 D1.75", "makes E a volume"}, Case{"M109 S200\nG1 X1 E5000", "5000 mm of filament"},
+      Case{"G2 X10", "arc"}, Case{"G1 X1\nG1 Y1\nG2 X10 Y10 I3 J0", "arc"}, Case{"G1 X--1", "cannot be read"},
+      Case{"G1 Xnan", "cannot be read"}, Case{"G1 X1 X2", "cannot be read"}, Case{"M163 S4 P1", "feeder"},
+      Case{"M164 S0", "without shares"}, Case{"M165 A-1 B2", "without shares"},
+      Case{"M166 A0 Z10", "change the mixture by itself"}, Case{"G18", "arcs out of the layer"},
+      Case{"; use_volumetric_e = 1", "mm³"}, Case{"M98 P\"x.g\"", "macro"});
+  CAPTURE(one.text);
+  const std::string said = refusal(one.text);
+  CHECK_THAT(said, Catch::Contains(one.says));
+  CHECK_THAT(said, Catch::StartsWith("part.gcode: line "));
+}
+
+TEST_CASE("A person who stays may allow stops, and a pause that ends by itself needs none", "[sliced]") {
+  SlicedLimits limits;
+  limits.allow_stops = true;
+  CHECK(read("M600\n", limits).passed == std::vector<std::string>{"M600"});
+  CHECK(read("M0 S10\n").passed == std::vector<std::string>{"M0 S10"});
+  CHECK(read("M25\n", limits).notes.size() == 1);
+}
+
+TEST_CASE("Unknown commands pass and are mentioned once, and words of other hosts are left out", "[sliced]") {
+  const Read file =
+      read("M1234 S1\nM1234 S2\nSTART_PRINT BED=60\nM117 Hello there\nT?\nT255\nM107\nM73 P3\n");
+  CHECK(file.passed ==
+        std::vector<std::string>{"M1234 S1", "M1234 S2", "M117 Hello there", "M107", "M73 P3"});
+  REQUIRE(file.notes.size() == 3);
+  CHECK_THAT(file.notes[0],
+             Catch::Contains("M1234 is not known to this program; it is sent as it is (and 1 more)"));
+  CHECK(file.tools == std::vector<int>{255});
+}
+
+TEST_CASE("A file that mixes already says what its tools are", "[sliced]") {
+  const Read file = read(
+      "M163 S0 P0.5\nM163 S1 P0.5\nM164 S1\nT1\nM163 S2 P1\nM164 S2\nT2\nM165 A1 B1\nM567 P0 "
+      "E0.2:0.3:0.5\nT0\n");
+  REQUIRE(file.tools.size() == 4);
+  CHECK(file.mixtures.at(file.tools[0]) == Mixture({1, 1, 0}));
+  CHECK(file.mixtures.at(file.tools[1]) == Mixture({0, 0, 1}));
+  CHECK(file.tools[2] == file.tools[0]);  // equal mixtures are one
+  CHECK(file.mixtures.at(file.tools[3]) == Mixture({0.2, 0.3, 0.5}));
+}
+
+TEST_CASE("A pause for filament of another colour becomes a change of mixture", "[sliced]") {
+  std::istringstream stream(
+      "T0\n;COLOR_CHANGE,T0,#FF8800\nM600\n;COLOR_CHANGE,T0,#0000ff\nM600\n;COLOR_CHANGE,T0,#ff8800\nM600\n");
+  SlicedReader reader(stream, "part.gcode", Printer(), {});
+  std::vector<int> tools;
+  while (const auto step = reader.next()) {
+    if (const auto* tool = std::get_if<SlicedToolChange>(&*step)) tools.push_back(tool->tool);
+    CHECK(!std::holds_alternative<SlicedPass>(*step));
+  }
+  REQUIRE(tools.size() == 4);
+  CHECK(reader.own_colours().at(tools[1]) == "#ff8800");
+  CHECK(reader.own_colours().at(tools[2]) == "#0000ff");
+  CHECK(tools[3] == tools[1]);
+  CHECK_THAT(refusal(";COLOR_CHANGE,T0,#ff8800\nM600\nM600\n"), Catch::Contains("line 3"));
+}
+
+TEST_CASE("Without comments, layers are found by their height", "[sliced]") {
+  std::string text = warm + "M83\n";
+  for (int i = 1; i <= 5; ++i)
+    text += "G1 Z" + std::to_string(0.2 * i) + "\nG1 X10 Y10\nG1 X20 E1\nG1 Z" + std::to_string(0.2 * i + 1) +
+            "\nG1 X0\n";
+  CHECK(read(text).layers == 5);
+}
+
+TEST_CASE("The names of features and layers of each slicer are understood", "[sliced]") {
+  struct Case {
+    const char* comment;
+    Feature feature;
+  };
+  const Case one = GENERATE(
+      Case{"TYPE:External perimeter", Feature::outer_wall},
+      Case{"TYPE:Overhang perimeter", Feature::outer_wall}, Case{"TYPE:Perimeter", Feature::inner_wall},
+      Case{"TYPE:Internal infill", Feature::sparse}, Case{"TYPE:Solid infill", Feature::solid},
+      Case{"TYPE:Top solid infill", Feature::top}, Case{"TYPE:Bridge infill", Feature::bottom},
+      Case{"TYPE:Internal bridge infill", Feature::solid},
+      Case{"TYPE:Support material interface", Feature::support}, Case{"TYPE:Skirt/Brim", Feature::aside},
+      Case{"TYPE:Wipe tower", Feature::tower}, Case{"TYPE:Custom", Feature::custom},
+      Case{"TYPE:Ironing", Feature::top}, Case{" FEATURE: Outer wall", Feature::outer_wall},
+      Case{" FEATURE: Sparse infill", Feature::sparse}, Case{" FEATURE: Bottom surface", Feature::bottom},
+      Case{" FEATURE: Prime tower", Feature::tower}, Case{"TYPE:WALL-INNER", Feature::inner_wall},
+      Case{"TYPE:FILL", Feature::sparse}, Case{"TYPE:SKIN", Feature::top},
+      Case{"TYPE:PRIME-TOWER", Feature::tower}, Case{"TYPE:SUPPORT-INTERFACE", Feature::support},
+      Case{"TYPE:Gizmo", Feature::unknown}, Case{" 'Loop Path', 1.0 [feed mm/s]", Feature::inner_wall},
+      Case{" 'Stacked Sparse Infill Path', 1.0 [feed mm/s]", Feature::sparse},
+      Case{" 'Prime Pillar Path', 1.0 [feed mm/s]", Feature::tower});
+  CAPTURE(one.comment);
+  CommentState state;
+  read_comment(one.comment, state);
+  CHECK(state.present() == one.feature);
+  CHECK(state.any_feature);
+}
+
+TEST_CASE("Colours and diameters come from the slicer's settings", "[sliced]") {
+  CommentState state;
+  read_comment(" filament_colour = #00FF00;#0000ff", state);
+  read_comment(" extruder_colour = ;#FF0000;", state);
+  read_comment(" filament_diameter = 2.85,2.85", state);
+  CHECK(state.colours == std::vector<std::string>{"#00ff00", "#ff0000", ""});
+  CHECK(state.filament_diameter == 2.85);
+  read_comment(" filament_colour = red;#12345", state);
+  CHECK(state.colours[0] == "#00ff00");
+}
+
+TEST_CASE("Lines end in every way, and what is not text is refused", "[sliced]") {
+  const auto lines = [](const std::string& text) {
+    std::istringstream stream(text);
+    LineSource source(stream, "x.gcode");
+    std::vector<std::string> all;
+    while (const auto line = source.next()) all.emplace_back(*line);
+    return all;
+  };
+  CHECK(lines("a\r\nb\nc") == std::vector<std::string>{"a", "b", "c"});
+  CHECK(lines("\xef\xbb\xbf"
+              "a\n\nb\n") == std::vector<std::string>{"a", "", "b"});
+  CHECK(lines("").empty());
+  const std::string long_comment(10'000'000, 'x');
+  const auto cut = lines("G1 X1 ;" + long_comment + "\nG1 X2\n");
+  REQUIRE(cut.size() == 2);
+  CHECK(cut[0].size() < 100'000);
+  CHECK(cut[1] == "G1 X2");
+  CHECK_THROWS_WITH(lines(std::string(10'000'000, 'G')),
+                    Catch::Contains("line 1") && Catch::Contains("4096"));
+  CHECK_THROWS_WITH(lines(std::string("GCDE\x01\x00", 6)), Catch::Contains("binary G-code"));
+  CHECK_THROWS_WITH(lines(std::string("G1 X1\nG\x00", 8)), Catch::Contains("line 2"));
+  CHECK_THROWS_WITH(lines(std::string("PK\x03\x04zip", 7)), Catch::Contains("zip archive"));
+}
+
+}  // namespace unicursal::gcode
