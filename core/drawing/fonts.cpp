@@ -29,7 +29,7 @@ struct Destroyer {
 };
 template <class Type, auto Destroy>
 using Owned = std::unique_ptr<Type, Destroyer<Type*, Destroy>>;
-using Pattern = Owned<FcPattern, FcPatternDestroy>;
+using FontPattern = Owned<FcPattern, FcPatternDestroy>;
 using FontSet = Owned<FcFontSet, FcFontSetDestroy>;
 using Buffer = Owned<hb_buffer_t, hb_buffer_destroy>;
 
@@ -189,7 +189,7 @@ const std::vector<std::size_t>& Fonts::Impl::candidates(const FontRequest& reque
       std::find_if(found_.begin(), found_.end(), [&](const auto& entry) { return entry.first == request; });
   if (known != found_.end()) return known->second;
   if (found_.size() >= most_requests) return found_.front().second;
-  const Pattern wanted(FcPatternCreate());
+  const FontPattern wanted(FcPatternCreate());
   const std::vector<std::string> families = family_names(request.families);
   const auto bytes = [](const std::string& text) { return reinterpret_cast<const FcChar8*>(text.c_str()); };
   for (const std::string& family : families) FcPatternAddString(wanted.get(), FC_FAMILY, bytes(family));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double mm_per_px = 25.4 / 96;
 
-struct Alignment {
+struct AspectRatio {
   bool uniform = true;
   bool slice = false;    ///< the drawing covers the viewport instead of fitting into it
   Vec2 share{0.5, 0.5};  ///< of the free space, the part to the left of (above) the drawing
@@ -25,8 +25,8 @@ double share(std::string_view name) {
   return name == "Min" ? 0 : name == "Max" ? 1 : 0.5;
 }
 
-Alignment alignment(std::string_view text) {
-  Alignment result;
+AspectRatio aspect_ratio(std::string_view text) {
+  AspectRatio result;
   result.uniform = text.find("none") == std::string_view::npos;
   result.slice = text.find("slice") != std::string_view::npos;
   const auto x = text.find('x');
@@ -90,7 +90,7 @@ std::optional<Box> view_box(std::string_view text) {
 }
 
 Eigen::Affine2d fitted(const Box& view, const Vec2& size, std::string_view preserve_aspect_ratio) {
-  const Alignment how = alignment(preserve_aspect_ratio);
+  const AspectRatio how = aspect_ratio(preserve_aspect_ratio);
   Vec2 scale = size.cwiseQuotient(view.size());
   if (how.uniform) scale.setConstant(how.slice ? scale.maxCoeff() : scale.minCoeff());
   const Vec2 free = size - scale.cwiseProduct(view.size());

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_triangulated = 300;  ///< edges of a loop; the time grows with their cube at worst
 
 using Loop = std::vector<std::uint32_t>;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Corner = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 
 /// The borders run backwards and taken apart into loops that pass no vertex twice.
 std::vector<Loop> loops_along(const ClosedMesh& mesh, const std::vector<MeshEdge>& borders) {
@@ -69,7 +69,7 @@ using Facets = std::vector<std::array<std::uint32_t, 3>>;
 /// Empty if CGAL finds no triangulation.
 Facets triangulated(const ClosedMesh& mesh, const Loop& loop) {
   if (loop.size() == 3) return {{loop[0], loop[1], loop[2]}};
-  std::vector<Kernel::Point_3> points;
+  std::vector<Corner> points;
   for (const auto v : loop) {
     const Vec3& p = mesh.vertices[v];
     points.emplace_back(p.x(), p.y(), p.z());

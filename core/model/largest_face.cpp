@@ -13,8 +13,8 @@
 namespace unicursal::core {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Hull = CGAL::Surface_mesh<Kernel::Point_3>;
+using HullPoint = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+using Hull = CGAL::Surface_mesh<HullPoint>;
 
 constexpr double same_face = 0.5 * std::numbers::pi / 180;  ///< between normals of facets of one face
 
@@ -36,7 +36,7 @@ std::vector<Vec3> normals_of(const Hull& hull) {
 }  // namespace
 
 Eigen::Matrix3d largest_face_down(const std::vector<Vec3>& points) {
-  std::vector<Kernel::Point_3> cloud;
+  std::vector<HullPoint> cloud;
   cloud.reserve(points.size());
   for (const Vec3& p : points) cloud.emplace_back(p.x(), p.y(), p.z());
   Hull hull;

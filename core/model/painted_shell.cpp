@@ -23,12 +23,12 @@ namespace {
 constexpr double longest_mitre = 2;  ///< in depths: how far a vertex at a sharp edge may move
 constexpr double clearance = 1e-3;   ///< mm: hits nearer than this are the surface itself
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using Cartesian = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Cartesian::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Cartesian, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Cartesian, Primitive>>;
 
-Kernel::Point_3 point(const Vec3& v) {
+Cartesian::Point_3 point(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
@@ -38,8 +38,8 @@ class Inset {
   Inset(const ClosedMesh& mesh, double depth)
       : mesh_(mesh), depth_(depth), directions_(mesh.vertices.size(), Vec3(0, 0, 0)) {
     for (const auto& f : mesh.facets) {
-      const Kernel::Triangle_3 triangle(point(mesh.vertices[f[0]]), point(mesh.vertices[f[1]]),
-                                        point(mesh.vertices[f[2]]));
+      const Cartesian::Triangle_3 triangle(point(mesh.vertices[f[0]]), point(mesh.vertices[f[1]]),
+                                           point(mesh.vertices[f[2]]));
       // One without area stops no ray, and CGAL must not be asked whether it does.
       if (!triangle.is_degenerate()) triangles_.push_back(triangle);
       for (std::size_t k = 0; k < 3; ++k) directions_[f[k]] += angle(f, k) * normal(f);
@@ -80,10 +80,11 @@ class Inset {
   /// To the opposite side of the solid, mm.
   double distance_across(const Vec3& from, const Vec3& direction) const {
     const Vec3 start = from + clearance * direction;
-    const Kernel::Ray_3 ray(point(start), Kernel::Vector_3(direction.x(), direction.y(), direction.z()));
+    const Cartesian::Ray_3 ray(point(start),
+                               Cartesian::Vector_3(direction.x(), direction.y(), direction.z()));
     const auto hit = tree_.first_intersection(ray);
     if (!hit) return std::numeric_limits<double>::infinity();
-    const auto* const at = boost::get<Kernel::Point_3>(&hit->first);
+    const auto* const at = boost::get<Cartesian::Point_3>(&hit->first);
     if (!at) return std::numeric_limits<double>::infinity();  // along a facet
     return (Vec3(at->x(), at->y(), at->z()) - from).norm();
   }

@@ -13,8 +13,8 @@ constexpr double nodes_per_width = 2;
 constexpr double blur = 0.9;       ///< standard deviation of the blur, bead widths
 constexpr double wide_blur = 1.8;  ///< where directions cancel each other or none is asked for
 constexpr double no_direction = 1e-6;
-constexpr int blur_steps = 4;    ///< of half a standard deviation, to either side
-constexpr double outside = 1.5;  ///< pitches; nodes up to this far outside are kept
+constexpr int blur_steps = 4;   ///< of half a standard deviation, to either side
+constexpr double beyond = 1.5;  ///< pitches; nodes up to this far outside are kept
 
 Vec2 blurred(const DirectionField& field, const Vec2& p, double deviation) {
   std::array<double, 2 * blur_steps + 1> weight{};
@@ -53,7 +53,7 @@ StripeGrid stripe_grid(const Polygon& region, const BorderIndex& border, const D
   grid.columns = static_cast<std::ptrdiff_t>(std::ceil(box.size().x() / grid.pitch)) + 5;
   grid.rows = static_cast<std::ptrdiff_t>(std::ceil(box.size().y() / grid.pitch)) + 5;
   grid.nodes.assign(static_cast<std::size_t>(grid.columns * grid.rows), -1);
-  const double reach = outside * grid.pitch;
+  const double reach = beyond * grid.pitch;
   for (std::ptrdiff_t row = 0; row < grid.rows; ++row) {
     stop_point();
     for (std::ptrdiff_t column = 0; column < grid.columns; ++column) {

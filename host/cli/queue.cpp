@@ -65,7 +65,7 @@ std::string upload(const Client& client, const fs::path& file) {
   return fmt::format("upload:{}/{}", folder, file.filename().string());
 }
 
-class Queue final : public Command {
+class QueueCommand final : public Command {
  public:
   CLI::App& declare(CLI::App& program) override;
   Exit run() override;
@@ -81,7 +81,7 @@ class Queue final : public Command {
   DaemonAccess access_;
 };
 
-CLI::App& Queue::declare(CLI::App& program) {
+CLI::App& QueueCommand::declare(CLI::App& program) {
   CLI::App& app = add_command(program, "queue", "Daemon", "List, add and remove jobs of the daemon's queue.",
                               "unicursal queue --add leaf.toml");
   add_note(app, "Without options the command lists the queue.");
@@ -97,7 +97,7 @@ CLI::App& Queue::declare(CLI::App& program) {
   return app;
 }
 
-Exit Queue::run() {
+Exit QueueCommand::run() {
   const Client client = access_.connect();
   if (remove_) {
     accepted(client.ask("DELETE", fmt::format("/api/jobs/{}", *remove_)));
@@ -114,7 +114,7 @@ Exit Queue::run() {
   return Exit::success;
 }
 
-Exit Queue::list(const Client& client) const {
+Exit QueueCommand::list(const Client& client) const {
   const json answer = accepted(client.ask("GET", list_jobs_ ? "/api/files" : "/api/jobs"));
   if (access_.json) {
     show_json(answer);
@@ -132,7 +132,7 @@ Exit Queue::list(const Client& client) const {
 }  // namespace
 
 std::unique_ptr<Command> make_queue() {
-  return std::make_unique<Queue>();
+  return std::make_unique<QueueCommand>();
 }
 
 }  // namespace unicursal::host

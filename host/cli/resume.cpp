@@ -70,7 +70,7 @@ fs::path chosen_print(const ResumeOptions& options) {
 }
 
 /// Asks at the terminal. Throws SpoolError if there is none; `remedy` is what to do then.
-bool confirmed(const char* remedy) {
+bool wants_to_continue(const char* remedy) {
   if (isatty(STDIN_FILENO) == 0) {
     throw SpoolError("", "", "a person must check the printer, but standard input is not a terminal", remedy);
   }
@@ -89,7 +89,7 @@ bool agreed(const ResumeOptions& options, const Restart& restart, const std::str
     show(stdout, "A later print, {}, has begun on another port. Continue only if that was another printer.\n",
          later);
   }
-  return confirmed(sure ? "give --yes to confirm it" : "resume at a terminal");
+  return wants_to_continue(sure ? "give --yes to confirm it" : "resume at a terminal");
 }
 
 ForegroundResult stream_from(Print& print, std::optional<Leg> leg, const ResumeOptions& options) {
@@ -179,7 +179,7 @@ Exit Resume::resume_of_daemon() const {
       accepted(client.ask("GET", "/api/status")).value("interrupted", nlohmann::json());
   if (!asked.is_object() || !asked.contains("question")) return show_job(job);
   show(stdout, "{}", asked["question"].get<std::string>());
-  if (!options_.yes && !confirmed("give --yes to confirm it")) return Exit::failed;
+  if (!options_.yes && !wants_to_continue("give --yes to confirm it")) return Exit::failed;
   accepted(client.ask("POST", "/api/print/resume", {{"sure", true}}));
   return show_job(settled(client, id));
 }

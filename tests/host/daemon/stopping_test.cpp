@@ -16,15 +16,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point then) {
-  return std::chrono::duration<double>(Clock::now() - then).count();
+double seconds_since(SteadyClock::time_point then) {
+  return std::chrono::duration<double>(SteadyClock::now() - then).count();
 }
 
 /// Whether the daemon ends in time; its exit code must be 0.
 void check_ends(DaemonBench& bench, double within) {
-  const auto asked = Clock::now();
+  const auto asked = SteadyClock::now();
   kill(bench.daemon().id(), SIGTERM);
   CHECK(bench.daemon().wait().code == 0);
   CHECK(seconds_since(asked) < within);
@@ -115,7 +115,7 @@ TEST_CASE("a preparation that never ends is cancelled at once, and does not hold
   REQUIRE(bench.ask("POST", "/api/print/start")["id"] == hopeless);
   poll(nullptr, 0, 500);  // it is well inside the union of the circles
   REQUIRE(state_of(bench, hopeless) == "preparing");
-  const auto cancelled = Clock::now();
+  const auto cancelled = SteadyClock::now();
   CHECK(bench.command({"cancel"}).code == 0);
   bench.await_job(hopeless, "stopped");
   REQUIRE(bench.command({"start", std::to_string(sound)}).code == 0);
@@ -138,7 +138,7 @@ TEST_CASE("a large job that is cancelled while it is planned makes way for the n
   bench.await_print("printing");  // hot, and waits for its first layer
   CHECK(bench.command({"cancel"}).code == 0);
   bench.await_job(large, "stopped");
-  const auto stopped = Clock::now();
+  const auto stopped = SteadyClock::now();
   REQUIRE(bench.command({"start", std::to_string(next)}).code == 0);
   CHECK(seconds_since(stopped) < 4);
   bench.await_print("printing");
@@ -194,7 +194,7 @@ TEST_CASE("uploads that would take all memory or all time are refused with a sen
     REQUIRE(bench.status(bench.request("PUT", folder + "job.toml", hostile.job)) == 201);
     REQUIRE(bench.status(bench.request("PUT", folder + "profile.toml", test::sample_profile)) == 201);
     REQUIRE(bench.status(bench.request("PUT", folder + hostile.model_name, hostile.model)) == 201);
-    const auto asked = Clock::now();
+    const auto asked = SteadyClock::now();
     const std::string answer = bench.send(bench.request(
         "POST", "/api/jobs", std::string(R"({"job": "upload:)") + hostile.name + R"(/job.toml"})"));
     INFO(answer);

@@ -25,10 +25,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point then) {
-  return std::chrono::duration<double>(Clock::now() - then).count();
+double seconds_since(SteadyClock::time_point then) {
+  return std::chrono::duration<double>(SteadyClock::now() - then).count();
 }
 
 /// An undisturbed print, and its duration since the start of its spool, s.
@@ -42,7 +42,7 @@ Undisturbed undisturbed(int speed, const std::string& job = test::sample_job) {
   bench.folder().write("job.toml", job);
   Child host(bench.print());
   Bench::wait_for([&] { return bench.begun(); }, host);
-  const auto begun = Clock::now();
+  const auto begun = SteadyClock::now();
   const Outcome outcome = host.wait();
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
@@ -51,7 +51,7 @@ Undisturbed undisturbed(int speed, const std::string& job = test::sample_job) {
 
 /// Lets the program run for a time, then kills it; returns whether it was still running.
 bool kill_after(Child& host, double seconds) {
-  const auto begun = Clock::now();
+  const auto begun = SteadyClock::now();
   Bench::wait_for([&] { return seconds_since(begun) >= seconds; }, host);
   const bool running = host.running();
   kill(host.id(), SIGKILL);
