@@ -7,6 +7,7 @@
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
+#include "tests/host/support/terminal.hpp"
 
 namespace unicursal {
 namespace {
@@ -49,6 +50,17 @@ TEST_CASE("A model is printed without a job") {
   CHECK(without.code == 0);
   CHECK_THAT(without.err, Contains("note: no profile is named"));
   CHECK(test::read_text(folder / "plate.gcode").find("G1 ") != std::string::npos);
+}
+
+TEST_CASE("A mesh without a job or a profile is tried on a common printer, in windows of three widths") {
+  const TempFolder folder;
+  const std::string model = folder.write("part.stl", boxes(-0.5)).string();
+  const int width = GENERATE(60, 80, 120);
+  test::Terminal terminal({"dry-run", model, "--layers", "0:0"}, "/nonexistent",
+                          {static_cast<unsigned short>(width)});
+  terminal.await("note: no profile is named");
+  terminal.await("the print takes ");
+  CHECK(terminal.wait() == 0);
 }
 
 TEST_CASE("A model is not printed on a printer that nobody has named") {

@@ -16,12 +16,12 @@ namespace {
 /// A job of 100 layers, and a simulated printer for it.
 class Bench {
  public:
-  explicit Bench(const char* height = "height = 20.0") {
+  explicit Bench(const char* height = "height = 20.0", const char* speed = "100") {
     folder_.write("bench.toml", test::sample_profile);
     folder_.write("plate.svg", test::sample_drawing);
     folder_.write("job.toml", test::replaced(test::sample_job, "height = 0.4", height));
     printer_ = std::make_unique<Child>(std::vector<std::string>{"simulate", "--profile", path("bench.toml"),
-                                                                "--link", path("port"), "--speed", "100"});
+                                                                "--link", path("port"), "--speed", speed});
     test::await([&] { return std::filesystem::exists(folder_ / "port"); }, *printer_);
   }
 
@@ -98,7 +98,7 @@ TEST_CASE("what a person types stands on a line of its own, and every command is
 
 TEST_CASE("a print says when and after how long it was done, what had been foretold and what it used") {
   const int width = GENERATE(60, 80, 120);
-  const Bench bench("height = 0.4");
+  const Bench bench("height = 0.4", "1000");
   Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width)});
   CHECK(terminal.wait() == 0);
   const std::string done = terminal.screen().last_row("done at ");
@@ -108,21 +108,24 @@ TEST_CASE("a print says when and after how long it was done, what had been foret
 }
 
 TEST_CASE("swatches of mixtures need a terminal with colours and no NO_COLOR", "[optimised]") {
-  const Bench bench("height = 2.0");
+  const Bench bench("height = 0.4", "1000");
   using Environment = std::map<std::string, std::string>;
-  const auto [environment, coloured] =
-      GENERATE(table<Environment, bool>({{{{"COLORTERM", "truecolor"}}, true},
-                                         {{{"TERM", "xterm-256color"}}, true},
-                                         {{{"COLORTERM", "truecolor"}, {"NO_COLOR", "1"}}, false},
-                                         {{{"TERM", "vt100"}}, false}}));
-  Terminal terminal(bench.print(), "/nonexistent", {100, environment});
+  const auto [width, environment, coloured] = GENERATE(
+      table<int, Environment, bool>({{60, {{"COLORTERM", "truecolor"}}, true},
+                                     {80, {{"TERM", "xterm-256color"}}, true},
+                                     {120, {{"COLORTERM", "truecolor"}}, true},
+                                     {60, {{"COLORTERM", "truecolor"}, {"NO_COLOR", "1"}}, false},
+                                     {80, {{"TERM", "vt100"}}, false},
+                                     {120, {{"TERM", "xterm-256color"}, {"NO_COLOR", "1"}}, false}}));
+  Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width), environment});
   CHECK(terminal.wait() == 0);
   CHECK((terminal.screen().colours() > 0) == coloured);
 }
 
 TEST_CASE("a dumb terminal gets whole lines") {
-  const Bench bench("height = 2.0");
-  Terminal terminal(bench.print(), "/nonexistent", {100, {{"TERM", "dumb"}}});
+  const int width = GENERATE(60, 80, 120);
+  const Bench bench("height = 0.4", "1000");
+  Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width), {{"TERM", "dumb"}}});
   terminal.await("printing layer");
   CHECK(terminal.wait() == 0);
   CHECK(terminal.screen().sequences() == 0);

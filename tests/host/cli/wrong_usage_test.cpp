@@ -20,7 +20,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// One line that begins with the program's name and has one hint.
+/// One line that begins with the program's name and has one hint, in a pipe and in windows of three widths.
 void check_one_hint(const Words& words) {
   std::string command;
   for (const std::string& word : words) command += ' ' + word;
@@ -34,6 +34,16 @@ void check_one_hint(const Words& words) {
     hints += count(outcome.err, hint);
   CHECK(hints <= 1);
   CHECK(outcome.err.find("; ") != std::string::npos);
+  for (const std::size_t width : {60, 80, 120}) {
+    test::Terminal terminal(words, "/nonexistent", {static_cast<unsigned short>(width)});
+    CHECK(terminal.wait() == 2);
+    const auto rows = terminal.screen().rows();
+    const auto first = std::find_if(rows.begin(), rows.end(),
+                                    [](const auto& row) { return row.starts_with("unicursal: "); });
+    REQUIRE(first != rows.end());
+    // The window breaks the line, and the last row is empty. Nothing else is said.
+    CHECK(std::size_t(rows.end() - first) == (outcome.err.size() - 2) / width + 2);
+  }
 }
 
 /// What the program says to these words, without its name and the line end.

@@ -31,6 +31,12 @@ class Screen {
     }
     return texts;
   }
+  /// All rows, each with a line end.
+  std::string text() const {
+    std::string text;
+    for (const std::string& row : rows()) text += row + '\n';
+    return text;
+  }
   /// The last row that begins with this text; empty if none does.
   std::string last_row(const std::string& start) const {
     std::string found;
