@@ -13,7 +13,7 @@ bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
   return text;
@@ -59,7 +59,7 @@ Temperatures temperatures_in(std::string_view text) {
   const auto read = [&](std::string_view label, auto& now, auto& target) {
     std::string_view rest = after_label(text, label);
     now = take_decimal(rest);
-    if (now && take(rest = trimmed(rest), "/")) target = take_decimal(rest);
+    if (now && take(rest = without_blanks(rest), "/")) target = take_decimal(rest);
   };
   read("T:", result.nozzle, result.nozzle_target);
   if (!result.nozzle)
@@ -72,7 +72,7 @@ reply::Ok ok_with(std::string_view rest) {
   reply::Ok ok;
   ok.temperatures = temperatures_in(rest);
   if (!ok.temperatures.empty()) return ok;
-  for (rest = trimmed(rest); !rest.empty(); rest = trimmed(rest)) {
+  for (rest = without_blanks(rest); !rest.empty(); rest = without_blanks(rest)) {
     if (take(rest, "N"))
       ok.line = take_count(rest);
     else if (take(rest, "P"))
@@ -88,7 +88,7 @@ reply::Ok ok_with(std::string_view rest) {
 }
 
 reply::Error error_with(std::string_view rest) {
-  reply::Error error{std::string(trimmed(rest)), std::nullopt, false};
+  reply::Error error{std::string(without_blanks(rest)), std::nullopt, false};
   if (std::string_view tail = after_label(rest, "Last Line:"); !tail.empty()) {
     error.last_line = take_count(tail);
   }
@@ -124,7 +124,7 @@ Reply capability_with(std::string_view rest, std::string_view whole) {
 
 /// "Warning: M155: Command is not supported" and other words of RepRapFirmware that do not stop it.
 Reply warning_with(std::string_view rest) {
-  return reply::Echo{std::string(trimmed(rest)), rest.ends_with(": Command is not supported")};
+  return reply::Echo{std::string(without_blanks(rest)), rest.ends_with(": Command is not supported")};
 }
 
 bool ends_word(std::string_view rest) {
@@ -134,7 +134,7 @@ bool ends_word(std::string_view rest) {
 }  // namespace
 
 Reply parse_reply(std::string_view line) {
-  const std::string_view whole = trimmed(line);
+  const std::string_view whole = without_blanks(line);
   std::string_view rest = whole;
   if (rest.empty()) return reply::Blank{};
   if (take(rest, "ok") && ends_word(rest)) return ok_with(rest);
@@ -145,13 +145,13 @@ Reply parse_reply(std::string_view line) {
   }
   const bool error = take(rest, "Error:");
   if (meaning_of(whole) == Meaning::stopped)
-    return reply::Error{std::string(trimmed(rest)), std::nullopt, true};
+    return reply::Error{std::string(without_blanks(rest)), std::nullopt, true};
   // RepRapFirmware's words for commands that it does not know.
-  if (error && rest.starts_with(" Bad command:")) return reply::Echo{std::string(trimmed(rest)), true};
+  if (error && rest.starts_with(" Bad command:")) return reply::Echo{std::string(without_blanks(rest)), true};
   if (error) return error_with(rest);
   if (take(rest, "Warning:")) return warning_with(rest);
   if (whole.starts_with("RepRapFirmware ") && whole.ends_with("is up and running.")) return reply::Start{};
-  if (take(rest, "fatal:")) return reply::Error{std::string(trimmed(rest)), std::nullopt, true};
+  if (take(rest, "fatal:")) return reply::Error{std::string(without_blanks(rest)), std::nullopt, true};
   if (whole == "start") return reply::Start{};
   if (whole == "wait") return reply::Wait{};
   if (take(rest, "skip") && ends_word(rest)) return reply::Skip{take_count(rest)};
@@ -159,14 +159,15 @@ Reply parse_reply(std::string_view line) {
   if (take(rest, "echo:busy:") || take(rest, "busy:"))
     return reply::Busy{rest.find("paused for") != std::string_view::npos};
   if (take(rest, "echo:")) {
-    rest = trimmed(rest);
+    rest = without_blanks(rest);
     return reply::Echo{std::string(rest), rest.starts_with("Unknown command")};
   }
   if (take(rest, "Cap:")) return capability_with(rest, whole);
   if (rest.starts_with("Unknown command")) return reply::Echo{std::string(rest), true};
-  if (take(rest, "//action:") || take(rest, "// action:")) return reply::Action{std::string(trimmed(rest))};
+  if (take(rest, "//action:") || take(rest, "// action:"))
+    return reply::Action{std::string(without_blanks(rest))};
   // Repetier's words for the same: its display, a jam, a homing that has failed.
-  if (take(rest, "RequestPause:")) return reply::Action{"pause " + std::string(trimmed(rest))};
+  if (take(rest, "RequestPause:")) return reply::Action{"pause " + std::string(without_blanks(rest))};
   if (take(rest, "RequestContinue:")) return reply::Action{"resume"};
   if (take(rest, "RequestStop:")) return reply::Action{"cancel"};
   if (rest.starts_with("FIRMWARE_NAME:")) return reply::Firmware{std::string(rest)};
