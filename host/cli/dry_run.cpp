@@ -51,29 +51,29 @@ Exit DryRun::run() {
   display_.quiet = job_.quiet;
   if (simulated_.personality) simulated_.options.personality = *simulated_.personality;
   simulated_.check();
-  const PreparedJob prepared = prepare_and_warn(job_, present({log_}));
+  const std::unique_ptr<Production> production = produce_and_warn(job_, present({log_}));
   check_outputs(present({simulated_.options.fault_file}), present({job_.outputs.report, log_}));
   const DryRunOptions options{simulated_.options, simulated_.personality.has_value(), charge_, log_,
                               job_.outputs};
-  StatusLook look = look_for(prepared);
+  StatusLook look = look_for(production->job());
   look.dry = true;
   ForegroundResult shown;
   const auto began = std::chrono::steady_clock::now();
   const DryRunResult result =
-      dry_run(prepared, options, [&](int port, Source& source, const StreamSettings& settings) {
+      dry_run(*production, options, [&](int port, Source& source, const StreamSettings& settings) {
         shown = stream_with_progress(port, source, display_, settings, look);
         return shown.stream;
       });
   const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   std::FILE* const messages = message_stream(display_);
-  if (!display_.quiet) show(messages, "{}", summary(result.totals, result.effort));
+  if (!display_.quiet) show(messages, "{}", result.summary);
   const Exit exit = show_ending(result.stream, display_);
   if (exit != Exit::success) return exit;
   if (!display_.quiet)
     show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
   for (const std::string& warning : result.warnings) show(stderr, "warning: {}\n", warning);
   if (!display_.quiet)
-    show(messages, "{}", used_filament(result.totals, prepared.job.profile.printer.filament_diameter));
+    show(messages, "{}", used_filament(result.totals, production->job().profile.printer.filament_diameter));
   show(messages, "done:      the print takes {} with heating{}; the dry run took {}\n",
        rough_duration(shown.seconds),
        shown.foretold ? " (" + rough_duration(*shown.foretold) + " were foretold)" : "",

@@ -108,10 +108,10 @@ bool is_back(Print& print, StreamResult& result) {
 
 }  // namespace
 
-StatusLook look_for(const PreparedJob& prepared) {
+StatusLook look_for(const Job& job) {
   StatusLook look;
-  look.colour_of =
-      [materials = prepared.job.print.materials](const std::string& name) -> std::optional<picture::Colour> {
+  look.colour_of = [materials =
+                        job.print.materials](const std::string& name) -> std::optional<picture::Colour> {
     const auto named = std::find_if(materials.begin(), materials.end(),
                                     [&](const gcode::Material& material) { return material.name == name; });
     if (named != materials.end()) return colour_of(named->mixture);
@@ -128,7 +128,7 @@ ForegroundResult stream_with_progress(int port, Source& source, const DisplayOpt
 
 ForegroundResult stream_with_progress(Print& print, const DisplayOptions& options) {
   const auto began = std::chrono::steady_clock::now();
-  Shown shown(options, look_for(print.prepared()));
+  Shown shown(options, look_for(print.job()));
   ForegroundResult result = shown.stream(print.take_port(), print.source(), print.settings());
   while (may_reconnect(result.stream)) {
     shown.notice(fmt::format("{}; the print goes on when it is back, for up to {} minutes",

@@ -29,7 +29,7 @@ ForegroundResult stream_with_progress(int port, Source& source, const DisplayOpt
 ForegroundResult stream_with_progress(Print& print, const DisplayOptions& options);
 
 /// The colours of a job's mixtures, for its progress line.
-StatusLook look_for(const PreparedJob& prepared);
+StatusLook look_for(const Job& job);
 
 /// Shows when and after how long a print was completed, and what had been foretold.
 void show_done(const ForegroundResult& result, const DisplayOptions& display);

@@ -8,9 +8,8 @@
 #include "host/cli/progress_line.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/files/whole_file.hpp"
-#include "host/report/books.hpp"
+#include "host/report/planned_books.hpp"
 #include "host/report/print_report.hpp"
-#include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -41,7 +40,7 @@ class Plan final : public Command {
 Exit Plan::run() {
   const PreparedJob prepared = prepare_and_warn(job_, {output_});
   ChunkMaker maker(prepared);
-  Books books(maker, "plan", job_.outputs);
+  PlannedBooks books(maker, "plan", job_.outputs);
   check_beginning(prepared);
   WholeFile file(output_);
   write(file, maker.start());
@@ -57,10 +56,10 @@ Exit Plan::run() {
   write(file, maker.rest());
   write(file, maker.finish());
   file.publish();
-  books.write_report({{"ended", "completed"}, {"planning", planning_json(lookahead)}});
-  show_late_warnings(maker);
-  show(stdout, "{}written:   {}\n", job_.quiet ? "" : summary(books.totals(), lookahead.effort()),
-       output_.string());
+  const Planning planning{lookahead.effort(), lookahead.threads()};
+  books.write_report({{"ended", "completed"}, {"planning", planning_json(planning)}});
+  show_late_warnings(maker.late_warnings());
+  show(stdout, "{}written:   {}\n", job_.quiet ? "" : books.summary(planning), output_.string());
   return Exit::success;
 }
 

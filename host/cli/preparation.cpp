@@ -8,6 +8,7 @@
 #include "core/model/hanging.hpp"
 #include "core/model/read_part.hpp"
 #include "host/cli/terminal_output.hpp"
+#include "host/engine/planned_production.hpp"
 #include "host/job/load_job.hpp"
 
 namespace unicursal::host {
@@ -75,8 +76,8 @@ std::vector<fs::path> present(std::initializer_list<std::optional<fs::path>> pat
   return given;
 }
 
-void show_late_warnings(const ChunkMaker& maker) {
-  for (const std::string& warning : maker.late_warnings()) show(stderr, "warning: {}\n", warning);
+void show_late_warnings(const std::vector<std::string>& sentences) {
+  for (const std::string& warning : sentences) show(stderr, "warning: {}\n", warning);
 }
 
 PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs,
@@ -96,6 +97,12 @@ PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::pa
   check_outputs(files_of(prepared.job).all(), outputs);
   for (const std::string& sentence : hanging_places(prepared)) show(stderr, "warning: {}\n", sentence);
   return prepared;
+}
+
+std::unique_ptr<Production> produce_and_warn(const JobOptions& options,
+                                             const std::vector<fs::path>& more_outputs,
+                                             UnnamedPrinter unnamed) {
+  return std::make_unique<PlannedProduction>(prepare_and_warn(options, more_outputs, unnamed));
 }
 
 }  // namespace unicursal::host

@@ -3,14 +3,15 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <memory>
 #include <new>
 #include <optional>
 #include <vector>
 
 #include "core/error.hpp"
 #include "host/cli/arguments.hpp"
-#include "host/engine/chunk_maker.hpp"
 #include "host/engine/prepared_job.hpp"
+#include "host/engine/production.hpp"
 #include "host/job/load_job.hpp"
 
 namespace unicursal::host {
@@ -26,7 +27,7 @@ std::vector<std::filesystem::path> present(std::initializer_list<std::optional<s
 void show_note(const std::string& sentence);
 
 /// Shows on standard error what became known while layers were made.
-void show_late_warnings(const ChunkMaker& maker);
+void show_late_warnings(const std::vector<std::string>& sentences);
 
 /// Returns what `read` returns. Throws core::DataError if the memory for reading `file` runs out.
 template <class Read>
@@ -44,5 +45,9 @@ auto within_memory(const std::filesystem::path& file, const Read& read) {
 PreparedJob prepare_and_warn(const JobOptions& options,
                              const std::vector<std::filesystem::path>& more_outputs = {},
                              UnnamedPrinter unnamed = UnnamedPrinter::assume_common_frame);
+/// The same, ready to be printed.
+std::unique_ptr<Production> produce_and_warn(const JobOptions& options,
+                                             const std::vector<std::filesystem::path>& more_outputs = {},
+                                             UnnamedPrinter unnamed = UnnamedPrinter::assume_common_frame);
 
 }  // namespace unicursal::host

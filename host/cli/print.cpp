@@ -7,9 +7,8 @@
 #include "host/cli/foreground.hpp"
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
-#include "host/report/books.hpp"
+#include "host/report/open_books.hpp"
 #include "host/report/print_report.hpp"
-#include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -41,25 +40,27 @@ CLI::App& PrintCommand::declare(CLI::App& program) {
 
 Exit PrintCommand::run() {
   display_.quiet = job_.quiet;
-  Print print(prepare_and_warn(job_, present({options_.log}), UnnamedPrinter::refuse), options_);
-  Books books(print.maker(), "print", job_.outputs);
+  Print print(produce_and_warn(job_, present({options_.log}), UnnamedPrinter::refuse), options_);
+  const std::unique_ptr<Books> books = open_books(print.production(), "print", job_.outputs);
   print.connect();
   const ForegroundResult shown = stream_with_progress(print, display_);
   const StreamResult& result = shown.stream;
   // The report does not wait for a terminal that is halted.
   try {
-    conclude(books, result, {{"planning", planning_json(print.lookahead())}});
+    const auto planning = print.production().planning();
+    conclude(*books, result,
+             planning ? nlohmann::json{{"planning", planning_json(*planning)}} : nlohmann::json::object());
   } catch (...) {
     show_how_to_resume(print.spool(), result);
     throw;
   }
   show_how_to_resume(print.spool(), result);
-  show_late_warnings(print.maker());
+  show_late_warnings(print.production().late_warnings());
   if (result.ending == Ending::completed) {
-    const double diameter = print.prepared().job.profile.printer.filament_diameter;
+    const double diameter = print.job().profile.printer.filament_diameter;
     if (!display_.quiet)
-      show(message_stream(display_), "{}{}", summary(books.totals(), print.lookahead().effort()),
-           used_filament(books.totals(), diameter));
+      show(message_stream(display_), "{}{}", books->summary(print.production().planning()),
+           used_filament(books->totals(), diameter));
     show_done(shown, display_);
   }
   return show_ending(result, display_);

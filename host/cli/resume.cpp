@@ -106,7 +106,7 @@ Exit end(Print& print, const ForegroundResult& shown, const ResumeOptions& optio
 }
 
 Exit restart(Print& print, const Lost& lost, const ResumeOptions& options) {
-  const Restart restart = restart_after(print.prepared(), print.spool(), lost);
+  const Restart restart = restart_after(print.production(), print.spool(), lost);
   show(stdout, "{}", restart_in_words(restart, lost, print.spool()));
   if (!agreed(options, restart, check_not_superseded(print.spool(), options.on.port))) {
     show(stdout, "The print was not resumed. If the printer's heaters are on, they stay on: check them.\n");

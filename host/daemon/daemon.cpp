@@ -92,7 +92,7 @@ json Daemon::printer() const {
   if (options_.port) printer["port"] = *options_.port;
   if (!firmware_.empty()) printer["firmware"] = core::printable(firmware_);
   const Profile* profile = profile_ ? &*profile_ : nullptr;
-  if (current_ && current_->print) profile = &current_->print->prepared().job.profile;
+  if (current_ && current_->print) profile = &current_->print->job().profile;
   if (!profile) return printer;
   printer["name"] = profile->printer.name;
   printer["baud"] = profile->baud;

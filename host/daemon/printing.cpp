@@ -13,6 +13,7 @@
 #include "host/daemon/log.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/daemon/service_notify.hpp"
+#include "host/engine/produce.hpp"
 #include "host/engine/reconnecting.hpp"
 #include "host/engine/restart.hpp"
 #include "host/engine/session_json.hpp"
@@ -111,9 +112,9 @@ PrintOptions Daemon::print_options(const std::string& job) const {
 
 /// Reads files and opens the port; blocks.
 std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
-  PreparedJob prepared =
-      prepare(load_job_or_model(files_.find(job.name), options_.profile, UnnamedPrinter::refuse), job.layers);
-  auto print = std::make_unique<Print>(std::move(prepared), print_options(job.name));
+  auto print = std::make_unique<Print>(
+      produce(load_job_or_model(files_.find(job.name), options_.profile, UnnamedPrinter::refuse), job.layers),
+      print_options(job.name));
   print->connect();
   try {
     note_printing(options_.state, {job.id, job.name, print->spool().folder(), {}});
@@ -225,7 +226,7 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
     print.end();
   }
   if (!lost) lost = Lost{"only a person knows whether it was left alone", std::nullopt};
-  const auto plan = [&print, &lost] { return restart_after(print.prepared(), print.spool(), *lost); };
+  const auto plan = [&print, &lost] { return restart_after(print.production(), print.spool(), *lost); };
   const Restart restart = co_await elsewhere(preparing_, plan);
   std::string question = restart_in_words(restart, *lost, print.spool());
   if (!later.empty())

@@ -6,10 +6,11 @@
 
 #include "host/dry_run/lockstep_clock.hpp"
 #include "host/dry_run/simulator_process.hpp"
+#include "host/engine/planned_production.hpp"
 #include "host/engine/session.hpp"
 #include "host/report/deposit_check.hpp"
+#include "host/report/open_books.hpp"
 #include "host/report/print_report.hpp"
-#include "host/report/target.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -22,16 +23,16 @@ bool is_virtual(const DryRunOptions& options) {
 }
 
 /// The firmware that the profile is written for, unless another one is asked for.
-std::string personality_of(const DryRunOptions& options, const PreparedJob& prepared) {
-  return options.personality_chosen ? options.printer.personality : prepared.job.profile.printer.firmware;
+std::string personality_of(const DryRunOptions& options, const Job& job) {
+  return options.personality_chosen ? options.printer.personality : job.profile.printer.firmware;
 }
 
-std::vector<std::string> simulator_arguments(const DryRunOptions& options, const PreparedJob& prepared) {
+std::vector<std::string> simulator_arguments(const DryRunOptions& options, const Job& job) {
   const sim::SimulatorOptions& printer = options.printer;
-  std::vector<std::string> arguments = {"--profile",     prepared.job.profile.file.string(),
+  std::vector<std::string> arguments = {"--profile",     job.profile.file.string(),
                                         "--speed",       fmt::format("{}", printer.speed),
-                                        "--baud",        fmt::format("{}", prepared.job.profile.baud),
-                                        "--personality", personality_of(options, prepared),
+                                        "--baud",        fmt::format("{}", job.profile.baud),
+                                        "--personality", personality_of(options, job),
                                         "--usb",         printer.usb};
   for (const std::string& fault : printer.faults) arguments.insert(arguments.end(), {"--fault", fault});
   if (printer.fault_file) arguments.insert(arguments.end(), {"--faults", printer.fault_file->string()});
@@ -45,8 +46,8 @@ std::vector<std::string> simulator_arguments(const DryRunOptions& options, const
 
 Comparison compare_with(const nlohmann::json& simulator, const Books& books, const StreamResult& result) {
   Fed fed;
-  fed.filament_diameter = books.maker().prepared().job.profile.printer.filament_diameter;
-  const gcode::Printer& printer = books.maker().prepared().job.profile.printer;
+  const gcode::Printer& printer = books.job().profile.printer;
+  fed.filament_diameter = printer.filament_diameter;
   fed.feeder_steps_per_mm = printer.extruder_steps.value_or(sim::SimulatorOptions{}.feeder_steps_per_mm);
   fed.flow_factors = printer.flow_factors;
   fed.lines_sent = result.statistics.lines + result.statistics.queries;
@@ -67,21 +68,22 @@ StreamSettings settings_for(const DryRunOptions& options, const Profile& profile
   return settings;
 }
 
-/// In virtual time planning takes `charge` times its real time; if that is 0, it never hurries.
-LookaheadOptions planning_for(const DryRunOptions& options, const PreparedJob& prepared,
-                              const StreamSettings& settings) {
-  LookaheadOptions planning = paced(lookahead_options(prepared), settings.clock);
-  if (!is_virtual(options)) return planning;
+/// In virtual time, planning takes `charge` times its real time; if that is 0, it never hurries.
+void begin(Production& production, const DryRunOptions& options, const StreamSettings& settings) {
+  auto* const planned = dynamic_cast<PlannedProduction*>(&production);
+  if (!planned || !is_virtual(options)) return production.begin(settings.clock, {});
+  LookaheadOptions planning = paced(lookahead_options(planned->prepared()), settings.clock);
   planning.pace.reset();
   if (options.charge > 0) planning.pace = PlanningClock{{}, options.charge};
-  return planning;
+  planned->plan(planning);
 }
 
 /// In virtual time the report leaves out this computer's times, so that equal dry runs give equal reports.
-nlohmann::json planning_of(const DryRunOptions& options, const Lookahead& lookahead,
+nlohmann::json planning_of(const DryRunOptions& options, const Production& production,
                            const StreamResult& result) {
-  nlohmann::json planning =
-      is_virtual(options) ? nlohmann::json{{"charge", options.charge}} : planning_json(lookahead);
+  nlohmann::json planning = nlohmann::json::object();
+  if (const auto done = production.planning())
+    planning = is_virtual(options) ? nlohmann::json{{"charge", options.charge}} : planning_json(*done);
   planning["waited_seconds"] = result.waited;
   return planning;
 }
@@ -140,41 +142,46 @@ std::vector<std::string> warnings_of_strikes(const nlohmann::json& simulator) {
 
 }  // namespace
 
-DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream) {
-  check_beginning(prepared);
-  ChunkMaker maker(prepared);
-  Books books(maker, "dry-run", outputs_of(options));
+DryRunResult dry_run(Production& production, const DryRunOptions& options, const Streamer& stream) {
+  production.check();
+  const Job& job = production.job();
+  const std::unique_ptr<Books> books = open_books(production, "dry-run", outputs_of(options));
   // Declared before the simulator: it waits for the end of the stream, which comes when the simulator ends.
-  DepositCheck check(intended_materials(prepared, maker.encoder()), options.outputs.pictures);
-  SimulatorProcess simulator(simulator_arguments(options, prepared), is_virtual(options)
-                                                                         ? SimulatorProcess::Time::lockstep
-                                                                         : SimulatorProcess::Time::own);
-  books.judge_with(check);
+  DepositCheck check(books->intended_materials(), options.outputs.pictures);
+  SimulatorProcess simulator(simulator_arguments(options, job), is_virtual(options)
+                                                                    ? SimulatorProcess::Time::lockstep
+                                                                    : SimulatorProcess::Time::own);
+  books->judge_with(check);
   check.watch(simulator.take_rasters());
-  StreamSettings settings = settings_for(options, prepared.job.profile, simulator);
-  Lookahead lookahead(*prepared.part, planning_for(options, prepared, settings));
-  const int port = open_port(simulator.port(), prepared.job.profile.baud);
-  PlannedSource source(lookahead, maker);
-  const StreamResult result = stream(port, source, settings);
+  StreamSettings settings = settings_for(options, job.profile, simulator);
+  begin(production, options, settings);
+  const int port = open_port(simulator.port(), job.profile.baud);
+  const StreamResult result = stream(port, production.open({}), settings);
   settings.clock.reset();  // hangs up, which the simulator waits for
-  const nlohmann::json planning = planning_of(options, lookahead, result);
-  if (result.ending == Ending::failed) conclude_failed(books, result, {{"planning", planning}}, simulator);
-  nlohmann::json seen = seen_by(simulator, books, result, check, planning);
+  const nlohmann::json planning = planning_of(options, production, result);
+  if (result.ending == Ending::failed) conclude_failed(*books, result, {{"planning", planning}}, simulator);
+  nlohmann::json seen = seen_by(simulator, *books, result, check, planning);
   check.finish();
-  const MotionFindings motion = motion_findings(seen, maker.flow());
+  const MotionFindings motion = motion_findings(seen, production.flow());
   leave_out_histograms(seen);
-  const Comparison comparison = compare_with(seen, books, result);
-  conclude(books, result,
+  const Comparison comparison = compare_with(seen, *books, result);
+  conclude(*books, result,
            {{"planning", planning},
             {"simulator", seen},
             {"comparison", to_json(comparison)},
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
-  check_bare(maker.bare(), prepared.job);
-  std::vector<std::string> warnings = maker.late_warnings();
+  production.check_made();
+  std::vector<std::string> warnings = production.late_warnings();
   for (std::string& warning : warnings_of_strikes(seen)) warnings.push_back(std::move(warning));
-  return {result, books.totals(), lookahead.effort(),  comparison,
-          motion, check.total(),  std::move(warnings), check.problem()};
+  return {result,
+          books->totals(),
+          books->summary(production.planning()),
+          comparison,
+          motion,
+          check.total(),
+          std::move(warnings),
+          check.problem()};
 }
 
 }  // namespace unicursal::host

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/engine/prepared_job.hpp"
+#include "host/engine/production.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/engine/source.hpp"
 #include "host/report/books.hpp"
@@ -31,7 +31,7 @@ struct DryRunOptions {
 struct DryRunResult {
   StreamResult stream;  ///< completed or stopped
   RunTotals totals;
-  PlanningEffort effort;
+  std::string summary;  ///< of the books: layers, material, times
   Comparison comparison;
   MotionFindings motion;
   DepositFindings laid;
@@ -42,8 +42,9 @@ struct DryRunResult {
 /// Streams a print to the port, whose descriptor it takes over (stream.hpp).
 using Streamer = std::function<StreamResult(int port, Source& source, const StreamSettings& settings)>;
 
-/// Also writes the report. Throws core::DataError, also after it if a layer stays mostly without plastic and
-/// the job does not allow it, SimulatorError, and PrintError if the print has failed.
-DryRunResult dry_run(const PreparedJob& prepared, const DryRunOptions& options, const Streamer& stream);
+/// Also writes the report. `production` must not have begun. Throws core::DataError, also after it if a layer
+/// stays mostly without plastic and the job does not allow it, SimulatorError, and PrintError if the print
+/// has failed.
+DryRunResult dry_run(Production& production, const DryRunOptions& options, const Streamer& stream);
 
 }  // namespace unicursal::host

@@ -10,16 +10,11 @@
 
 #include "core/model/part.hpp"
 #include "firmware_gcode/print/print_settings.hpp"
+#include "host/engine/layer_range.hpp"
 #include "host/job/job.hpp"
 #include "host/lookahead/lookahead.hpp"
 
 namespace unicursal::host {
-
-/// Layers from `first` to `last`, both included, counted from 0.
-struct LayerRange {
-  std::size_t first = 0;
-  std::size_t last = 0;
-};
 
 struct PreparedJob {
   Job job;

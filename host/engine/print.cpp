@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/engine/produce.hpp"
 #include "host/engine/restart.hpp"
 #include "host/link/find_port.hpp"
 #include "host/link/link.hpp"
@@ -13,31 +14,13 @@
 namespace unicursal::host {
 namespace {
 
-PreparedJob checked(PreparedJob prepared) {
-  check_beginning(prepared);
-  return prepared;
-}
-
-PreparedJob prepare_again(const Spool& spool) {
-  std::optional<LayerRange> layers;
-  if (const auto& asked = spool.order().layers) layers = LayerRange{asked->first, asked->second};
-  return prepare(spool.job(), layers);
-}
-
-LookaheadOptions behind(LookaheadOptions options, const SpoolExtent& extent) {
-  const std::size_t done = std::min(options.count, extent.layers);
-  options.first += done;
-  options.count -= done;
-  return options;
-}
-
-PrintOrder order_of(const PreparedJob& prepared, const std::string& port, const std::string& device) {
+PrintOrder order_of(const Production& production, const std::string& port, const std::string& device) {
   PrintOrder order;
-  order.job_name = prepared.job.file.stem().string();
+  order.job_name = production.job().file.stem().string();
   order.port = port;
   order.device = device;
-  order.layer_count = prepared.count;
-  if (const auto& layers = prepared.layers) order.layers = std::pair(layers->first, layers->last);
+  order.layer_count = production.layers();
+  if (const auto layers = production.range()) order.layers = std::pair(layers->first, layers->last);
   return order;
 }
 
@@ -46,40 +29,45 @@ SpoolError cannot_go_on(const Spool& spool, const std::string& why) {
           "see `unicursal resume " + spool.folder().filename().string() + "`"};
 }
 
-StreamSettings settings_for(const PreparedJob& prepared, const PrintOptions& options) {
+std::optional<LayerRange> layers_of(const Spool& spool) {
+  if (const auto& asked = spool.order().layers) return LayerRange{asked->first, asked->second};
+  return std::nullopt;
+}
+
+StreamSettings settings_for(const Job& job, const PrintOptions& options) {
   StreamSettings settings;
-  settings.profile = prepared.job.profile.file;
+  settings.profile = job.profile.file;
   settings.pause_heat = options.pause_heat;
-  settings.display = prepared.job.profile.display;
+  settings.display = job.profile.display;
   return settings;
 }
 
 }  // namespace
 
-Print::Print(PreparedJob prepared, const PrintOptions& options)
+Print::Print(std::unique_ptr<Production> production, const PrintOptions& options)
     : continues_(false),
-      prepared_(checked(std::move(prepared))),
+      production_(std::move(production)),
       options_(options),
-      settings_(settings_for(prepared_, options)),
-      maker_(prepared_),
-      lookahead_(*prepared_.part, paced(lookahead_options(prepared_), settings_.clock)) {}
+      settings_(settings_for(job(), options)) {
+  production_->check();
+  production_->begin(settings_.clock, {});
+}
 
 Print::Print(Spool spool, const PrintOptions& options)
     : spool_(std::move(spool)),
       continues_(true),
-      prepared_(prepare_again(*spool_)),
+      production_(produce(spool_->job(), layers_of(*spool_))),
       options_(options),
-      settings_(settings_for(prepared_, options)),
-      maker_(prepared_),
-      lookahead_(*prepared_.part,
-                 paced(behind(lookahead_options(prepared_), spool_->extent()), settings_.clock)) {}
+      settings_(settings_for(job(), options)) {
+  production_->begin(settings_.clock, spool_->extent());
+}
 
 Print::~Print() {
   if (port_ >= 0) close(port_);
 }
 
 void Print::connect(std::optional<Leg> leg) {
-  const Profile& profile = prepared_.job.profile;
+  const Profile& profile = job().profile;
   const std::string port = options_.port.value_or(continues_ ? spool_->order().port : profile.port);
   settings_.link = {};  // closes an earlier log
   settings_.link = link_options(profile, options_.log);
@@ -87,15 +75,15 @@ void Print::connect(std::optional<Leg> leg) {
   port_name_ = port;
   stable_name_ = stable_name_of(device_of(port_));
   if (continues_) {
-    settings_.continuation = Continuation{std::move(leg), [this] { catch_up(maker_, *spool_); }};
+    settings_.continuation = Continuation{std::move(leg), [this] { production_->catch_up(*spool_); }};
   } else {
-    spool_.emplace(Spool::create(options_.spool ? *options_.spool : default_spool_root(), prepared_.job,
-                                 order_of(prepared_, port, device_of(port_))));
+    spool_.emplace(Spool::create(options_.spool ? *options_.spool : default_spool_root(), job(),
+                                 order_of(*production_, port, device_of(port_))));
   }
-  if (!awake_) awake_.emplace("printing " + prepared_.job.file.stem().string());
+  if (!awake_) awake_.emplace("printing " + job().file.stem().string());
   settings_.spool = &*spool_;
   chunks_before_ = spool_->extent().chunks;
-  source_.emplace(lookahead_, maker_, spool_->extent().rest);
+  source_ = &production_->open(spool_->extent());
 }
 
 void Print::reconnect() {
@@ -105,13 +93,13 @@ void Print::reconnect() {
   // A chunk that was made and could not be kept is lost with its session.
   if (chunks_before_ + source_->made() != spool_->extent().chunks)
     throw cannot_go_on(*spool_, "its last lines could not be kept");
-  const Profile& profile = prepared_.job.profile;
+  const Profile& profile = job().profile;
   const std::shared_ptr<SerialLog> log = settings_.link.log;
   settings_.link = link_options(profile, {});
   settings_.link.log = log;
   const std::string port = stable_name_.empty() ? port_name_ : stable_name_;
   port_ = open_port(port, profile.baud, settings_.link);
-  if (!awake_) awake_.emplace("printing " + prepared_.job.file.stem().string());
+  if (!awake_) awake_.emplace("printing " + job().file.stem().string());
   settings_.continuation = Continuation{std::nullopt, [] {}};  // the source is where the spool ends
 }
 

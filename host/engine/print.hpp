@@ -1,7 +1,7 @@
 // One print with everything that a session needs, in the order in which it has to go away. The foreground
 // commands and the daemon print through it; a dry run, which keeps no spool, has its own (host/dry_run).
 //
-//   Print print(prepare(load_job("leaf.toml")), {.port = "/dev/ttyUSB0"});
+//   Print print(produce(load_job("leaf.toml")), {.port = "/dev/ttyUSB0"});
 //   print.connect();
 //   stream(print.take_port(), print.source(), observer, print.settings());
 //
@@ -15,11 +15,9 @@
 #include <optional>
 #include <string>
 
-#include "host/engine/chunk_maker.hpp"
-#include "host/engine/prepared_job.hpp"
+#include "host/engine/production.hpp"
 #include "host/engine/session.hpp"
 #include "host/engine/source.hpp"
-#include "host/lookahead/lookahead.hpp"
 #include "host/loop/stay_awake.hpp"
 #include "host/spool/spool.hpp"
 
@@ -34,9 +32,9 @@ struct PrintOptions {
 
 class Print {
  public:
-  /// A new print: checks that its first layer can be printed, and starts planning. Throws core::DataError.
-  Print(PreparedJob prepared, const PrintOptions& options);
-  /// A print that continues behind what `spool` holds: starts planning.
+  /// A new print: checks that its first layer can be printed, and begins to make it. Throws core::DataError.
+  Print(std::unique_ptr<Production> production, const PrintOptions& options);
+  /// A print that continues behind what `spool` holds: begins to make the rest.
   Print(Spool spool, const PrintOptions& options);
   ~Print();
   Print(const Print&) = delete;
@@ -64,9 +62,9 @@ class Print {
   /// On the loop's thread, when the session's run() has ended; the rest may then go away in any thread.
   void end();
 
-  const PreparedJob& prepared() const { return prepared_; }
-  ChunkMaker& maker() { return maker_; }
-  const Lookahead& lookahead() const { return lookahead_; }
+  const Production& production() const { return *production_; }
+  Production& production() { return *production_; }
+  const Job& job() const { return production_->job(); }
   Spool& spool() { return *spool_; }
   /// The name that `unicursal resume` takes.
   std::string kept_as() const { return spool_->folder().filename().string(); }
@@ -74,17 +72,15 @@ class Print {
  private:
   std::optional<Spool> spool_;
   const bool continues_;
-  const PreparedJob prepared_;
+  const std::unique_ptr<Production> production_;
   const PrintOptions options_;
   StreamSettings settings_;
-  ChunkMaker maker_;
-  Lookahead lookahead_;
   int port_ = -1;                  ///< until a session has taken it over
   std::string port_name_;          ///< as it was asked for
   std::string stable_name_;        ///< of the adapter, in /dev/serial/by-id; may be empty
   std::size_t chunks_before_ = 0;  ///< in the spool when the source was made
   std::optional<StayAwake> awake_;
-  std::optional<PlannedSource> source_;
+  KeptSource* source_ = nullptr;  ///< from connect() on
   std::optional<Session> session_;
 };
 

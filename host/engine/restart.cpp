@@ -48,7 +48,7 @@ void note_heights(Restart& restart, const std::filesystem::path& chunks, const J
 
 }  // namespace
 
-Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost) {
+Restart restart_after(const Production& production, const Spool& spool, const Lost& lost) {
   const JournalState& journal = spool.before();
   const bool settled = journal.aside || (journal.ended && journal.ended->outcome == LegOutcome::stopped);
   const std::uint64_t sent = std::max(journal.handed, journal.acknowledged);
@@ -75,9 +75,9 @@ Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Los
   if (!journal.ended && spool.extent().lines > line) restart.perhaps = spool.extent().lines - line;
   note_heights(restart, spool.chunks(), journal, certain, std::max(sent, certain));
   if (settled) restart.lowest = restart.highest;
-  gcode::Chunk chunk =
-      gcode::lead_in(prepared.job.profile.printer,
-                     {state, restart.lowest, prepared.job.print.flow, prepared.frame.extent, restart.drawn});
+  gcode::Chunk chunk = gcode::lead_in(
+      production.job().profile.printer,
+      {state, restart.lowest, production.job().print.flow, production.extent(), restart.drawn});
   restart.leg.height = restart.lowest;
   restart.leg.lead_in = commands(std::move(chunk.lines));
   restart.warnings = std::move(chunk.warnings);
@@ -144,31 +144,6 @@ std::string restart_in_words(const Restart& restart, const Lost& lost, const Spo
   fmt::format_to(out, "Manual changes of speed, flow and temperature are reset to the job's values.\n");
   for (const std::string& warning : restart.warnings) fmt::format_to(out, "note: {}\n", warning);
   return words;
-}
-
-void catch_up(ChunkMaker& maker, const Spool& spool) {
-  const auto same = [&](const gcode::Chunk& made, const SpooledChunk& kept) {
-    if (commands(made.lines) == kept.lines) return;
-    throw SpoolError(spool.folder().string(), "",
-                     "holds lines that this version of the program would not write",
-                     "resume with the version that the print was begun with");
-  };
-  ChunkReader reader(spool.chunks());
-  while (const auto chunk = reader.next()) {
-    switch (chunk->kind) {
-      case SpooledChunk::Kind::start:
-        same(maker.start(), *chunk);
-        break;
-      case SpooledChunk::Kind::layer:
-        same(maker.replay(chunk->layer), *chunk);
-        break;
-      case SpooledChunk::Kind::rest:
-        same(maker.rest(), *chunk);
-        break;
-      case SpooledChunk::Kind::finish:
-        same(maker.finish(), *chunk);
-    }
-  }
 }
 
 }  // namespace unicursal::host

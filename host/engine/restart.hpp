@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/engine/chunk_maker.hpp"
-#include "host/engine/prepared_job.hpp"
+#include "host/engine/production.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool.hpp"
@@ -29,10 +28,10 @@ struct Restart {
 
 /// Everything before the returned place has certainly been executed. A firmware acknowledges a move when it
 /// is planned, so the last acknowledged moves may be missing, unless the printer reported its place
-/// (`lost.place`), or the print had been ended or paused in order. Precondition: `prepared` is the spool's
-/// job. Throws SpoolError if a layer was ever spooled but no place is certain: the start lines, which home z,
-/// never run on a part, even if journal and chunks were both cut back.
-Restart restart_after(const PreparedJob& prepared, const Spool& spool, const Lost& lost);
+/// (`lost.place`), or the print had been ended or paused in order. Precondition: `production` is that of the
+/// spool's job. Throws SpoolError if a layer was ever spooled but no place is certain: the start lines, which
+/// home z, never run on a part, even if journal and chunks were both cut back.
+Restart restart_after(const Production& production, const Spool& spool, const Lost& lost);
 
 /// Why a kept print cannot go on with its next line although its printer may be on, as far as the journal
 /// says; absent: the printer has to be asked.
@@ -46,9 +45,5 @@ std::string check_not_superseded(const Spool& spool, const std::optional<std::st
 /// What a person has to know before a print continues after its printer has lost its place: sentences, one a
 /// line.
 std::string restart_in_words(const Restart& restart, const Lost& lost, const Spool& spool);
-
-/// Brings a fresh chunk maker to where the spool's last chunk has left the encoder. Throws SpoolError if it
-/// makes lines that differ from the spooled ones.
-void catch_up(ChunkMaker& maker, const Spool& spool);
 
 }  // namespace unicursal::host

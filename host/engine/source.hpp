@@ -62,8 +62,17 @@ class Source {
 /// Reports to the source that the lines sent so far leave `left` s of printing, at the clock's present time.
 void report_printed(Source& source, const Clock& clock, double left);
 
+/// A source whose steps a spool keeps, so that they can go on after a session has lost its printer.
+class KeptSource : public Source {
+ public:
+  /// Whether cancel() was called.
+  virtual bool cancelled() const = 0;
+  /// Chunks that it has handed out.
+  virtual std::size_t made() const = 0;
+};
+
 /// A job's layers as they are planned. The look-ahead and the chunk maker must outlive it.
-class PlannedSource final : public Source {
+class PlannedSource final : public KeptSource {
  public:
   /// `rest_given`: the maker's encoder withholds nothing after the last layer, since that was sent before.
   PlannedSource(Lookahead& lookahead, ChunkMaker& maker, bool rest_given = false)
@@ -85,9 +94,8 @@ class PlannedSource final : public Source {
   std::optional<PrintStep> next() override;
   gcode::Chunk finish() override { return ++made_, maker_.finish(); }
   void cancel() override;
-  bool cancelled() const { return cancelled_; }
-  /// Chunks that it has handed out.
-  std::size_t made() const { return made_; }
+  bool cancelled() const override { return cancelled_; }
+  std::size_t made() const override { return made_; }
   void printed(double now, double left) override { lookahead_.printed(now, left); }
   Waiting waiting() const override;
   std::optional<double> foretold(std::size_t begin, std::size_t end) const override {

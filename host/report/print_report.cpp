@@ -27,9 +27,10 @@ void conclude(Books& books, const StreamResult& result, const nlohmann::json& ex
   }
 }
 
-nlohmann::json planning_json(const Lookahead& lookahead) {
-  const PlanningEffort effort = lookahead.effort();
-  return {{"seconds", effort.seconds}, {"cpu_seconds", effort.cpu_seconds}, {"threads", lookahead.threads()}};
+nlohmann::json planning_json(const Planning& planning) {
+  return {{"seconds", planning.effort.seconds},
+          {"cpu_seconds", planning.effort.cpu_seconds},
+          {"threads", planning.threads}};
 }
 
 nlohmann::json link_json(const StreamResult& result) {

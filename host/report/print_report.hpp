@@ -4,7 +4,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "host/engine/session_types.hpp"
-#include "host/lookahead/lookahead.hpp"
 #include "host/report/books.hpp"
 
 namespace unicursal::host {
@@ -14,7 +13,7 @@ namespace unicursal::host {
 void conclude(Books& books, const StreamResult& result, const nlohmann::json& extra);
 
 /// The report's "planning": seconds, cpu_seconds, threads.
-nlohmann::json planning_json(const Lookahead& lookahead);
+nlohmann::json planning_json(const Planning& planning);
 /// The report's "link".
 nlohmann::json link_json(const StreamResult& result);
 

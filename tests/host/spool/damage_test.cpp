@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/numeric/random.hpp"
-#include "host/engine/prepared_job.hpp"
+#include "host/engine/produce.hpp"
 #include "host/engine/restart.hpp"
 #include "host/job/load_job.hpp"
 #include "host/spool/chunk_reader.hpp"
@@ -94,13 +94,13 @@ struct Interrupted {
 void damage_at_random(std::size_t times, std::uint64_t seed) {
   const Interrupted print;
   const Kept kept(print.bench.print_folder());
-  std::optional<host::PreparedJob> prepared;
+  std::unique_ptr<host::Production> production;
   std::uint64_t certain = 0, sent = 0;
   std::vector<std::string> lines;
   {
     const host::Spool spool = host::Spool::open(kept.folder());
-    prepared.emplace(host::prepare(spool.job()));
-    certain = host::restart_after(*prepared, spool, {}).leg.begins_at;
+    production = host::produce(spool.job());
+    certain = host::restart_after(*production, spool, {}).leg.begins_at;
     sent = spool.before().furthest;
     lines = lines_from(spool.chunks(), 0);
   }
@@ -118,7 +118,7 @@ void damage_at_random(std::size_t times, std::uint64_t seed) {
     INFO("damage " << i << " of seed " << seed);
     try {
       const host::Spool spool = host::Spool::open(kept.folder());
-      const host::Restart restart = host::restart_after(*prepared, spool, {});
+      const host::Restart restart = host::restart_after(*production, spool, {});
       ++resumed;
       CHECK_FALSE(restart.from_start());  // also if both record files were cut back to the start lines
       const std::uint64_t begins = restart.leg.begins_at;

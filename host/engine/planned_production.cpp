@@ -1,0 +1,55 @@
+#include "host/engine/planned_production.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/engine/session.hpp"
+
+namespace unicursal::host {
+namespace {
+
+LookaheadOptions behind(LookaheadOptions options, const SpoolExtent& kept) {
+  const std::size_t done = std::min(options.count, kept.layers);
+  options.first += done;
+  options.count -= done;
+  return options;
+}
+
+}  // namespace
+
+PlannedProduction::PlannedProduction(PreparedJob prepared)
+    : prepared_(std::move(prepared)), maker_(prepared_) {}
+
+void PlannedProduction::begin(const std::shared_ptr<Clock>& clock, const SpoolExtent& kept) {
+  plan(paced(behind(lookahead_options(prepared_), kept), clock));
+}
+
+KeptSource& PlannedProduction::open(const SpoolExtent& kept) {
+  return source_.emplace(*lookahead_, maker_, kept.rest);
+}
+
+void PlannedProduction::catch_up(const Spool& spool) {
+  ChunkReader reader(spool.chunks());
+  while (const auto chunk = reader.next()) {
+    switch (chunk->kind) {
+      case SpooledChunk::Kind::start:
+        check_same(maker_.start(), *chunk, spool);
+        break;
+      case SpooledChunk::Kind::layer:
+        check_same(maker_.replay(chunk->layer), *chunk, spool);
+        break;
+      case SpooledChunk::Kind::rest:
+        check_same(maker_.rest(), *chunk, spool);
+        break;
+      case SpooledChunk::Kind::finish:
+        check_same(maker_.finish(), *chunk, spool);
+    }
+  }
+}
+
+std::optional<Planning> PlannedProduction::planning() const {
+  if (!lookahead_) return std::nullopt;
+  return Planning{lookahead_->effort(), lookahead_->threads()};
+}
+
+}  // namespace unicursal::host

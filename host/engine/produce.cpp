@@ -1,0 +1,17 @@
+#include "host/engine/produce.hpp"
+
+#include <utility>
+
+#include "host/engine/planned_production.hpp"
+
+namespace unicursal::host {
+
+std::unique_ptr<Production> produce(Job job, const std::optional<LayerRange>& layers,
+                                    const std::function<void(const std::string&)>& note,
+                                    std::size_t threads) {
+  PreparedJob prepared = prepare(std::move(job), layers, note);
+  prepared.threads = threads;
+  return std::make_unique<PlannedProduction>(std::move(prepared));
+}
+
+}  // namespace unicursal::host
