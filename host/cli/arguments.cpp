@@ -141,6 +141,16 @@ void JobOptions::declare_full_quality(CLI::App& app) {
       ->group("Planning");
 }
 
+void JobOptions::declare_sliced(CLI::App& app) {
+  app.get_option("JOB")->description(
+      "The job, a TOML file (see unicursal-job(5)), a model: .svg, .stl, .3mf, .obj or .amf, or a slicer's "
+      ".gcode.");
+  app.add_flag("--no-tower", no_tower, "Leave out the wipe tower of a slicer's G-code.")->group("Job");
+  app.add_flag("--allow-stops", allow_stops,
+               "Allow a slicer's G-code to wait for a person, who answers at the printer (M0, M600).")
+      ->group("Job");
+}
+
 void SimulatedPrinter::declare(CLI::App& app) {
   constexpr auto group = "Simulated printer";
   add_value(app, "--personality", personality, "FIRMWARE",

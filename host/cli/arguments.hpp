@@ -75,9 +75,13 @@ struct JobOptions {
   bool allow_bare = false;    ///< accept layers that stay mostly without plastic
   std::size_t threads = 0;    ///< planning threads; 0: one for each core
   bool look_ahead = true;     ///< switch mixtures ahead of borders
+  bool no_tower = false;      ///< leave a slicer's wipe tower out
+  bool allow_stops = false;   ///< a slicer's file may wait for a person
   bool full_quality = false;  ///< never plan with less effort to keep up with the nozzle
 
   void declare(CLI::App& app);
+  /// For commands that print a slicer's file as well.
+  void declare_sliced(CLI::App& app);
   /// For commands that plan while the printer prints.
   void declare_full_quality(CLI::App& app);
 };

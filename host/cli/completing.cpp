@@ -22,8 +22,10 @@ namespace {
 using Offers = std::vector<Completion::Offer>;
 
 const std::vector<std::string> profile_endings{".toml"};
-const std::vector<std::string> model_endings{".svg", ".stl", ".3mf", ".obj", ".amf"};
-const std::vector<std::string> job_endings{".toml", ".svg", ".stl", ".3mf", ".obj", ".amf"};
+const std::vector<std::string> model_endings{".svg",   ".stl", ".3mf", ".obj", ".amf",
+                                             ".gcode", ".gco", ".gc",  ".g"};
+const std::vector<std::string> job_endings{".toml", ".svg",   ".stl", ".3mf", ".obj",
+                                           ".amf",  ".gcode", ".gco", ".gc",  ".g"};
 
 Offers words_of(const std::vector<std::string>& words) {
   Offers offers;

@@ -31,6 +31,7 @@ CLI::App& DryRun::declare(CLI::App& program) {
                               "unicursal dry-run leaf.toml --report leaf.json --picture pictures");
   job_.declare(app);
   job_.declare_full_quality(app);
+  job_.declare_sliced(app);
   declare_events(app, display_);
   declare_log(app, log_);
   add_value(app, "--charge-planning", charge_, "FACTOR",
@@ -69,8 +70,7 @@ Exit DryRun::run() {
   if (!display_.quiet) show(messages, "{}", result.summary);
   const Exit exit = show_ending(result.stream, display_);
   if (exit != Exit::success) return exit;
-  if (!display_.quiet)
-    show(messages, "{}{}{}", summary(result.comparison), summary(result.motion), summary(result.laid));
+  if (!display_.quiet) show(messages, "{}{}", summary(result.comparison), result.laid_summary);
   for (const std::string& warning : result.warnings) show(stderr, "warning: {}\n", warning);
   if (!display_.quiet)
     show(messages, "{}", used_filament(result.totals, production->job().profile.printer.filament_diameter));

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/model/hanging.hpp"
 #include "core/model/read_part.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/engine/planned_production.hpp"
+#include "host/engine/produce.hpp"
 #include "host/job/load_job.hpp"
 
 namespace unicursal::host {
@@ -80,29 +83,65 @@ void show_late_warnings(const std::vector<std::string>& sentences) {
   for (const std::string& warning : sentences) show(stderr, "warning: {}\n", warning);
 }
 
-PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs,
-                             UnnamedPrinter unnamed) {
-  PreparedJob prepared = within_memory(options.job, [&] {
-    Job job = load_job_or_model(options.job, options.profile, unnamed);
-    job.print.look_ahead = options.look_ahead;
-    job.full_quality = options.full_quality;
-    job.allow_bare = job.allow_bare || options.allow_bare;
-    return prepare(std::move(job), options.layers, [&](const std::string& note) {
-      if (!options.quiet) show_note(note);
-    });
-  });
-  prepared.threads = options.threads;
-  std::vector<fs::path> outputs = more_outputs;
+namespace {
+
+/// Loads the job with what the options change in it.
+Job job_of(const JobOptions& options, UnnamedPrinter unnamed) {
+  Job job = load_job_or_model(options.job, options.profile, unnamed);
+  job.print.look_ahead = options.look_ahead;
+  job.full_quality = options.full_quality;
+  job.allow_bare = job.allow_bare || options.allow_bare;
+  if ((options.no_tower || options.allow_stops) && !job.sliced) {
+    throw core::DataError(job.file.string(), options.no_tower ? "--no-tower" : "--allow-stops",
+                          "is only for a slicer's G-code", "leave it out");
+  }
+  if (job.sliced) {
+    job.sliced->tower = job.sliced->tower && !options.no_tower;
+    job.sliced->allow_stops = job.sliced->allow_stops || options.allow_stops;
+  }
+  return job;
+}
+
+void check_outputs_of(const Job& job, const JobOptions& options, std::vector<fs::path> outputs) {
   if (options.outputs.report) outputs.push_back(*options.outputs.report);
-  check_outputs(files_of(prepared.job).all(), outputs);
+  check_outputs(files_of(job).all(), outputs);
+}
+
+std::function<void(const std::string&)> notes_for(const JobOptions& options) {
+  return [quiet = options.quiet](const std::string& note) {
+    if (!quiet) show_note(note);
+  };
+}
+
+PreparedJob planned(Job job, const JobOptions& options, const std::vector<fs::path>& more_outputs) {
+  PreparedJob prepared =
+      within_memory(options.job, [&] { return prepare(std::move(job), options.layers, notes_for(options)); });
+  prepared.threads = options.threads;
+  check_outputs_of(prepared.job, options, more_outputs);
   for (const std::string& sentence : hanging_places(prepared)) show(stderr, "warning: {}\n", sentence);
   return prepared;
+}
+
+}  // namespace
+
+PreparedJob prepare_and_warn(const JobOptions& options, const std::vector<fs::path>& more_outputs,
+                             UnnamedPrinter unnamed) {
+  Job job = within_memory(options.job, [&] { return job_of(options, unnamed); });
+  if (job.sliced) {
+    throw core::DataError(job.source.files.front().string(), "",
+                          "is sliced already, so that no curve is planned",
+                          "print it, try it with `unicursal dry-run`, or write it with `unicursal mix`");
+  }
+  return planned(std::move(job), options, more_outputs);
 }
 
 std::unique_ptr<Production> produce_and_warn(const JobOptions& options,
                                              const std::vector<fs::path>& more_outputs,
                                              UnnamedPrinter unnamed) {
-  return std::make_unique<PlannedProduction>(prepare_and_warn(options, more_outputs, unnamed));
+  Job job = within_memory(options.job, [&] { return job_of(options, unnamed); });
+  if (!job.sliced) return std::make_unique<PlannedProduction>(planned(std::move(job), options, more_outputs));
+  check_outputs_of(job, options, more_outputs);
+  return produce(std::move(job), options.layers, notes_for(options));
 }
 
 }  // namespace unicursal::host

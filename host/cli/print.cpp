@@ -25,10 +25,12 @@ class PrintCommand final : public Command {
 };
 
 CLI::App& PrintCommand::declare(CLI::App& program) {
-  CLI::App& app = add_command(program, "print", "Print", "Print a job or a model on a printer, over USB.",
+  CLI::App& app = add_command(program, "print", "Print",
+                              "Print a job, a model or a slicer's G-code on a printer, over USB.",
                               "unicursal print leaf.toml --port /dev/ttyUSB0");
   job_.declare(app);
   job_.declare_full_quality(app);
+  job_.declare_sliced(app);
   declare_port(app, options_.port, "the profile's port");
   declare_pause_heat(app, options_.pause_heat);
   declare_spool(app, options_.spool);

@@ -11,6 +11,7 @@
 #include "host/daemon/job_files.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/job/load_job.hpp"
+#include "host/job/sliced_file.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -47,6 +48,7 @@ std::string free_folder(const Client& client, const std::string& name) {
 /// The job with the files that it names, or the model with those that belong to it. The daemon's profile
 /// decides how a model is printed.
 std::vector<fs::path> files_to_send(const fs::path& file) {
+  if (is_sliced_file(file)) return {file};
   if (!core::is_model_file(file)) return files_of(load_job(file)).all();
   std::vector<fs::path> files = core::companion_files(file);
   files.insert(files.begin(), file);

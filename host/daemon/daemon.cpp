@@ -19,6 +19,7 @@
 #include "host/engine/session_json.hpp"
 #include "host/job/load_job.hpp"
 #include "host/job/profile.hpp"
+#include "host/job/sliced_file.hpp"
 #include "host/loop/sentence.hpp"
 
 namespace unicursal::host {
@@ -159,7 +160,7 @@ JobCheck Daemon::check_of(const std::string& name, const std::optional<LayerRang
 /// Throws Refused for a job that cannot be printed. Jobs in the daemon's own folders are trusted more, and
 /// may still get their models; models are read at once, which may take long.
 asio::awaitable<void> Daemon::check(std::string name, std::optional<LayerRange> layers) {
-  if (JobFiles::is_upload(name) || core::is_model_file(name)) {
+  if (JobFiles::is_upload(name) || core::is_model_file(name) || is_sliced_file(name)) {
     const std::string problem = co_await check_in_child(check_of(name, layers), {});
     if (!problem.empty()) throw Refused(Why::bad_job, problem);
     co_return;

@@ -30,6 +30,7 @@
 
 #include "core/error.hpp"
 #include "core/stopping.hpp"
+#include "host/engine/prepared_sliced.hpp"
 #include "host/files/descriptor.hpp"
 #include "host/job/load_job.hpp"
 
@@ -262,8 +263,12 @@ asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop
 void check_here(const JobCheck& check) {
   take_on(check.limits);
   try {
-    const PreparedJob prepared =
-        prepare(load_job_or_model(check.job, check.profile, UnnamedPrinter::refuse), check.layers);
+    Job job = load_job_or_model(check.job, check.profile, UnnamedPrinter::refuse);
+    if (job.sliced) {
+      prepare_sliced(std::move(job), check.layers);
+      return;
+    }
+    const PreparedJob prepared = prepare(std::move(job), check.layers);
     check_beginning(prepared);
     if (check.limits.time) probe(prepared, *check.limits.time / 2);
   } catch (const std::bad_alloc&) {

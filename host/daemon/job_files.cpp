@@ -11,6 +11,7 @@
 #include "host/files/whole_file.hpp"
 #include "host/job/job_error.hpp"
 #include "host/job/parse_toml.hpp"
+#include "host/job/sliced_file.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -28,9 +29,10 @@ Refused no_such(const std::string& name) {
   return {Why::not_found, "there is no job \"" + core::printable(name) + "\"; see `unicursal queue --jobs`"};
 }
 
-/// Whether a file can be printed: a job, or a model that is printed with the usual settings.
+/// Whether a file can be printed: a job, or a model or a slicer's G-code that is printed with the usual
+/// settings.
 bool is_job(const fs::path& path) {
-  return path.extension() == ".toml" || core::is_model_file(path);
+  return path.extension() == ".toml" || core::is_model_file(path) || is_sliced_file(path);
 }
 
 /// Whether `path` is below `folder`; both canonical.
@@ -146,7 +148,7 @@ fs::path JobFiles::find_upload(const std::string& name) const {
   const fs::path path = uploads_ / upload / file;
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) throw no_such(name);
-  if (!core::is_model_file(path)) check_uploaded_job(path);
+  if (!core::is_model_file(path) && !is_sliced_file(path)) check_uploaded_job(path);
   return path;
 }
 

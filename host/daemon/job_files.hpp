@@ -4,7 +4,7 @@
 //   "leaf.toml", "animals/fish.toml"   a file in one of the folders, links followed, but not out of it
 //   "upload:leaf/job.toml"             a file that was uploaded as part of "leaf"
 //
-// A model, such as "leaf.svg", is a job, too: it is printed with the usual settings.
+// A model, such as "leaf.svg", or a slicer's G-code is a job, too: it is printed with the usual settings.
 //
 // A job in the daemon's folders may refer to any file. An uploaded job may only refer to files beside it:
 // none of its texts may contain a slash.

@@ -177,6 +177,7 @@ DryRunResult dry_run(Production& production, const DryRunOptions& options, const
   return {result,
           books->totals(),
           books->summary(production.planning()),
+          books->summary(motion) + books->summary(check.total()),
           comparison,
           motion,
           check.total(),

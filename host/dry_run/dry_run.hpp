@@ -31,7 +31,8 @@ struct DryRunOptions {
 struct DryRunResult {
   StreamResult stream;  ///< completed or stopped
   RunTotals totals;
-  std::string summary;  ///< of the books: layers, material, times
+  std::string summary;       ///< of the books: layers, material, times
+  std::string laid_summary;  ///< of the books: motion, and what was laid
   Comparison comparison;
   MotionFindings motion;
   DepositFindings laid;

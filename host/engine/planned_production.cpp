@@ -43,6 +43,9 @@ void PlannedProduction::catch_up(const Spool& spool) {
         break;
       case SpooledChunk::Kind::finish:
         check_same(maker_.finish(), *chunk, spool);
+        break;
+      case SpooledChunk::Kind::stretch:
+        check_same({}, *chunk, spool);  // of another kind of print
     }
   }
 }

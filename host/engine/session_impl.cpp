@@ -251,7 +251,7 @@ asio::awaitable<void> Session::State::send_spooled() {
   progress.end_replay();
   if (intent.aborted()) co_return;
   co_await catch_up();
-  if (catching_up_failed) std::rethrow_exception(catching_up_failed);
+  if (catching_up_failed && !intent.ends()) std::rethrow_exception(catching_up_failed);
 }
 
 asio::awaitable<void> Session::State::start() {

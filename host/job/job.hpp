@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,13 @@ struct PlatePart {
   std::size_t copies = 1;
 };
 
+/// How a slicer's G-code is printed (host/job/sliced_job.hpp).
+struct SlicedChoices {
+  std::map<int, std::size_t> tools;  ///< of the file → index into the job's materials
+  bool tower = true;                 ///< its wipe tower is printed
+  bool allow_stops = false;          ///< it may wait for a person
+};
+
 struct Job {
   std::filesystem::path file;
   std::string text;  ///< of a job that was written for a model, which is `file` then; empty: the file's own
@@ -37,8 +45,10 @@ struct Job {
   core::Shaping shaping;
   std::size_t copies = 1;       ///< of the part of `source`
   std::vector<PlatePart> more;  ///< further parts
-  double gap = 5;               ///< mm between parts and copies
-  bool one_by_one = false;      ///< parts and copies are printed one after the other, not layer by layer
+  /// `source` is a slicer's G-code, and nothing else of the part counts; absent: curves are planned.
+  std::optional<SlicedChoices> sliced;
+  double gap = 5;           ///< mm between parts and copies
+  bool one_by_one = false;  ///< parts and copies are printed one after the other, not layer by layer
   double bead_width = 0;
   std::optional<double> seed_distance;
   int perimeters = 0;                ///< contours around the fill

@@ -24,7 +24,10 @@ inline const Keys part = {"file",         "copies",
                           "deposit",      "place",
                           "seam",         "change_before_border",
                           "skirt",        "fan",
-                          "temperatures"};
+                          "temperatures", "tower",
+                          "stops"};
+/// Of a slicer's G-code, which has decided about everything else.
+inline const Keys sliced_part = {"file", "tower", "stops"};
 /// Of the parts behind the first one; all other keys are those of the whole print.
 inline const Keys more_part = {"file",  "units",  "scale",   "mirror",      "lie_on", "rotate",
                                "width", "height", "outline", "paint_depth", "copies"};

@@ -11,6 +11,8 @@
 #include "host/job/placing.hpp"
 #include "host/job/print_keys.hpp"
 #include "host/job/settings_file.hpp"
+#include "host/job/sliced_file.hpp"
+#include "host/job/sliced_job.hpp"
 #include "host/job/usual_profile.hpp"
 #include "host/job/zones.hpp"
 
@@ -34,7 +36,8 @@ constexpr double greatest_seed_distance = 4;
 const char* const place_remedy = "write \"center\", \"as-is\" or [x, y] in mm on the bed";
 
 std::vector<std::filesystem::path> read_files(const Section& part) {
-  const char* const remedy = "name a drawing (.svg) or meshes (.stl, .3mf, .obj, .amf), several in a list";
+  const char* const remedy =
+      "name a drawing (.svg), meshes (.stl, .3mf, .obj, .amf), several in a list, or a slicer's .gcode";
   const toml::node* node = part.find("file");
   if (!node) part.fail("file", "is missing", remedy);
   const std::filesystem::path folder = part.file().parent_path();
@@ -284,6 +287,16 @@ Job read_job(const SettingsFile& file, const std::filesystem::path& path,
   job.profile = load_profile(profile_path(root, profile));
   const std::vector<Section> parts = part_sections(root);
   const Section& part = parts.front();
+  for (const std::filesystem::path& named : read_files(part)) {
+    refuse_binary_gcode(named);
+    if (!is_sliced_file(named)) continue;
+    if (parts.size() > 1 || part.find("file")->is_array())
+      part.fail("file", "names a slicer's G-code beside another part", "print it alone");
+    job.source.files = {named};
+    read_sliced(root, part, job);
+    return job;
+  }
+  refuse_sliced_keys(part);
   job.source = read_source(part, job.profile.printer.nozzle);
   job.place = read_place(part);
   job.line_width = read_deposit(part, job.profile.printer);
@@ -309,20 +322,24 @@ Job read_job(const SettingsFile& file, const std::filesystem::path& path,
   return job;
 }
 
-/// A model is printed with the defaults of its own job.
+/// A model, or a slicer's G-code, is printed with the defaults of its own job.
 Job job_for_model(const std::filesystem::path& model, const std::optional<std::filesystem::path>& chosen,
                   UnnamedPrinter unnamed) {
   if (std::error_code error; !std::filesystem::exists(model, error))
     throw core::FileError(model.string(), "", "does not exist", "check the path");
   const std::optional<std::filesystem::path> own = chosen ? chosen : own_profile();
+  const bool sliced = is_sliced_file(model);
   if (!own && unnamed == UnnamedPrinter::refuse) {
-    throw JobError(model.string(), "", "is a model, which does not say on which printer it is printed",
+    throw JobError(model.string(), "",
+                   sliced ? "is a slicer's G-code, which does not say on which printer it is printed"
+                          : "is a model, which does not say on which printer it is printed",
                    "name a profile with --profile, or make your own with `unicursal setup`");
   }
   const std::filesystem::path profile = own ? *own : common_frame();
-  const ModelJob written = model_job({model}, load_profile(profile), model.parent_path());
-  Job job = read_job(SettingsFile(model, written.text), model, profile);
-  job.text = written.text;
+  const std::string text = sliced ? plain_sliced_job(model, profile)
+                                  : model_job({model}, load_profile(profile), model.parent_path()).text;
+  Job job = read_job(SettingsFile(model, text), model, profile);
+  job.text = text;
   if (!own) {
     job.warnings.push_back(
         "no profile is named: a common frame with a nozzle of 0.6 mm is assumed; name yours with --profile, "
@@ -334,15 +351,19 @@ Job job_for_model(const std::filesystem::path& model, const std::optional<std::f
 }  // namespace
 
 Job load_job(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile) {
-  if (core::is_model_file(path)) {
-    throw JobError(path.string(), "", "is a model, not a job", "write a job for it with `unicursal new`");
+  if (core::is_model_file(path) || is_sliced_file(path)) {
+    throw JobError(path.string(), "",
+                   is_sliced_file(path) ? "is a slicer's G-code, not a job" : "is a model, not a job",
+                   "write a job for it with `unicursal new`");
   }
   return read_job(SettingsFile(path), path, profile);
 }
 
 Job load_job_or_model(const std::filesystem::path& path, const std::optional<std::filesystem::path>& profile,
                       UnnamedPrinter unnamed) {
-  return core::is_model_file(path) ? job_for_model(path, profile, unnamed) : load_job(path, profile);
+  refuse_binary_gcode(path);
+  const bool own = core::is_model_file(path) || is_sliced_file(path);
+  return own ? job_for_model(path, profile, unnamed) : load_job(path, profile);
 }
 
 }  // namespace unicursal::host

@@ -18,8 +18,9 @@ enum class UnnamedPrinter {
   assume_common_frame,  ///< to try a model
 };
 
-/// The same, and a model (a drawing or meshes) counts as the job that model_job() writes for it. Without
-/// `profile` it is printed with that of own_profile().
+/// The same, and a model (a drawing or meshes) counts as the job that model_job() writes for it, and a
+/// slicer's G-code as a job that names it alone. Without `profile` they are printed with that of
+/// own_profile().
 Job load_job_or_model(const std::filesystem::path& file, const std::optional<std::filesystem::path>& profile,
                       UnnamedPrinter unnamed);
 

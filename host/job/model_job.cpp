@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "core/picture/filaments.hpp"
 #include "host/job/profile_draft.hpp"
+#include "host/job/written_job.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -19,58 +19,12 @@ constexpr double layer_per_nozzle = 0.5, highest_layer = 0.3;  ///< mm
 constexpr double bead_per_nozzle = 1.25;
 constexpr double step = 0.05;      ///< mm, to which these are rounded
 constexpr int drawing_layers = 5;  ///< in which a drawing is extruded
-constexpr int share_steps = 20;    ///< mixtures are tried in steps of 1/20
 
 double rounded(double length) {
   return std::max(1.0, std::round(length / step)) * step;
 }
 
-std::string name_for(const fs::path& file, fs::path folder) {
-  if (folder.empty()) folder = ".";
-  const fs::path relative =
-      fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
-  const bool below = !relative.empty() && *relative.begin() != "..";
-  return (below ? relative : fs::absolute(file).lexically_normal()).string();
-}
-
 using Shares = std::vector<double>;
-
-/// All mixtures of so many feeders in steps of 1 / share_steps.
-void for_each_mixture(int feeders, int left, Shares& shares, const auto& visit) {
-  if (feeders == 1) {
-    shares.push_back(double(left) / share_steps);
-    visit(shares);
-    shares.pop_back();
-    return;
-  }
-  for (int n = 0; n <= left; ++n) {
-    shares.push_back(double(n) / share_steps);
-    for_each_mixture(feeders - 1, left - n, shares, visit);
-    shares.pop_back();
-  }
-}
-
-Shares mixture_near(const std::string& colour, int feeders) {
-  const unsigned long rgb = std::stoul(colour.substr(1), nullptr, 16);
-  Shares best, shares;
-  double least = 1e300;
-  for_each_mixture(std::min(feeders, int(picture::filaments.size())), share_steps, shares,
-                   [&](const Shares& tried) {
-                     const picture::Colour made = picture::mixed_filaments(tried);
-                     const double r = made.r - double(rgb >> 16), g = made.g - double(rgb >> 8 & 255),
-                                  b = made.b - double(rgb & 255);
-                     const double distance = r * r + g * g + b * b;
-                     if (distance < least) least = distance, best = tried;
-                   });
-  best.resize(std::size_t(feeders), 0);
-  return best;
-}
-
-Shares one_feeder(std::size_t which, int feeders) {
-  Shares shares(std::size_t(feeders), 0);
-  shares[which % shares.size()] = 1;
-  return shares;
-}
 
 /// A bare key of TOML that is not taken yet.
 std::string key_for(const std::string& select, std::set<std::string>& taken) {
@@ -104,9 +58,9 @@ std::string head(const std::vector<fs::path>& files, const Profile& profile, con
   const gcode::Printer& printer = profile.printer;
   const double layer = std::min(highest_layer, rounded(layer_per_nozzle * printer.nozzle));
   std::vector<std::string> names;
-  for (const fs::path& file : files) names.push_back(toml_text(name_for(file, folder)));
+  for (const fs::path& file : files) names.push_back(toml_text(name_in_job(file, folder)));
   std::string text = "# Written by `unicursal new`. unicursal-job(5) explains all keys.\n";
-  text += "printer = " + toml_text(name_for(profile.file, folder)) + "\n\n[part]\n";
+  text += "printer = " + toml_text(name_in_job(profile.file, folder)) + "\n\n[part]\n";
   text +=
       "file = " + (names.size() == 1 ? names.front() : fmt::format("[{}]", fmt::join(names, ", "))) + "\n";
   if (model.drawing) {
@@ -151,9 +105,7 @@ ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, c
   std::set<std::string> keys;
   std::size_t uncoloured = 0;
   const auto add_mixture = [&](const std::string& key, const Shares& shares) {
-    std::vector<std::string> words;
-    for (const double share : shares) words.push_back(fmt::format("{:.2f}", share));
-    mixtures += fmt::format("{} = [{}]\n", key, fmt::join(words, ", "));
+    mixtures += fmt::format("{} = {}\n", key, shares_in_toml(shares));
   };
   for (const core::ZoneOffer& offer : job.contents.zones) {
     zones += fmt::format(

@@ -1,6 +1,7 @@
 #include "host/report/books.hpp"
 
 #include "host/report/peak_memory.hpp"
+#include "host/report/summary.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -36,7 +37,8 @@ void Books::describe(std::size_t layer, nlohmann::json entry) {
 void Books::log_finished_layers(bool all) {
   while (log_ && !entries_.empty()) {
     LayerEntry& entry = entries_.begin()->second;
-    if (!all && !(entry.written && (entry.mixing || !waits_for_mixing_))) return;
+    if (!all && !(entry.written && entry.mixing)) return;
+    if (!entry.json.contains("layer")) entry.json["layer"] = entries_.begin()->first;
     entry.json["volume_mm3"] = entry.volume;
     entry.json["estimated_seconds"] = entry.seconds;
     if (entry.mixing) entry.json["mixing"] = to_json(*entry.mixing);
@@ -68,6 +70,14 @@ void Books::count_layers(const gcode::Chunk& chunk) {
 
 std::vector<MaterialVolume> Books::fed() const {
   return fed_volumes(totals_.fed, totals_.materials);
+}
+
+std::string Books::summary(const DepositFindings& laid) const {
+  return host::summary(laid);
+}
+
+std::string Books::summary(const MotionFindings& motion) const {
+  return host::summary(motion);
 }
 
 void Books::write_report(const nlohmann::json& extra) {

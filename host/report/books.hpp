@@ -13,6 +13,7 @@
 #include "host/engine/production.hpp"
 #include "host/report/deposit_check.hpp"
 #include "host/report/layer_log.hpp"
+#include "host/report/motion_findings.hpp"
 #include "host/report/run_outputs.hpp"
 #include "host/report/totals.hpp"
 
@@ -43,6 +44,10 @@ class Books {
   std::vector<MaterialVolume> fed() const;
   /// Layers, material and times for a terminal, a line each.
   virtual std::string summary(const std::optional<Planning>& planning) const = 0;
+  /// Gaps, heights and mixtures of what was laid.
+  virtual std::string summary(const DepositFindings& laid) const;
+  /// Speed, flow, travels and starvations.
+  virtual std::string summary(const MotionFindings& motion) const;
 
   /// Waits for the last picture and, if a report was asked for, writes it with the keys of `extra` added.
   void write_report(const nlohmann::json& extra);
@@ -68,7 +73,6 @@ class Books {
   void log_finished_layers(bool all);
 
   RunTotals totals_;
-  bool waits_for_mixing_ = true;  ///< a layer is complete only with the forecast of its mixing
 
  private:
   void count_layers(const gcode::Chunk& chunk);

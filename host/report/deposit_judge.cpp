@@ -146,6 +146,7 @@ class Judge {
  public:
   Judge(const TargetLayer& target, const std::vector<IntendedMaterial>& materials, const PixelGrid& grid)
       : intended_(materials),
+        by_beads_(target.by_beads),
         middle_(target.top - target.height / 2),
         materials_(materials_of(target)),
         grid_(grid),
@@ -202,7 +203,7 @@ class Judge {
   }
 
   void measure_distances(DepositFindings& f) const {
-    if (f.wrong == 0) return;
+    if (f.wrong == 0 || by_beads_) return;
     const std::vector<float> distances = distance_to_other_label(labels_, grid_);
     for (std::size_t i = 0; i < wrong_.size(); ++i) {
       if (wrong_[i]) f.wrong_distance.add(distances[i], grid_.pixel * grid_.pixel);
@@ -210,6 +211,7 @@ class Judge {
   }
 
   const std::vector<IntendedMaterial>& intended_;
+  bool by_beads_;
   double middle_;  ///< height of the layer's middle
   std::vector<RegionLabel> materials_;
   const PixelGrid& grid_;

@@ -42,6 +42,7 @@ struct TargetLayer {
   std::vector<LabelledPolygon> zones;          ///< labelled by material
   double bead_width = 0;                       ///< of the job; the rim of the part is half as wide
   std::vector<Stroke> prime = {}, skirt = {};  ///< beside the part
+  bool by_beads = false;  ///< the zones are single beads; distances from their borders mean nothing
 };
 
 /// Reads the next of the simulator's rows, the lowest first.

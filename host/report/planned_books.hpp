@@ -19,6 +19,7 @@ class PlannedBooks final : public Books, public ChunkListener {
   ~PlannedBooks() override;
 
   std::vector<IntendedMaterial> intended_materials() const override;
+  using Books::summary;
   std::string summary(const std::optional<Planning>& planning) const override;
 
   void layer_made(PlannedLayer planned, const gcode::PlacedLayer& placed, const gcode::Chunk& chunk) override;

@@ -22,7 +22,7 @@ std::optional<SpooledChunk> ChunkReader::next() {
 
 bool ChunkReader::damaged_within() {
   return records_.sound() != sound_ ||
-         records_.damaged_within(static_cast<unsigned char>(SpooledChunk::Kind::finish));
+         records_.damaged_within(static_cast<unsigned char>(SpooledChunk::last_kind));
 }
 
 void SpoolExtent::add(const SpooledChunk& chunk) {
@@ -31,6 +31,7 @@ void SpoolExtent::add(const SpooledChunk& chunk) {
   lines += chunk.lines.size();
   if (chunk.kind == SpooledChunk::Kind::start) start_lines = lines;
   if (chunk.kind == SpooledChunk::Kind::layer) ++layers;
+  if (chunk.kind == SpooledChunk::Kind::stretch) layers += chunk.begun.size();
   if (chunk.kind == SpooledChunk::Kind::rest) rest = true;
   if (chunk.kind == SpooledChunk::Kind::finish) finished = true;
 }
@@ -54,6 +55,7 @@ bool LegReader::open_next() {
   while (auto chunk = reader_.next()) {
     layers_begun_ = layers_;
     if (chunk->kind == SpooledChunk::Kind::layer) ++layers_;
+    if (chunk->kind == SpooledChunk::Kind::stretch) layers_ += chunk->begun.size();
     const std::uint64_t first = reader_.first_line();
     lines_ = std::move(chunk->lines);
     mixtures_ = std::move(chunk->mixtures);

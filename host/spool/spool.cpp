@@ -391,6 +391,7 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
                  {"full_quality", job.full_quality},
                  {"allow_bare", job.allow_bare},
                  {"files", copies_of(job, folder)}};
+  if (job.sliced) record["sliced"] = {{"tower", job.sliced->tower}, {"stops", job.sliced->allow_stops}};
   record["checksum"] = checksum_in(record);
   auto state = std::make_unique<State>(folder, record, 0, 0);
   state->lock = std::move(lock);
@@ -468,6 +469,10 @@ Job Spool::job() const {
     job.print.look_ahead = state_->record.at("look_ahead").get<bool>();
     job.full_quality = state_->record.at("full_quality").get<bool>();
     job.allow_bare = state_->record.value("allow_bare", job.allow_bare);
+    if (job.sliced) {
+      job.sliced->tower = state_->record.at("sliced").at("tower").get<bool>();
+      job.sliced->allow_stops = state_->record.at("sliced").at("stops").get<bool>();
+    }
     for (std::size_t i = 0; i < models.size(); ++i) *names[i] = copy(models[i]);
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i] != "") job.source.zones[i].pattern.field = copy(fields[i]);

@@ -112,7 +112,7 @@ SpooledChunk chunk_from(std::string_view content) {
   ByteReader bytes(content);
   SpooledChunk chunk;
   const auto kind = bytes.take<std::uint8_t>();
-  if (kind > static_cast<std::uint8_t>(SpooledChunk::Kind::finish)) throw DamagedBytes("is of no known kind");
+  if (kind > static_cast<std::uint8_t>(SpooledChunk::last_kind)) throw DamagedBytes("is of no known kind");
   chunk.kind = static_cast<SpooledChunk::Kind>(kind);
   chunk.layer.index = bytes.take<std::uint64_t>();
   chunk.layer.top = length_in(bytes);

@@ -27,8 +27,10 @@ struct SpooledChunk {
     start,
     layer,  ///< what became certain when the encoder was given a layer; may belong to earlier ones
     rest,   ///< the lines that the encoder had withheld
-    finish
+    finish,
+    stretch  ///< the next lines of a slicer's file (host/engine/sliced_production.hpp)
   };
+  static constexpr Kind last_kind = Kind::stretch;
   Kind kind = Kind::start;
   gcode::PlacedLayer layer;                   ///< for Kind::layer: what the encoder was given, on the bed, mm
   std::vector<LayerBegun> begun;              ///< in `lines`

@@ -1,0 +1,24 @@
+// What jobs that the program itself writes have in common: names of files, and mixtures for colours.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace unicursal::host {
+
+/// A file as a job in `folder` names it: relative if it lies below the folder, else absolute.
+std::string name_in_job(const std::filesystem::path& file, std::filesystem::path folder);
+
+/// Shares of the feeders that come nearest to a colour, "#rrggbb", in steps of 1/20, if the feeders hold the
+/// filaments that pictures show (core/picture/filaments.hpp).
+std::vector<double> mixture_near(const std::string& colour, int feeders);
+
+/// Feeder number `which` alone, counted from 0 and from the beginning again behind the last.
+std::vector<double> one_feeder(std::size_t which, int feeders);
+
+/// "[0.05, 0.60, 0.35]"
+std::string shares_in_toml(const std::vector<double>& shares);
+
+}  // namespace unicursal::host
