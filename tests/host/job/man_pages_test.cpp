@@ -41,7 +41,7 @@ void add(std::set<std::string>& all, const std::string& table, const keys::Keys&
 
 std::string first_example(const std::string& page) {
   const std::string begin = ".Bd -literal -offset indent\n";
-  const std::size_t from = page.find(begin) + begin.size();
+  const std::size_t from = page.find(begin, page.find(".Sh EXAMPLES\n")) + begin.size();
   return page.substr(from, page.find(".Ed\n", from) - from);
 }
 
