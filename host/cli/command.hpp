@@ -52,6 +52,7 @@ std::unique_ptr<Command> make_cancel();
 std::unique_ptr<Command> make_stop();
 std::unique_ptr<Command> make_set();
 std::unique_ptr<Command> make_token();
+std::unique_ptr<Command> make_keys();
 
 std::unique_ptr<Command> make_completion();
 

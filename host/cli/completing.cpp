@@ -125,6 +125,7 @@ const std::map<std::string, Values>& placeholders() {
       {"TEXT", free_value},
       {"ADDRESS", free_value},
       {"HOST", free_value},
+      {"NAME", free_value},
   };
   return all;
 }

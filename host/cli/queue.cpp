@@ -8,7 +8,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/daemon_access.hpp"
 #include "host/cli/terminal_output.hpp"
-#include "host/daemon/job_files.hpp"
+#include "host/daemon/plain_name.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/job/load_job.hpp"
 #include "host/job/sliced_file.hpp"
@@ -79,7 +79,7 @@ class QueueCommand final : public Command {
   std::optional<fs::path> upload_;
   std::optional<LayerRange> layers_;
   std::optional<std::uint64_t> remove_;
-  bool list_jobs_ = false;
+  bool list_jobs_ = false, bed_clear_ = false;
   DaemonAccess access_;
 };
 
@@ -95,12 +95,20 @@ CLI::App& QueueCommand::declare(CLI::App& program) {
   declare_layers(app, layers_, "Print only these layers of the job: A to B, counted from 0, both included.");
   add_value(app, "--remove", remove_, "NUMBER", "Remove the job of this number.")
       .check(integer_between(0, std::numeric_limits<std::uint64_t>::max()));
+  app.add_flag(
+      "--bed-clear", bed_clear_,
+      "Confirm that the bed is clear: with `serve --start-uploads`, a file that a slicer has sent, or "
+      "sends, to be printed starts.");
   access_.declare(app);
   return app;
 }
 
 Exit QueueCommand::run() {
   const Client client = access_.connect();
+  if (bed_clear_) {
+    accepted(client.ask("POST", "/api/bed", {{"clear", true}}));
+    return Exit::success;
+  }
   if (remove_) {
     accepted(client.ask("DELETE", fmt::format("/api/jobs/{}", *remove_)));
     return Exit::success;

@@ -43,13 +43,18 @@ class Serve final : public Command {
     add_value(app, "--check-time", time_, "S",
               "Time in which an uploaded job must have been read. Default: 20.")
         .check(integer_between(1, longest_check));
+    app.add_flag(
+        "--start-uploads", daemon.start_uploads,
+        "Start files that a slicer sends to be printed, once the bed was confirmed clear with `unicursal "
+        "queue --bed-clear` and nothing has been printed since.");
     declare_state(app, state_);
     declare_spool(app, daemon.spool);
     declare_pause_heat(app, daemon.pause_heat);
     add_note(
         app,
         "A print never starts by itself, because the last part may still lie on the bed: "
-        "`unicursal start` starts it. SIGTERM, SIGHUP, SIGQUIT or Ctrl-C parks and cools the current print, "
+        "`unicursal start` starts it; but see --start-uploads. SIGTERM, SIGHUP, SIGQUIT or Ctrl-C parks and "
+        "cools the current print, "
         "then ends the daemon; a second one stops the printer at once. API.md describes the HTTP interface.");
     return app;
   }

@@ -1,28 +1,17 @@
 #include "host/daemon/access.hpp"
 
 #include <fmt/format.h>
-#include <sys/random.h>
 
 #include <algorithm>
-#include <array>
-#include <system_error>
 
 #include "core/text/wording.hpp"
+#include "host/daemon/secret.hpp"
 
 namespace unicursal::host {
 namespace {
 
 constexpr std::string_view bearer = "bearer ";  // in any case (RFC 9110, 11.1)
 constexpr std::string_view token_protocol = "token.";
-
-/// Compares in constant time.
-bool same(const std::string& a, const std::string& b) {
-  if (a.size() != b.size()) return false;
-  unsigned different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    different |= static_cast<unsigned>(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
-  return different == 0;
-}
 
 /// A page's script cannot set headers of a WebSocket, but it can offer protocols.
 std::optional<std::string> offered_token(const RequestHead& head) {
@@ -38,6 +27,7 @@ std::optional<std::string> token_of(const RequestHead& head) {
     const std::size_t begin = given->find_first_not_of(' ', bearer.size());
     return begin == std::string::npos ? "" : given->substr(begin);
   }
+  if (const auto key = head.header("x-api-key")) return key;
   return offered_token(head);
 }
 
@@ -76,15 +66,28 @@ void check_origin(const RequestHead& head, const AccessRules& rules) {
 
 }  // namespace
 
-void check_access(const RequestHead& head, const AccessRules& rules) {
+void check_site(const RequestHead& head, const AccessRules& rules) {
   if (head.by_socket) return;
   check_host(head, rules);
   check_origin(head, rules);
-  if (!rules.token) return;
+}
+
+Visitor check_access(const RequestHead& head, const AccessRules& rules) {
+  if (head.by_socket) return {};
+  check_site(head, rules);
+  if (!rules.token) return {};
   const auto given = token_of(head);
-  if (given && same(*given, *rules.token)) return;
-  if (given && rules.metrics_token && head.path == "/metrics" && same(*given, *rules.metrics_token)) return;
-  throw HttpError(401, "the token is missing or wrong: it is in the daemon's state folder");
+  if (given && is_same_secret(*given, *rules.token)) return {};
+  if (given && rules.metrics_token && head.path == "/metrics" && is_same_secret(*given, *rules.metrics_token))
+    return {Right::watch, "metrics"};
+  if (const Key* key = given && rules.keys ? rules.keys->with_secret(*given) : nullptr)
+    return {key->right, key->name};
+  // OctoPrint's clients, who send a key so, know 403 (docs/api/general.rst).
+  const bool octoprint = !head.header("authorization") && head.header("x-api-key");
+  throw HttpError(
+      octoprint ? 403 : 401,
+      "the token or key is missing or wrong: `unicursal keys --new NAME` makes a key on the daemon's "
+      "computer, and `unicursal token` shows the token");
 }
 
 std::vector<std::string> hosts_for(const std::string& address, unsigned port,
@@ -104,15 +107,6 @@ std::vector<std::string> hosts_for(const std::string& address, unsigned port,
     for (const unsigned each : {port, 80U, 443U}) all.push_back(fmt::format("{}:{}", name, each));
   }
   return all;
-}
-
-std::string random_token() {
-  std::array<unsigned char, 32> bytes{};
-  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw std::system_error(errno, std::generic_category(), "no random numbers");
-  std::string text;
-  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
-  return text;
 }
 
 }  // namespace unicursal::host

@@ -1,7 +1,7 @@
-// Who may use the daemon: clients that know the token and address this computer by one of its names. The
-// token keeps other users of the computer out. The checks of Host and Origin keep out web pages, which can
-// make a browser send requests here and, if their name suddenly resolves to 127.0.0.1 (DNS rebinding), read
-// the answers.
+// Who may use the daemon: clients that know the token, or a key that was made for them (keys.hpp), and
+// address this computer by one of its names. The token keeps other users of the computer out. The checks of
+// Host and Origin keep out web pages, which can make a browser send requests here and, if their name suddenly
+// resolves to 127.0.0.1 (DNS rebinding), read the answers.
 #pragma once
 
 #include <functional>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/daemon/keys.hpp"
 #include "host/http/http_message.hpp"
 
 namespace unicursal::host {
@@ -19,18 +20,26 @@ struct AccessRules {
   std::vector<std::string> hosts;            ///< allowed values of Host, in lower case: "127.0.0.1:8377"
   /// Further ones that may change, such as this computer's present addresses; empty: none.
   std::function<std::vector<std::string>()> present_hosts = {};
+  const Keys* keys = nullptr;  ///< those of single programs; null: none
 };
 
-/// Throws HttpError 400, 401, 403 or 421. Who has come through the Unix socket needs no proof.
-void check_access(const RequestHead& head, const AccessRules& rules);
+/// Who asks.
+struct Visitor {
+  Right right = Right::all;
+  std::string name;  ///< of the key; empty: the user of this computer, or who knows the token
+};
+
+/// Throws HttpError 400, 401, 403 or 421. Who has come through the Unix socket needs no proof. The token or
+/// key stands in `Authorization: Bearer` or in `X-Api-Key`.
+Visitor check_access(const RequestHead& head, const AccessRules& rules);
+/// The part of it that strangers, too, must pass: the checks of Host and Origin. Throws HttpError 400, 403 or
+/// 421.
+void check_site(const RequestHead& head, const AccessRules& rules);
 
 /// The allowed values of Host for a daemon at this address: the address and localhost, with the port; and
 /// `names`. A name with a port is taken as it is; one without also stands for the ports 80 and 443, where a
 /// proxy listens.
 std::vector<std::string> hosts_for(const std::string& address, unsigned port,
                                    const std::vector<std::string>& names);
-
-/// 256 random bits from the system, in hexadecimal.
-std::string random_token();
 
 }  // namespace unicursal::host

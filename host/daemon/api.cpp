@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <span>
 
-#include "core/text/wording.hpp"
+#include "host/daemon/api_body.hpp"
 #include "host/daemon/log.hpp"
 #include "host/daemon/metrics.hpp"
+#include "host/daemon/octoprint.hpp"
+#include "host/daemon/plain_name.hpp"
 #include "host/daemon/refused.hpp"
+#include "host/daemon/upload_taker.hpp"
 #include "host/engine/temperature_limits.hpp"
 
 namespace unicursal::host {
@@ -17,32 +19,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t longest_json = 64 * 1024;  ///< bytes
-constexpr std::string_view jobs_path = "/api/jobs", files_path = "/api/files/";
-
-Response reply(json body, int status = 200) {
-  body["version"] = 1;
-  Response response;
-  response.status = status;
-  response.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-  return response;
-}
-
-/// Reads an object that has known keys only; an empty body is an empty object. Throws HttpError 400 or 415.
-json read_object(const Request& request, std::initializer_list<const char*> keys) {
-  if (request.body.empty()) return json::object();
-  std::string type = core::lower(request.header("content-type").value_or(""));
-  type.resize(std::min(type.find(';'), type.size()));  // parameters follow (RFC 9110, 8.3.1)
-  type.resize(type.find_last_not_of(" \t") + 1);
-  if (type != "application/json") throw HttpError(415, "send JSON, as Content-Type: application/json");
-  const json body = json::parse(request.body, nullptr, false);
-  if (!body.is_object()) throw HttpError(400, "the body is not a JSON object");
-  for (const auto& [key, value] : body.items()) {
-    const bool known = std::any_of(keys.begin(), keys.end(), [&](const char* one) { return key == one; });
-    if (!known) throw HttpError(400, "a key is not known here: \"" + key.substr(0, 40) + "\"");
-  }
-  return body;
-}
+constexpr std::uint64_t longest_json = 64 * 1024;            ///< bytes
+constexpr std::uint64_t longest_request_for_key = 4 * 1024;  ///< bytes; strangers send it
+constexpr std::string_view jobs_path = "/api/jobs/", keys_path = "/api/keys/", files_path = "/api/files/";
 
 std::optional<double> number(const json& body, const char* key) {
   const auto found = body.find(key);
@@ -63,13 +42,6 @@ std::optional<std::uint64_t> whole_number(const json& body, const char* key) {
   return found->get<std::uint64_t>();
 }
 
-bool yes(const json& body, const char* key) {
-  const auto found = body.find(key);
-  if (found == body.end()) return false;
-  if (!found->is_boolean()) throw HttpError(400, fmt::format("{} is not true or false", key));
-  return found->get<bool>();
-}
-
 std::optional<LayerRange> layers_of(const json& body) {
   const auto found = body.find("layers");
   if (found == body.end()) return std::nullopt;
@@ -81,16 +53,13 @@ std::optional<LayerRange> layers_of(const json& body) {
   return LayerRange{found->at(0).get<std::size_t>(), found->at(1).get<std::size_t>()};
 }
 
-std::uint64_t id_in(const std::string& path) {
-  std::uint64_t id = 0;
-  const char* end = path.data() + path.size();
-  const auto [stop, error] = std::from_chars(path.data() + jobs_path.size() + 1, end, id);
-  if (error != std::errc() || stop != end) throw HttpError(404, "a job is named by its number");
-  return id;
-}
-
-void obeyed(const Refusal& refusal) {
-  if (refusal) throw HttpError(409, *refusal);
+/// Absent: "steer".
+Right right_in(const json& body) {
+  const std::string word = text_in(body, "right");
+  if (word.empty()) return Right::steer;
+  const auto right = right_named(word);
+  if (!right) throw HttpError(400, "right is \"watch\", \"queue\" or \"steer\"");
+  return *right;
 }
 
 /// "upload/file" behind /api/files/; the second is empty if there is no slash.
@@ -99,23 +68,6 @@ std::pair<std::string, std::string> names_in(const std::string& path) {
   const std::size_t slash = names.find('/');
   if (slash == std::string::npos) return {names, ""};
   return {names.substr(0, slash), names.substr(slash + 1)};
-}
-
-/// The HTTP status of a refusal.
-int status_of(Refused::Why why) {
-  switch (why) {
-    case Refused::Why::bad_name:
-      return 400;
-    case Refused::Why::not_found:
-      return 404;
-    case Refused::Why::conflict:
-      return 409;
-    case Refused::Why::bad_job:
-      return 422;
-    case Refused::Why::no_room:
-      break;
-  }
-  return 507;
 }
 
 /// A WebSocket that follows the daemon.
@@ -134,41 +86,73 @@ class StreamFollower final : public Follower {
 struct Api::Route {
   std::string_view method, path;  ///< a path that ends with a slash is followed by a name
   asio::awaitable<Response> (Api::*handler)(Request request);  ///< null: the stream of events
+  Right right = Right::watch;                                  ///< that it takes
+  bool open = false;                                           ///< strangers, too, may ask
 
   bool matches(const std::string& asked) const {
     if (path.back() != '/') return asked == path;
     return asked.size() > path.size() && asked.starts_with(path);
   }
+  static std::span<const Route> all();
 };
 
-/// Throws HttpError 404 or 405.
-const Api::Route& Api::route_of(const RequestHead& head) {
+std::span<const Api::Route> Api::Route::all() {
+  using enum Right;
+  constexpr auto for_strangers = true;
   static constexpr Route routes[] = {
       {"GET", "/api/status", &Api::status},
       {"GET", "/api/printer", &Api::printer},
       {"GET", "/api/events", nullptr},
       {"GET", "/metrics", &Api::metrics},
       {"GET", "/api/jobs", &Api::list_jobs},
-      {"POST", "/api/jobs", &Api::add_job},
+      {"POST", "/api/jobs", &Api::add_job, queue},
       {"GET", "/api/jobs/", &Api::show_job},
-      {"DELETE", "/api/jobs/", &Api::remove_job},
+      {"DELETE", "/api/jobs/", &Api::remove_job, queue},
       {"GET", "/api/files", &Api::list_files},
-      {"PUT", "/api/files/", &Api::keep_file},
-      {"DELETE", "/api/files/", &Api::remove_upload},
-      {"POST", "/api/print/start", &Api::start},
-      {"POST", "/api/print/pause", &Api::pause},
-      {"POST", "/api/print/resume", &Api::resume},
-      {"POST", "/api/print/answer", &Api::answer_prompt},
-      {"POST", "/api/print/cancel", &Api::cancel},
-      {"POST", "/api/print/stop", &Api::stop},
-      {"POST", "/api/temperature", &Api::set_temperature},
-      {"POST", "/api/flow", &Api::set_flow},
-      {"POST", "/api/speed", &Api::set_speed},
-      {"POST", "/api/token/renew", &Api::renew_token},
+      {"GET", "/api/files/local", &Api::octo_files},
+      {"GET", "/api/files/local/", &Api::octo_file},
+      {"POST", "/api/files/local", &Api::octo_upload, queue},
+      {"POST", "/api/files/local/", &Api::octo_select, queue},
+      {"DELETE", "/api/files/local/", &Api::octo_delete, queue},
+      {"PUT", "/api/files/", &Api::keep_file, queue},
+      {"DELETE", "/api/files/", &Api::remove_upload, queue},
+      {"POST", "/api/print/start", &Api::start, steer},
+      {"POST", "/api/print/pause", &Api::pause, steer},
+      {"POST", "/api/print/resume", &Api::resume, steer},
+      {"POST", "/api/print/answer", &Api::answer_prompt, steer},
+      {"POST", "/api/print/cancel", &Api::cancel, steer},
+      {"POST", "/api/print/stop", &Api::stop, steer},
+      {"POST", "/api/bed", &Api::confirm_bed, steer},
+      {"POST", "/api/temperature", &Api::set_temperature, steer},
+      {"POST", "/api/flow", &Api::set_flow, steer},
+      {"POST", "/api/speed", &Api::set_speed, steer},
+      {"POST", "/api/token/renew", &Api::renew_token, Right::all},
+      {"GET", "/api/keys", &Api::list_keys, Right::all},
+      {"POST", "/api/keys", &Api::add_key, Right::all},
+      {"POST", "/api/keys/", &Api::decide_key, Right::all},
+      {"DELETE", "/api/keys/", &Api::remove_key, Right::all},
+      {"GET", "/api/version", &Api::octo_version},
+      {"GET", "/api/server", &Api::octo_server},
+      {"POST", "/api/login", &Api::octo_login},
+      {"GET", "/api/currentuser", &Api::octo_user},
+      {"GET", "/api/settings", &Api::octo_settings},
+      {"GET", "/api/printerprofiles", &Api::octo_profiles},
+      {"GET", "/api/connection", &Api::octo_connection},
+      {"POST", "/api/connection", &Api::octo_connect, steer},
+      {"GET", "/api/job", &Api::octo_job},
+      {"POST", "/api/job", &Api::octo_steer, steer},
+      {"GET", "/plugin/appkeys/probe", &Api::octo_probe_keys, watch, for_strangers},
+      {"POST", "/plugin/appkeys/request", &Api::octo_request_key, watch, for_strangers},
+      {"GET", "/plugin/appkeys/request/", &Api::octo_poll_key, watch, for_strangers},
   };
+  return routes;
+}
+
+/// Throws HttpError 404 or 405.
+const Api::Route& Api::route_of(const RequestHead& head) {
   const std::string_view asked = head.method == "HEAD" ? "GET" : std::string_view(head.method);
   std::string allowed;
-  for (const Route& route : routes) {
+  for (const Route& route : Route::all()) {
     if (!route.matches(head.path)) continue;
     if (route.method == asked) return route;
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method);
@@ -178,16 +162,33 @@ const Api::Route& Api::route_of(const RequestHead& head) {
   throw HttpError(404, "there is no such address; the API is described in API.md");
 }
 
-std::uint64_t Api::admit(const RequestHead& head) {
-  check_access(head, rules_);
-  route_of(head);
-  if (head.method == "PUT") {
-    const auto [upload, file] = names_in(head.path);
-    if (!is_plain_name(upload) || !is_plain_name(file))
-      throw HttpError(400, "names of uploads hold letters, digits, dots, dashes and underscores only");
-    return largest_upload;
+/// Whether strangers, too, may ask for that.
+bool Api::is_open(const RequestHead& head) {
+  const auto open = [&](const Route& route) { return route.open && route.matches(head.path); };
+  return std::any_of(Route::all().begin(), Route::all().end(), open);
+}
+
+Admission Api::admit(const RequestHead& head) {
+  if (is_open(head)) {
+    check_site(head, rules_);
+    route_of(head);
+    return {longest_request_for_key, false, nullptr};
   }
-  return longest_json;
+  const Visitor visitor = check_access(head, rules_);
+  const Route& route = route_of(head);
+  if (visitor.right < route.right)
+    throw HttpError(403, fmt::format("the key \"{}\" has the right to {} only; make another with `unicursal "
+                                     "keys --new NAME --right {}`",
+                                     visitor.name, name(visitor.right), name(route.right)));
+  if (route.handler == &Api::octo_upload && head.method == "POST") {
+    const std::string boundary = form_boundary(head.header("content-type").value_or(""));
+    return {largest_form, true, std::make_shared<UploadTaker>(daemon_, boundary, head.content_length)};
+  }
+  if (head.method != "PUT") return {longest_json, true, nullptr};
+  const auto [upload, file] = names_in(head.path);
+  if (!is_plain_name(upload) || !is_plain_name(file))
+    throw HttpError(400, "names of uploads hold letters, digits, dots, dashes and underscores only");
+  return {largest_upload, true, nullptr};
 }
 
 bool Api::wants_events(const RequestHead& head) const {
@@ -197,7 +198,7 @@ bool Api::wants_events(const RequestHead& head) const {
 /// What makes a printer safe; it must not be locked out.
 bool Api::is_urgent(const RequestHead& head) const {
   return head.path == "/api/print/stop" || head.path == "/api/print/cancel" ||
-         head.path == "/api/print/pause";
+         head.path == "/api/print/pause" || (head.path == "/api/job" && head.method == "POST");
 }
 
 asio::awaitable<Response> Api::answer(Request request) {
@@ -209,7 +210,7 @@ asio::awaitable<Response> Api::answer(Request request) {
     co_return response;
   } catch (const Refused& refused) {
     if (!asked.empty()) log_line(asked + ": refused: " + refused.what());
-    throw HttpError(status_of(refused.why()), refused.what());
+    throw http_error(refused);
   } catch (const std::exception& error) {
     if (!asked.empty()) log_line(asked + ": refused: " + error.what());
     throw;
@@ -226,8 +227,16 @@ asio::awaitable<Response> Api::status(Request) {
   co_return reply(daemon_.status());
 }
 
-asio::awaitable<Response> Api::printer(Request) {
-  co_return reply(daemon_.printer());
+/// With what OctoPrint's clients look for. To them, who have a key in X-Api-Key, a printer that is switched
+/// off is a conflict.
+asio::awaitable<Response> Api::printer(Request request) {
+  json body = daemon_.printer();
+  const bool there = daemon_.port_exists();
+  body.update(octo::printer(daemon_.status(), there));
+  const bool octoprint = request.header("x-api-key").has_value();
+  if (there || !octoprint) co_return reply(std::move(body));
+  body["error"] = "the printer is not connected: plug it in and switch it on";
+  co_return reply(std::move(body), 409);
 }
 
 asio::awaitable<Response> Api::metrics(Request) {
@@ -254,20 +263,23 @@ asio::awaitable<Response> Api::add_job(Request request) {
 }
 
 asio::awaitable<Response> Api::show_job(Request request) {
-  const QueuedJob* job = daemon_.queue().find(id_in(request.path));
+  const QueuedJob* job = daemon_.queue().find(number_behind(request.path, jobs_path));
   if (!job) throw HttpError(404, "there is no job with that number");
   co_return reply(to_json(*job));
 }
 
 asio::awaitable<Response> Api::remove_job(Request request) {
-  const std::uint64_t id = id_in(request.path);
+  const std::uint64_t id = number_behind(request.path, jobs_path);
   co_await daemon_.remove(id);
   co_return reply({{"removed", id}});
 }
 
-asio::awaitable<Response> Api::list_files(Request) {
+asio::awaitable<Response> Api::list_files(Request request) {
   const std::vector<std::string> names = co_await daemon_.job_names();
-  co_return reply({{"jobs", names}});
+  json body =
+      octo::files(co_await daemon_.local_files(), daemon_.files().free_bytes(), octo::address(request));
+  body["jobs"] = names;
+  co_return reply(std::move(body));
 }
 
 asio::awaitable<Response> Api::keep_file(Request request) {
@@ -282,7 +294,76 @@ asio::awaitable<Response> Api::remove_upload(Request request) {
   co_return reply({{"removed", upload}});
 }
 
+// ---- keys
+
+void Api::set_keys(Keys& keys, std::function<void()> disconnect) {
+  keys_ = &keys;
+  rules_.keys = &keys;
+  disconnect_ = std::move(disconnect);
+}
+
+Keys& Api::keys() {
+  if (!keys_) throw HttpError(404, "this daemon has no keys");
+  return *keys_;
+}
+
+/// Only the owner of the state folder may let others in or shut them out.
+void Api::check_owner(const Request& request) {
+  if (!request.by_socket)
+    throw HttpError(403,
+                    "keys are managed through the socket in the state folder only: see `unicursal keys`");
+}
+
+asio::awaitable<Response> Api::list_keys(Request request) {
+  check_owner(request);
+  json all = json::array(), requests = json::array();
+  for (const Key& key : keys().all()) {
+    all.push_back({{"id", key.id},
+                   {"name", key.name},
+                   {"right", name(key.right)},
+                   {"key", key.secret},
+                   {"made", key.made}});
+  }
+  for (const KeyRequest& one : keys().requests())
+    requests.push_back({{"id", one.id}, {"name", one.name}, {"from", one.peer}});
+  co_return reply({{"keys", all}, {"requests", requests}});
+}
+
+asio::awaitable<Response> Api::add_key(Request request) {
+  check_owner(request);
+  const json body = read_object(request, {"name", "right"});
+  const Key& key = keys().add(text_in(body, "name"), right_in(body));
+  co_return reply({{"id", key.id}, {"key", key.secret}}, 201);
+}
+
+asio::awaitable<Response> Api::remove_key(Request request) {
+  check_owner(request);
+  const std::uint64_t id = number_behind(request.path, keys_path);
+  keys().remove(id);
+  disconnect_();
+  co_return reply({{"removed", id}});
+}
+
+/// Grants or denies what a program has asked for.
+asio::awaitable<Response> Api::decide_key(Request request) {
+  check_owner(request);
+  const std::uint64_t id = number_behind(request.path, keys_path);
+  const json body = read_object(request, {"grant", "right"});
+  if (yes(body, "grant"))
+    keys().grant(id, right_in(body));
+  else
+    keys().deny(id);
+  co_return reply({{"decided", id}});
+}
+
 // ---- the print
+
+asio::awaitable<Response> Api::confirm_bed(Request request) {
+  const json body = read_object(request, {"clear"});
+  if (!yes(body, "clear")) throw HttpError(400, "clear is missing: say true when the bed is clear");
+  daemon_.confirm_bed_clear();
+  co_return reply(daemon_.status(), 202);
+}
 
 asio::awaitable<Response> Api::start(Request request) {
   const json body = read_object(request, {"id", "bed_clear"});

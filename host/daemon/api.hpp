@@ -1,4 +1,5 @@
-// The daemon's HTTP API (API.md): what each address does, who may use it, and how much may be sent.
+// The daemon's HTTP API (API.md): what each address does, who may use it, and how much may be sent. A part of
+// OctoPrint's API is among it, for the programs that speak it (octoprint.hpp).
 #pragma once
 
 #include <functional>
@@ -6,6 +7,8 @@
 
 #include "host/daemon/access.hpp"
 #include "host/daemon/daemon.hpp"
+#include "host/daemon/keys.hpp"
+#include "host/daemon/secret.hpp"
 #include "host/http/http_server.hpp"
 
 namespace unicursal::host {
@@ -14,14 +17,22 @@ class Api : public HttpHandler {
  public:
   explicit Api(Daemon& daemon) : daemon_(daemon) {}
   /// Nobody is let in before this is called.
-  void set_rules(AccessRules rules) { rules_ = std::move(rules); }
+  void set_rules(AccessRules rules) {
+    rules_ = std::move(rules);
+    rules_.keys = keys_;
+  }
   struct Tokens {
     std::string all, metrics;
   };
+  /// Keys of single programs; `disconnect` lets the clients of the network go, whose key may be void. `keys`
+  /// must outlive this object.
+  void set_keys(Keys& keys, std::function<void()> disconnect);
+  /// A UUID that stays the same for this state folder.
+  void set_identity(std::string uuid) { identity_ = std::move(uuid); }
   /// Makes new tokens, and lets those go who knew the old ones. Throws core::DataError.
   void on_renewal(std::function<Tokens()> renew) { renew_ = std::move(renew); }
 
-  std::uint64_t admit(const RequestHead& head) override;
+  Admission admit(const RequestHead& head) override;
   asio::awaitable<Response> answer(Request request) override;
   bool wants_events(const RequestHead& head) const override;
   bool is_urgent(const RequestHead& head) const override;
@@ -30,6 +41,7 @@ class Api : public HttpHandler {
  private:
   struct Route;
   static const Route& route_of(const RequestHead& head);
+  static bool is_open(const RequestHead& head);
 
   asio::awaitable<Response> status(Request request);
   asio::awaitable<Response> printer(Request request);
@@ -51,10 +63,41 @@ class Api : public HttpHandler {
   asio::awaitable<Response> set_flow(Request request);
   asio::awaitable<Response> set_speed(Request request);
   asio::awaitable<Response> renew_token(Request request);
+  asio::awaitable<Response> confirm_bed(Request request);
+  asio::awaitable<Response> list_keys(Request request);
+  asio::awaitable<Response> add_key(Request request);
+  asio::awaitable<Response> remove_key(Request request);
+  asio::awaitable<Response> decide_key(Request request);
+
+  // OctoPrint's (octoprint_api.cpp)
+  asio::awaitable<Response> octo_version(Request request);
+  asio::awaitable<Response> octo_server(Request request);
+  asio::awaitable<Response> octo_login(Request request);
+  asio::awaitable<Response> octo_user(Request request);
+  asio::awaitable<Response> octo_settings(Request request);
+  asio::awaitable<Response> octo_profiles(Request request);
+  asio::awaitable<Response> octo_connection(Request request);
+  asio::awaitable<Response> octo_connect(Request request);
+  asio::awaitable<Response> octo_job(Request request);
+  asio::awaitable<Response> octo_steer(Request request);
+  asio::awaitable<Response> octo_files(Request request);
+  asio::awaitable<Response> octo_file(Request request);
+  asio::awaitable<Response> octo_upload(Request request);
+  asio::awaitable<Response> octo_select(Request request);
+  asio::awaitable<Response> octo_delete(Request request);
+  asio::awaitable<Response> octo_probe_keys(Request request);
+  asio::awaitable<Response> octo_request_key(Request request);
+  asio::awaitable<Response> octo_poll_key(Request request);
+
+  Keys& keys();
+  static void check_owner(const Request& request);
 
   Daemon& daemon_;
   AccessRules rules_{random_token(), {}, {}};
   std::function<Tokens()> renew_;
+  Keys* keys_ = nullptr;
+  std::string identity_;
+  std::function<void()> disconnect_;
 };
 
 }  // namespace unicursal::host

@@ -84,6 +84,7 @@ json Daemon::status() const {
     if (!interrupted_->question.empty()) print["question"] = interrupted_->question;
   }
   if (!last_.is_null()) status["last"] = last_;
+  status["bed_clear"] = bed_clear_;
   if (!problem_.empty()) status["problem"] = problem_;
   return status;
 }
@@ -101,6 +102,11 @@ json Daemon::printer() const {
   printer["nozzle_mm"] = profile->printer.nozzle;
   if (!options_.port) printer["port"] = profile->port;
   return printer;
+}
+
+const gcode::Printer* Daemon::profile() const {
+  if (current_ && current_->print) return &current_->print->job().profile.printer;
+  return profile_ ? &profile_->printer : nullptr;
 }
 
 Session& Daemon::session() {
@@ -123,7 +129,8 @@ asio::awaitable<void> Daemon::save() {
   co_await elsewhere(disk_, write);
 }
 
-asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<LayerRange> layers) {
+asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<LayerRange> layers,
+                                           bool to_print) {
   if (queue_.waiting() >= Queue::most_waiting) throw Refused(Why::conflict, "the queue is full");
   if (being_added_->size() >= most_checks)
     throw Refused(Why::conflict, "other jobs are being checked; queue this one in a moment");
@@ -133,7 +140,7 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
     const std::shared_ptr<void> added(nullptr, [all = being_added_, place](void*) { all->erase(place); });
     co_await check(name, layers);
   }
-  const std::uint64_t id = queue_.add(std::move(name), layers);
+  const std::uint64_t id = queue_.add(std::move(name), layers, to_print);
   std::string problem;
   try {
     co_await save();
@@ -148,6 +155,7 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
     throw Refused(Why::no_room, problem);
   }
   if (job) broadcast({{"event", "queue"}, {"job", to_json(*job)}});
+  start_sent();
   co_return id;
 }
 
@@ -194,43 +202,6 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
     throw Refused(Why::no_room, problem);
   }
   broadcast({{"event", "queue"}, {"removed", id}});
-}
-
-/// Files of a job that waits or is being printed must not change.
-void Daemon::check_not_needed(const std::string& upload) const {
-  for (const std::string& name : *being_added_) {
-    if (JobFiles::is_from(name, upload))
-      throw Refused(Why::conflict, "a job from there is being queued; choose another name");
-  }
-  for (const QueuedJob& job : queue_.jobs()) {
-    const bool current = current_ && current_->id == job.id;
-    if ((current || job.state == QueuedJob::State::queued) && JobFiles::is_from(job.name, upload))
-      throw Refused(Why::conflict, fmt::format("job {} is from there, and {}; choose another name", job.id,
-                                               current ? "is being printed" : "waits"));
-  }
-}
-
-asio::awaitable<void> Daemon::keep_upload(std::string upload, std::string file, std::string bytes) {
-  check_not_needed(upload);
-  const auto keep = [this, upload, file, bytes = std::move(bytes)] {
-    files_.keep(upload, file, bytes);
-    return true;
-  };
-  co_await elsewhere(disk_, keep);
-}
-
-asio::awaitable<void> Daemon::remove_upload(std::string upload) {
-  check_not_needed(upload);
-  const auto remove = [this, upload] {
-    files_.remove(upload);
-    return true;
-  };
-  co_await elsewhere(disk_, remove);
-}
-
-asio::awaitable<std::vector<std::string>> Daemon::job_names() {
-  const auto list = [this] { return files_.list(); };
-  co_return co_await elsewhere(disk_, list);
 }
 
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {

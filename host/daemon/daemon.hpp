@@ -2,7 +2,9 @@
 // of HTTP (api.hpp) or signals (serve.hpp). Everything belongs to the loop's thread; files are read and
 // written, and prints prepared, in threads of their own.
 //
-// No print starts by itself: somebody has to take the last part off the bed first.
+// No print starts by itself: somebody has to take the last part off the bed first. With `start_uploads`, a
+// file that a slicer sends to be printed starts once somebody has confirmed that, and nothing has been
+// printed since.
 #pragma once
 
 #include <asio/awaitable.hpp>
@@ -34,6 +36,7 @@ struct DaemonOptions {
   std::optional<std::filesystem::path> profile;  ///< of the printer, instead of the jobs' own
   std::optional<std::filesystem::path> spool;    ///< folder of the prints
   PauseHeat pause_heat = PauseHeat::keep;
+  bool start_uploads = false;  ///< those that are sent to be printed, once the bed is confirmed clear
   CheckLimits upload_limits{1024 * 1024 * 1024,
                             std::chrono::seconds(20)};  ///< for uploads, when they are queued
 };
@@ -56,6 +59,8 @@ class Daemon {
 
   nlohmann::json status() const;
   nlohmann::json printer() const;
+  /// Of the current print, or of the daemon; null if none is known.
+  const gcode::Printer* profile() const;
   const Queue& queue() const { return queue_; }
   const JobFiles& files() const { return files_; }
 
@@ -63,9 +68,18 @@ class Daemon {
   Session& session();
   /// Checks the job's text, adds the job to the queue, and returns its number. The models of an upload are
   /// read and planned for a try as well, in a child process with limits. Throws Refused.
-  asio::awaitable<std::uint64_t> add(std::string name, std::optional<LayerRange> layers);
+  /// `to_print`: it was sent to be printed at once, and may be started as `start_uploads` says.
+  asio::awaitable<std::uint64_t> add(std::string name, std::optional<LayerRange> layers,
+                                     bool to_print = false);
   /// Removes a job from the queue. Throws Refused, also for the one that is being printed.
   asio::awaitable<void> remove(std::uint64_t id);
+  /// A file that arrives piece by piece: room for it, a piece of it, and the whole, which gets a name of its
+  /// own (JobFiles::adopt()) and is not queued yet; returns the job's name. Throw Refused.
+  asio::awaitable<std::shared_ptr<UploadDraft>> draft_upload(std::uint64_t bytes);
+  asio::awaitable<void> write_upload(std::shared_ptr<UploadDraft> draft, std::string bytes);
+  asio::awaitable<std::string> adopt_upload(std::shared_ptr<UploadDraft> draft, std::string file);
+  asio::awaitable<std::vector<LocalFile>> local_files();
+  asio::awaitable<LocalFile> local_file(std::string name);
   /// Throws Refused, also while a job of this upload waits or is printed: a job is checked only once.
   asio::awaitable<void> keep_upload(std::string upload, std::string file, std::string bytes);
   asio::awaitable<void> remove_upload(std::string upload);
@@ -77,6 +91,11 @@ class Daemon {
   /// Continues the interrupted print. If its printer has lost its place, the status asks a question; `sure`
   /// answers it. Returns the job's number at once. Throws Refused.
   std::uint64_t continue_interrupted(bool sure);
+  /// Somebody has seen that the bed is clear. An upload that was sent to be printed then starts, if
+  /// `start_uploads` says so. Throws Refused during a print.
+  void confirm_bed_clear();
+  /// Whether the printer's port is there; an "auto" one always is.
+  bool port_exists() const;
   /// Cancels the print, also while it is being prepared. Throws Refused when there is none.
   void cancel(const std::string& reason);
   void stop_at_once();
@@ -121,6 +140,9 @@ class Daemon {
   JobCheck check_of(const std::string& name, const std::optional<LayerRange>& layers) const;
   asio::awaitable<void> check(std::string name, std::optional<LayerRange> layers);
   void check_not_needed(const std::string& upload) const;
+  std::set<std::string> needed_uploads() const;
+  void start_sent();
+  std::string port() const;
   void check_port_exists() const;
   std::string way_on() const;
   asio::awaitable<void> save();
@@ -139,9 +161,10 @@ class Daemon {
   std::shared_ptr<std::multiset<std::string>> being_added_ = std::make_shared<std::multiset<std::string>>();
   std::optional<Current> current_;
   std::optional<Interrupted> interrupted_;
-  nlohmann::json last_;   ///< the final status of the last print, or null
-  std::string firmware_;  ///< the printer's last answer to M115
-  std::string problem_;   ///< with the state folder, a sentence; empty: none
+  bool bed_clear_ = false;  ///< somebody has confirmed it, and no print has begun since
+  nlohmann::json last_;     ///< the final status of the last print, or null
+  std::string firmware_;    ///< the printer's last answer to M115
+  std::string problem_;     ///< with the state folder, a sentence; empty: none
   std::function<void()> when_idle_;
   std::vector<std::unique_ptr<Follower>> followers_;
   asio::steady_timer progress_;

@@ -1,17 +1,20 @@
 #include "host/daemon/job_files.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <fstream>
 #include <sstream>
 
 #include "core/model/file_kind.hpp"
 #include "core/text/printable.hpp"
+#include "host/daemon/plain_name.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/daemon/upload_kind.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/job/job_error.hpp"
 #include "host/job/parse_toml.hpp"
-#include "host/job/sliced_file.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -21,18 +24,12 @@ using Why = Refused::Why;
 namespace fs = std::filesystem;
 
 constexpr std::string_view upload_prefix = "upload:";
-constexpr std::size_t longest_name = 64, longest_job_name = 512;
+constexpr std::size_t longest_job_name = 512;
 constexpr int deepest_folder = 4;
 constexpr std::uintmax_t largest_job = 1024 * 1024;  ///< bytes of a job's own text
 
 Refused no_such(const std::string& name) {
   return {Why::not_found, "there is no job \"" + core::printable(name) + "\"; see `unicursal queue --jobs`"};
-}
-
-/// Whether a file can be printed: a job, or a model or a slicer's G-code that is printed with the usual
-/// settings.
-bool is_job(const fs::path& path) {
-  return path.extension() == ".toml" || core::is_model_file(path) || is_sliced_file(path);
 }
 
 /// Whether `path` is below `folder`; both canonical.
@@ -43,7 +40,7 @@ bool within(const fs::path& path, const fs::path& folder) {
 /// Accepts relative names without "..". Links are checked elsewhere.
 void check_name(const std::string& name) {
   const fs::path path(name);
-  bool sound = !name.empty() && name.size() <= longest_job_name && path.is_relative() && is_job(path);
+  bool sound = !name.empty() && name.size() <= longest_job_name && path.is_relative() && is_queueable(path);
   sound = sound && name.find('\0') == std::string::npos && name.find('\\') == std::string::npos;
   for (const fs::path& part : path) sound = sound && part != ".." && part != "." && !part.empty();
   if (!sound)
@@ -99,25 +96,26 @@ void add_jobs(const fs::path& folder, const std::string& prefix, std::vector<std
        !error && item != end && names.size() < most_listed_jobs; item.increment(error)) {
     if (item.depth() >= deepest_folder) item.disable_recursion_pending();
     std::error_code gone;
-    if (is_job(item->path()) && item->is_regular_file(gone) &&
+    if (is_queueable(item->path()) && item->is_regular_file(gone) &&
         within(fs::canonical(item->path(), gone), folder) && !is_profile(item->path()))
       names.push_back(prefix + item->path().lexically_relative(folder).generic_string());
   }
 }
 
-}  // namespace
-
-bool is_plain_name(const std::string& name) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '_' || c == '-';
-  };
-  return !name.empty() && name.size() <= longest_name && name.front() != '.' && name.front() != '-' &&
-         std::all_of(name.begin(), name.end(), plain);
+/// Whether a folder is missing or empty, or holds one file of this name.
+bool holds_only(const fs::path& folder, const std::string& file) {
+  std::error_code error;
+  for (fs::directory_iterator item(folder, error), end; !error && item != end; item.increment(error)) {
+    if (item->path().filename() != file) return false;
+  }
+  return !error || error == std::errc::no_such_file_or_directory;
 }
+
+}  // namespace
 
 JobFiles::JobFiles(std::vector<fs::path> folders, fs::path uploads)
     : folders_(std::move(folders)), uploads_(std::move(uploads)) {
+  UploadDraft::remove_old(uploads_);
   for (fs::path& folder : folders_) {
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
@@ -133,6 +131,10 @@ bool JobFiles::is_upload(const std::string& name) {
   return name.starts_with(upload_prefix);
 }
 
+std::string JobFiles::upload_of(const std::string& job) {
+  return job.substr(upload_prefix.size(), job.find('/') - upload_prefix.size());
+}
+
 bool JobFiles::is_from(const std::string& name, const std::string& upload) {
   return name.starts_with(std::string(upload_prefix) + upload + "/");
 }
@@ -142,13 +144,13 @@ fs::path JobFiles::find_upload(const std::string& name) const {
   const std::size_t slash = inside.find('/');
   const std::string upload = inside.substr(0, slash);
   const std::string file = slash == std::string::npos ? "" : inside.substr(slash + 1);
-  if (!is_plain_name(upload) || !is_plain_name(file) || !is_job(file))
+  if (!is_plain_name(upload) || !is_plain_name(file) || !is_queueable(file))
     throw Refused(Why::bad_name,
                   "an uploaded job is named as in upload:leaf/job.toml or upload:leaf/leaf.3mf");
   const fs::path path = uploads_ / upload / file;
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) throw no_such(name);
-  if (!core::is_model_file(path) && !is_sliced_file(path)) check_uploaded_job(path);
+  if (path.extension() == ".toml") check_uploaded_job(path);
   return path;
 }
 
@@ -167,7 +169,8 @@ fs::path JobFiles::find(const std::string& name) const {
 std::vector<std::string> JobFiles::list() const {
   std::vector<std::string> names;
   for (const fs::path& folder : folders_) add_jobs(folder, "", names);
-  add_jobs(uploads_, std::string(upload_prefix), names);
+  std::error_code error;
+  add_jobs(fs::canonical(uploads_, error), std::string(upload_prefix), names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -178,7 +181,18 @@ void JobFiles::keep(const std::string& upload, const std::string& file, const st
     throw Refused(Why::bad_name, "names of uploads hold letters, digits, dots, dashes and underscores only");
   if (fs::path(file).extension() == ".part")  // a draft of another upload has such a name (whole_file.hpp)
     throw Refused(Why::bad_name, "a name that ends in .part is that of an unfinished file; choose another");
-  std::uint64_t kept = bytes.size();
+  check_room(bytes.size());
+  std::error_code error;
+  fs::create_directories(uploads_ / upload, error);
+  try {
+    write_whole_file(uploads_ / upload / file, bytes, WholeFile::Access::owner_only);
+  } catch (const core::FileError& full) {
+    throw Refused(Why::no_room, full.what());
+  }
+}
+
+void JobFiles::check_room(std::uint64_t bytes) const {
+  std::uint64_t kept = bytes;
   std::size_t files = 1;
   std::error_code error;
   for (fs::recursive_directory_iterator item(uploads_, error), end; !error && item != end;
@@ -190,12 +204,85 @@ void JobFiles::keep(const std::string& upload, const std::string& file, const st
   }
   if (kept > most_uploaded || files > most_uploaded_files)
     throw Refused(Why::no_room, "there is no room for more uploads; remove some first");
-  fs::create_directories(uploads_ / upload, error);
-  try {
-    write_whole_file(uploads_ / upload / file, bytes, WholeFile::Access::owner_only);
-  } catch (const core::FileError& full) {
-    throw Refused(Why::no_room, full.what());
+  if (bytes + left_on_disk > free_bytes())
+    throw Refused(Why::no_room, "the daemon's disk is almost full; make room and send the file again");
+}
+
+std::uint64_t JobFiles::free_bytes() const {
+  std::error_code error;
+  const fs::space_info space = fs::space(uploads_.parent_path(), error);
+  return error ? 0 : space.available;
+}
+
+std::unique_ptr<UploadDraft> JobFiles::draft(std::uint64_t bytes) const {
+  check_room(bytes);
+  return std::make_unique<UploadDraft>(uploads_);
+}
+
+std::string JobFiles::adopt(UploadDraft& draft, const std::string& file,
+                            const std::function<bool(const std::string&)>& needed) const {
+  const fs::path name(file);
+  for (std::size_t i = 1; i <= most_uploaded_files; ++i) {
+    const std::string upload = name.stem().string() + (i == 1 ? "" : "-" + std::to_string(i));
+    const std::string kept = upload + name.extension().string();
+    const fs::path folder = uploads_ / upload;
+    if (needed(upload) || !holds_only(folder, kept)) continue;
+    std::error_code error;
+    fs::create_directory(folder, error);
+    try {
+      draft.publish(folder / kept);
+    } catch (...) {
+      fs::remove(folder, error);  // if it is empty
+      throw;
+    }
+    return std::string(upload_prefix) + upload + "/" + kept;
   }
+  throw Refused(Why::no_room, "too many uploads have that name; remove some first");
+}
+
+std::optional<std::string> local_name(const std::string& job) {
+  if (!JobFiles::is_upload(job)) {
+    // Addresses hold no per cent signs here (http_message.hpp).
+    const bool sound = std::all_of(job.begin(), job.end(), [](char c) {
+      return c > ' ' && c < '\x7f' && std::string_view("%?#\"<>\\").find(c) == std::string_view::npos;
+    });
+    return sound ? std::optional(job) : std::nullopt;
+  }
+  const fs::path inside(job.substr(upload_prefix.size()));
+  if (inside.parent_path() != inside.stem()) return std::nullopt;
+  return inside.filename().string();
+}
+
+LocalFile JobFiles::local_file(const std::string& name) const {
+  std::string job = name;
+  if (is_plain_name(name)) {
+    const std::string upload = std::string(upload_prefix) + fs::path(name).stem().string() + "/" + name;
+    std::error_code error;
+    if (fs::exists(uploads_ / upload.substr(upload_prefix.size()), error)) job = upload;
+  }
+  if (is_upload(name)) throw no_such(name);
+  const fs::path file = find(job);
+  struct stat found {};
+  if (::stat(file.c_str(), &found) != 0) throw no_such(name);
+  return {name, job, static_cast<std::uint64_t>(found.st_size), found.st_mtime};
+}
+
+std::vector<LocalFile> JobFiles::local_files() const {
+  std::vector<LocalFile> files;
+  for (const std::string& job : list()) {
+    const auto name = local_name(job);
+    if (!name) continue;
+    try {
+      files.push_back(local_file(*name));
+    } catch (const Refused&) {
+      // It has just been removed, or its text cannot be that of an uploaded job.
+    }
+  }
+  const auto by_name = [](const LocalFile& a, const LocalFile& b) { return a.name < b.name; };
+  std::sort(files.begin(), files.end(), by_name);
+  const auto same = [](const LocalFile& a, const LocalFile& b) { return a.name == b.name; };
+  files.erase(std::unique(files.begin(), files.end(), same), files.end());
+  return files;
 }
 
 void JobFiles::remove(const std::string& upload) const {

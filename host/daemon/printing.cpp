@@ -49,7 +49,7 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
                   id ? "there is no job with that number" : "no job is waiting");
   // Somebody may have continued it beside this daemon.
   if (interrupted_ && !interrupted_print(options_.state)) interrupted_.reset();
-  if (interrupted_ && !bed_clear) {
+  if (interrupted_ && !bed_clear && !bed_clear_) {
     throw Refused(
         Why::conflict,
         "the print of job " + std::to_string(interrupted_->id) +
@@ -79,6 +79,7 @@ std::uint64_t Daemon::continue_interrupted(bool sure) {
 }
 
 void Daemon::begin(std::uint64_t id, std::optional<Continuing> continuing) {
+  bed_clear_ = false;
   current_.emplace();
   current_->id = id;
   queue_.enter(id, QueuedJob::State::preparing);
@@ -90,14 +91,43 @@ void Daemon::begin(std::uint64_t id, std::optional<Continuing> continuing) {
       asio::detached);
 }
 
+std::string Daemon::port() const {
+  return options_.port ? *options_.port : profile_ ? profile_->port : "";
+}
+
+bool Daemon::port_exists() const {
+  std::error_code error;
+  return !port().starts_with('/') || std::filesystem::exists(port(), error);
+}
+
 /// Throws Refused if the printer's port is a device that is not there; then the job has not left the queue.
 void Daemon::check_port_exists() const {
-  const std::string port = options_.port ? *options_.port : profile_ ? profile_->port : "";
-  std::error_code error;
-  if (port.starts_with('/') && !std::filesystem::exists(port, error))
+  if (!port_exists())
     throw Refused(Why::conflict,
-                  "the printer's port " + core::printable(port) +
+                  "the printer's port " + core::printable(port()) +
                       " is not there: plug the printer in and switch it on; the job stays in the queue");
+}
+
+void Daemon::confirm_bed_clear() {
+  if (current_) throw Refused(Why::conflict, "a print is going on; confirm it when the part was taken off");
+  bed_clear_ = true;
+  broadcast_status();
+  start_sent();
+}
+
+/// Starts the first upload that was sent to be printed, if the user wants that and the bed is known to be
+/// clear.
+void Daemon::start_sent() {
+  if (!options_.start_uploads || !bed_clear_ || current_ || when_idle_) return;
+  const QueuedJob* job = queue_.next_to_print();
+  if (!job) return;
+  try {
+    log_line(
+        fmt::format("job {} {}: starts by itself, since the bed was confirmed clear", job->id, job->name));
+    start(job->id, true);
+  } catch (const Refused& refused) {
+    log_line(fmt::format("it waits: {}", refused.what()));
+  }
 }
 
 PrintOptions Daemon::print_options(const std::string& job) const {

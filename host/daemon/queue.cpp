@@ -34,6 +34,7 @@ QueuedJob job_from(const json& entry) {
   for (const State state : all_states) {
     if (word == name(state)) job.state = state;
   }
+  job.to_print = entry.value("to_print", false);
   job.reason = entry.value("reason", "");
   job.added = entry.value("added", std::int64_t{0});
   job.began = entry.value("began", std::int64_t{0});
@@ -67,6 +68,7 @@ const char* name(State state) {
 
 json to_json(const QueuedJob& job) {
   json entry = {{"id", job.id}, {"job", job.name}, {"state", name(job.state)}, {"added", job.added}};
+  if (job.to_print) entry["to_print"] = true;
   if (job.layers) entry["layers"] = {job.layers->first, job.layers->last};
   if (!job.reason.empty()) entry["reason"] = job.reason;
   if (job.began != 0) entry["began"] = job.began;
@@ -111,11 +113,18 @@ std::size_t Queue::waiting() const {
       jobs_.begin(), jobs_.end(), [](const QueuedJob& job) { return job.state == State::queued; }));
 }
 
-std::uint64_t Queue::add(std::string name, std::optional<LayerRange> layers) {
+const QueuedJob* Queue::next_to_print() const {
+  const auto waits = [](const QueuedJob& job) { return job.state == State::queued && job.to_print; };
+  const auto job = std::find_if(jobs_.begin(), jobs_.end(), waits);
+  return job == jobs_.end() ? nullptr : &*job;
+}
+
+std::uint64_t Queue::add(std::string name, std::optional<LayerRange> layers, bool to_print) {
   QueuedJob job;
   job.id = next_id_++;
   job.name = std::move(name);
   job.layers = layers;
+  job.to_print = to_print;
   job.added = now();
   jobs_.push_back(std::move(job));
   return jobs_.back().id;

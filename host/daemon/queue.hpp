@@ -28,6 +28,7 @@ struct QueuedJob {
   std::uint64_t id = 0;
   std::string name;  ///< as in JobFiles
   std::optional<LayerRange> layers;
+  bool to_print = false;  ///< it was sent to be printed at once (DaemonOptions::start_uploads)
   State state = State::queued;
   std::string reason;      ///< why it was not completed, a sentence; empty if it was
   std::int64_t added = 0;  ///< s since 1970
@@ -49,9 +50,11 @@ class Queue {
   const QueuedJob* find(std::uint64_t id) const;
   /// The first waiting job, or null.
   const QueuedJob* next() const;
+  /// The first waiting one that was sent to be printed; null if there is none.
+  const QueuedJob* next_to_print() const;
   std::size_t waiting() const;
 
-  std::uint64_t add(std::string name, std::optional<LayerRange> layers);
+  std::uint64_t add(std::string name, std::optional<LayerRange> layers, bool to_print = false);
   void remove(std::uint64_t id);
   /// Undoes remove(): the job stands where its number belongs.
   void put_back(QueuedJob job);

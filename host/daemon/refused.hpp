@@ -14,7 +14,9 @@ class Refused : public std::runtime_error {
     not_found,  ///< there is no such job or upload
     conflict,   ///< not now: something else is being printed or waits
     bad_job,    ///< the job's text has a mistake
-    no_room     ///< a limit or the disk is full
+    bad_kind,   ///< a file of a sort that is not printed
+    no_room,    ///< a limit or the disk is full
+    busy        ///< too many ask
   };
 
   Refused(Why why, const std::string& sentence) : std::runtime_error(sentence), why_(why) {}

@@ -49,10 +49,17 @@ std::string words(const asio::ip::tcp::endpoint& at) {
                               : fmt::format("{}:{}", address, at.port());
 }
 
+/// A UUID of 32 random hexadecimal digits (RFC 4122, version 4).
+std::string uuid_from(const std::string& digits) {
+  return fmt::format("{}-{}-4{}-8{}-{}", digits.substr(0, 8), digits.substr(8, 4), digits.substr(13, 3),
+                     digits.substr(17, 3), digits.substr(20, 12));
+}
+
 class Service {
  public:
   Service(const ServeOptions& options, const StateFolder& state)
       : state_(state),
+        keys_(state.path() / "keys.json"),
         daemon_(loop_, options.daemon),
         api_(daemon_),
         server_(loop_, checked_endpoint(options), api_),
@@ -74,6 +81,8 @@ class Service {
     }
     rules.hosts = hosts_for(at.address().to_string(), at.port(), names);
     api_.on_renewal([this] { return renew_tokens(); });
+    api_.set_identity(uuid_from(state_.secret("identity")));
+    api_.set_keys(keys_, [this] { server_.disconnect_network(); });
     api_.set_rules(std::move(rules));
     address_ = words(at);
     state_.write_address(address_);
@@ -143,6 +152,7 @@ class Service {
 
   const StateFolder& state_;
   asio::io_context loop_{1};
+  Keys keys_;
   Daemon daemon_;
   Api api_;
   HttpServer server_;

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <utility>
 
-#include "host/daemon/access.hpp"
+#include "host/daemon/secret.hpp"
 #include "host/files/state_home.hpp"
 #include "host/files/whole_file.hpp"
 

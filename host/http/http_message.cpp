@@ -92,7 +92,7 @@ void read_header(std::string_view line, RequestHead& head) {
 /// 9110 (5.3) allows it for lists: two readers could understand them differently.
 void check_single(const RequestHead& head) {
   for (const char* name : {"host", "content-length", "transfer-encoding", "connection", "authorization",
-                           "origin", "content-type", "expect", "upgrade", "sec-fetch-site",
+                           "origin", "content-type", "expect", "upgrade", "sec-fetch-site", "x-api-key",
                            "sec-websocket-key", "sec-websocket-version", "sec-websocket-protocol"}) {
     const auto same = [name](const auto& header) { return header.first == name; };
     if (std::count_if(head.headers.begin(), head.headers.end(), same) > 1)
@@ -168,8 +168,8 @@ std::string to_text(const Response& response, bool keep_alive, bool with_body) {
     text += fmt::format("Content-Type: {}\r\nContent-Length: {}\r\n", response.type, response.body.size());
     text += "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n";
     text += "Content-Security-Policy: default-src 'none'\r\n";
-    text += keep_alive ? "Connection: keep-alive\r\n" : "Connection: close\r\n";
   }
+  if (response.status >= 200) text += keep_alive ? "Connection: keep-alive\r\n" : "Connection: close\r\n";
   for (const auto& [name, value] : response.headers) text += fmt::format("{}: {}\r\n", name, value);
   return text + "\r\n" + (with_body ? response.body : "");
 }
@@ -179,6 +179,7 @@ const char* status_words(int status) {
                                                    {200, "OK"},
                                                    {201, "Created"},
                                                    {202, "Accepted"},
+                                                   {204, "No Content"},
                                                    {400, "Bad Request"},
                                                    {401, "Unauthorized"},
                                                    {403, "Forbidden"},

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,7 @@ struct RequestHead {
   std::uint64_t content_length = 0;                          ///< bytes
   bool keep_alive = true;
   bool by_socket = false;  ///< it came through the server's Unix socket, from this user or root
+  std::string peer;        ///< the client's address, "192.168.1.5"; empty: unknown, or the Unix socket's
 
   /// `name` in lower case; absent if there is none. Throws HttpError 400 if there are several.
   std::optional<std::string> header(std::string_view name) const;
@@ -55,8 +57,11 @@ struct RequestHead {
   bool lists(std::string_view name, std::string_view word) const;
 };
 
+class BodyTaker;  // http_server.hpp
+
 struct Request : RequestHead {
   std::string body;
+  std::shared_ptr<BodyTaker> taker;  ///< has got the body, which is empty here; null: nobody has
 };
 
 struct Response {

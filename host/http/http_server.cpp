@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <netdb.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -34,8 +35,10 @@ constexpr auto head_patience =
     10s;  ///< from the first byte of a request, or the last answer, to its blank line
 constexpr auto body_patience = 10s;                 ///< and beyond that, at least:
 constexpr std::uint64_t slowest_body = 256 * 1024;  ///< bytes/s
+constexpr auto longest_silence = 30s;               ///< within a body that somebody takes
 constexpr std::uint64_t large_body = 1024 * 1024;   ///< bytes
-constexpr auto answer_patience = 30s;               ///< for the client to receive an answer
+constexpr std::size_t most_large_bodies = 1, most_taken_bodies = 4;
+constexpr auto answer_patience = 30s;  ///< for the client to receive an answer
 constexpr auto farewell =
     2s;  ///< how long a refused client's bytes are still read, so that it gets the answer
 constexpr std::size_t longest_farewell = 4 * 1024 * 1024;  ///< bytes
@@ -54,6 +57,17 @@ bool welcome(Local::socket& socket) {
   socklen_t size = sizeof peer;
   if (::getsockopt(socket.native_handle(), SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return false;
   return peer.uid == ::geteuid() || peer.uid == 0;
+}
+
+/// The address of whoever has connected; empty if it has none.
+std::string peer_of(const Socket& socket) {
+  asio::error_code error;
+  const auto peer = socket.remote_endpoint(error);
+  if (error || (peer.protocol().family() != AF_INET && peer.protocol().family() != AF_INET6)) return {};
+  char name[NI_MAXHOST];
+  const auto size = static_cast<socklen_t>(peer.size());
+  if (::getnameinfo(peer.data(), size, name, sizeof name, nullptr, 0, NI_NUMERICHOST) != 0) return {};
+  return name;
 }
 
 }  // namespace
@@ -91,6 +105,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   asio::awaitable<bool> serve_one();
   asio::awaitable<std::optional<RequestHead>> read_head();
   asio::awaitable<void> read_body(Request& request);
+  asio::awaitable<void> pass_body(const Request& request);
   asio::awaitable<bool> read_some();
   asio::awaitable<void> write(std::string bytes);
   asio::awaitable<void> refuse(Response response);
@@ -111,25 +126,22 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   bool head_only_ = false;  ///< the present request is HEAD
 };
 
-/// While one exists, no other client may send a large body: together they would fill the memory.
-class HttpServer::LargeBody {
+/// The place of a body that is large in memory, or that is taken piece by piece: together such bodies would
+/// fill the memory, or keep the disk from everything else.
+class HttpServer::BodyPlace {
  public:
-  explicit LargeBody(std::shared_ptr<Shared> all) : all_(std::move(all)) {
-    if (!all_) return;
-    if (all_->large_body) {
-      all_.reset();
-      throw HttpError(503, "another file is being sent; try again in a moment");
-    }
-    all_->large_body = true;
+  BodyPlace(std::shared_ptr<Shared> all, std::size_t Shared::*kind, std::size_t most)
+      : all_(std::move(all)), kind_(kind) {
+    if ((*all_).*kind_ >= most) throw HttpError(503, "other files are being sent; try again in a moment");
+    ++((*all_).*kind_);
   }
-  ~LargeBody() {
-    if (all_) all_->large_body = false;
-  }
-  LargeBody(const LargeBody&) = delete;
-  LargeBody& operator=(const LargeBody&) = delete;
+  ~BodyPlace() { --((*all_).*kind_); }
+  BodyPlace(const BodyPlace&) = delete;
+  BodyPlace& operator=(const BodyPlace&) = delete;
 
  private:
   std::shared_ptr<Shared> all_;
+  std::size_t Shared::*kind_;
 };
 
 std::size_t HttpServer::Connection::count(Place place) const {
@@ -213,6 +225,25 @@ asio::awaitable<void> HttpServer::Connection::read_body(Request& request) {
   request.body = std::exchange(buffer_, std::move(rest));
 }
 
+/// A client that is silent for long, or slow in all, is refused.
+asio::awaitable<void> HttpServer::Connection::pass_body(const Request& request) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + body_patience + std::chrono::seconds(request.content_length / slowest_body);
+  for (std::uint64_t left = request.content_length; left > 0;) {
+    if (buffer_.empty()) {
+      expire_after(std::min<Clock::duration>(longest_silence, end - Clock::now()));
+      const bool more = co_await read_some();
+      if (!more && buffer_.empty()) throw HttpError(400, "the body ends too soon");
+      deadline_.cancel();
+    }
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer_.size()));
+    std::string piece = buffer_.substr(0, size);
+    buffer_.erase(0, size);
+    left -= size;
+    co_await request.taker->take(std::move(piece));
+  }
+}
+
 asio::awaitable<void> HttpServer::Connection::write(std::string bytes) {
   expire_after(answer_patience);
   asio::error_code error;
@@ -271,21 +302,31 @@ asio::awaitable<bool> HttpServer::Connection::serve_one() {
   std::optional<RequestHead> head = co_await read_head();
   if (!head) co_return false;
   head->by_socket = local_;
+  head->peer = peer_of(socket_);
   head_only_ = head->method == "HEAD";
-  const std::uint64_t most = server_.handler_.admit(*head);
+  Admission admission = server_.handler_.admit(*head);
   if (server_.handler_.wants_events(*head)) {
     co_await stream_events(std::move(*head));
     co_return false;
   }
-  enter(Place::request, server_.handler_.is_urgent(*head) ? SIZE_MAX : most_requests);
-  if (head->content_length > most)
-    throw HttpError(413, fmt::format("the body is too large; here it has {} bytes at most", most));
+  if (admission.proven) enter(Place::request, server_.handler_.is_urgent(*head) ? SIZE_MAX : most_requests);
+  if (head->content_length > admission.longest_body)
+    throw HttpError(
+        413, fmt::format("the body is too large; here it has {} bytes at most", admission.longest_body));
   Request request;
   static_cast<RequestHead&>(request) = std::move(*head);
-  const LargeBody large(request.content_length > large_body ? all_ : nullptr);
+  request.taker = std::move(admission.taker);
+  std::optional<BodyPlace> place;
+  if (request.taker)
+    place.emplace(all_, &Shared::taken_bodies, most_taken_bodies);
+  else if (request.content_length > large_body)
+    place.emplace(all_, &Shared::large_bodies, most_large_bodies);
   if (request.content_length > 0 && request.lists("expect", "100-continue"))
     co_await write("HTTP/1.1 100 Continue\r\n\r\n");
-  co_await read_body(request);
+  if (request.taker)
+    co_await pass_body(request);
+  else
+    co_await read_body(request);
   deadline_.cancel();
   const bool keep = request.keep_alive;
   const Response response = co_await answered(std::move(request));

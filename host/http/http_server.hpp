@@ -8,7 +8,8 @@
 // client of the Unix socket: only this user and root can connect to it.
 //
 // Everything is limited: connections, bytes of the head, bytes of the body (checked before it is read; one
-// large body at a time), and the time for each. A client that exceeds a limit gets a 4xx and is disconnected.
+// large body at a time, or four that somebody takes piece by piece), and the time for each. A client that
+// exceeds a limit gets a 4xx and is disconnected.
 #pragma once
 
 #include <asio/awaitable.hpp>
@@ -26,11 +27,27 @@
 
 namespace unicursal::host {
 
+/// Takes a body while it arrives, so that it is never in memory as a whole. It is destroyed when the client
+/// is gone before the end.
+class BodyTaker {
+ public:
+  virtual ~BodyTaker() = default;
+  /// Throws HttpError; the rest is not asked for then.
+  virtual asio::awaitable<void> take(std::string bytes) = 0;
+};
+
+/// How a request is let in.
+struct Admission {
+  std::uint64_t longest_body = 0;    ///< bytes; more is refused with 413
+  bool proven = true;                ///< false: anybody may ask, so it has no place among the admitted ones
+  std::shared_ptr<BodyTaker> taker;  ///< null: the body becomes that of the Request
+};
+
 class HttpHandler {
  public:
   virtual ~HttpHandler() = default;
-  /// Called before the body is read; returns the most bytes that it may have. Throws HttpError.
-  virtual std::uint64_t admit(const RequestHead& head) = 0;
+  /// Called before the body is read. Throws HttpError.
+  virtual Admission admit(const RequestHead& head) = 0;
   /// Throws HttpError; any other exception becomes a 500.
   virtual asio::awaitable<Response> answer(Request request) = 0;
   /// Whether an admitted request asks for the stream of events.
@@ -61,7 +78,7 @@ class HttpServer {
 
  private:
   class Connection;
-  class LargeBody;
+  class BodyPlace;
   template <typename Acceptor>
   asio::awaitable<void> accept(Acceptor& acceptor);
 
@@ -72,7 +89,7 @@ class HttpServer {
   struct Shared {
     std::set<Connection*> connections;
     std::uint64_t arrivals = 0;
-    bool large_body = false;  ///< one is being received
+    std::size_t large_bodies = 0, taken_bodies = 0;  ///< that are being received
   };
   /// Shared with the connections, which may outlive this object until the loop is gone.
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();

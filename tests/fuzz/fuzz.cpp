@@ -166,7 +166,8 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"kept", test::kept_print},
     {"replies", test::read_replies},
     {"conversation", test::converse},
-    {"http", test::http}};
+    {"http", test::http},
+    {"form", test::form}};
 
 /// Returns true if the file was read, and false if it was properly refused.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -210,7 +211,7 @@ int main(int count, char** words) {
         stderr,
         "usage: fuzz FOLDER "
         "drawing|mesh|package|wavefront|amf|directions|job|plan|printer|lines|faults|control|journal|"
-        "chunks|kept|replies|conversation|http "
+        "chunks|kept|replies|conversation|http|form "
         "SECONDS [FIRST]\n");
     return 2;
   }

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "host/daemon/api.hpp"
 #include "host/daemon/state_folder.hpp"
+#include "host/http/form_reader.hpp"
 #include "host/http/http_server.hpp"
 #include "tests/fuzz/damage.hpp"
 #include "tests/host/support/raw_http.hpp"
@@ -83,8 +84,24 @@ std::string noise(core::Random& random, std::size_t most) {
   return bytes;
 }
 
+const std::string boundary = "------------------------4ebf00fbcf09";
+
+std::string slicers_form(core::Random& random) {
+  const auto part = [](const std::string& disposition, const std::string& content) {
+    return "--" + boundary + "\r\nContent-Disposition: form-data; " + disposition + "\r\n\r\n" + content +
+           "\r\n";
+  };
+  const std::string name =
+      pick(random, {"a.svg", "../../b.svg", "c.gcode", "W\xc3\xbcrfel (2).stl", "d.toml", ""});
+  return part("name=\"print\"", pick(random, {"true", "false", ""})) + part("name=\"path\"", "") +
+         part("name=\"file\"; filename=\"" + name + "\"", damaged(sample_drawing, random)) + "--" + boundary +
+         "--\r\n";
+}
+
 std::string body(core::Random& random) {
-  switch (random.below(4)) {
+  switch (random.below(5)) {
+    case 4:
+      return slicers_form(random);
     case 0:
       return damaged(R"({"job": "plate.toml", "layers": [0, 1]})", random);
     case 1:
@@ -98,12 +115,28 @@ std::string body(core::Random& random) {
 
 std::string request(Target& target, core::Random& random, bool known) {
   const std::string content = body(random);
-  std::string text =
-      pick(random, {"GET", "POST", "PUT", "DELETE", "OPTIONS", "CONNECT"}) + " " +
-      pick(random, {"/api/status", "/api/jobs", "/api/jobs/1", "/api/files/a/b.toml", "/metrics",
-                    "/api/print/start", "/api/print/stop", "/api/events", "/../../etc/passwd",
-                    "/api/files/../x", "/api/temperature", "/api/speed", "/api/printer"}) +
-      " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(target.port()) + "\r\n";
+  std::string text = pick(random, {"GET", "POST", "PUT", "DELETE", "OPTIONS", "CONNECT"}) + " " +
+                     pick(random, {"/api/status",
+                                   "/api/jobs",
+                                   "/api/jobs/1",
+                                   "/api/files/a/b.toml",
+                                   "/metrics",
+                                   "/api/print/start",
+                                   "/api/print/stop",
+                                   "/api/events",
+                                   "/../../etc/passwd",
+                                   "/api/files/../x",
+                                   "/api/temperature",
+                                   "/api/speed",
+                                   "/api/printer",
+                                   "/api/files/local",
+                                   "/api/files/local/a.svg",
+                                   "/api/job",
+                                   "/api/connection",
+                                   "/api/login",
+                                   "/api/keys",
+                                   "/api/bed"}) +
+                     " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(target.port()) + "\r\n";
   if (known) text += "Authorization: Bearer " + target.token() + "\r\n";
   if (random.below(3) == 0)
     text += pick(random, {"Origin: http://evil.example\r\n", "Expect: 100-continue\r\n",
@@ -113,7 +146,10 @@ std::string request(Target& target, core::Random& random, bool known) {
     text +=
         "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
-  text += pick(random, {"Content-Type: application/json\r\n", "Content-Type: text/plain\r\n", ""});
+  if (content.starts_with("--"))
+    text += "Content-Type: multipart/form-data; boundary=" + boundary + "\r\n";
+  else
+    text += pick(random, {"Content-Type: application/json\r\n", "Content-Type: text/plain\r\n", ""});
   return text + "Content-Length: " + std::to_string(content.size()) + "\r\n\r\n" + content;
 }
 
@@ -134,7 +170,43 @@ void check_alive(Target& target) {
   if (!target.nothing_strange()) throw std::runtime_error("a file was made elsewhere");
 }
 
+/// What a reader finds, or how it refuses, as one text.
+std::string found(const std::string& bytes, core::Random* random) {
+  class Taker final : public FormTaker {
+   public:
+    std::string all;
+    void begin(const FormPart& part) override {
+      all += "[" + part.name + "|" + part.filename.value_or("-") + "|";
+    }
+    void take(std::string_view piece) override { all += piece; }
+    void end() override { all += "]"; }
+  };
+  Taker taker;
+  FormReader reader(boundary, taker);
+  try {
+    for (std::size_t at = 0; at < bytes.size();) {
+      const std::size_t size = random ? 1 + random->below(random->below(10) == 0 ? 1000 : 4) : bytes.size();
+      reader.add(std::string_view(bytes).substr(at, size));
+      at += size;
+    }
+    reader.finish();
+  } catch (const HttpError& refused) {
+    taker.all += std::to_string(refused.status());
+  }
+  return taker.all;
+}
+
 }  // namespace
+
+void form(const std::filesystem::path& folder, core::Random& random) {
+  fs::create_directories(folder);
+  std::string bytes = slicers_form(random);
+  if (random.below(4) != 0) bytes = damaged(bytes, random);
+  std::ofstream(folder / "form", std::ios::binary) << bytes;
+  const std::string whole = found(bytes, nullptr);
+  if (found(bytes, &random) != whole) throw std::runtime_error("pieces make another form");
+  if (!whole.ends_with("]")) throw core::DataError("", "", "refused", "");
+}
 
 void http(const std::filesystem::path& folder, core::Random& random) {
   static Target target(folder);

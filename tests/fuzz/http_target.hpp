@@ -11,4 +11,7 @@ namespace unicursal::test {
 /// something that it must not do: answer a stranger, send something other than HTTP, or make files elsewhere.
 void http(const std::filesystem::path& folder, core::Random& random);
 
+/// A damaged form of a slicer: cut into any pieces it must be read, or refused, as in one piece.
+void form(const std::filesystem::path& folder, core::Random& random);
+
 }  // namespace unicursal::test

@@ -110,6 +110,14 @@ TEST_CASE("the queue is found again, and the job that was being printed is inter
   CHECK_THROWS_AS(Queue(file), DaemonError);
 }
 
+TEST_CASE("uploads are listed also when the state folder was named by a relative path") {
+  const Folders folders;
+  const JobFiles files({folders.folder / "jobs"}, fs::relative(folders.folder / "uploads"));
+  files.keep("leaf", "leaf.svg", test::sample_drawing);
+  CHECK(files.list() == std::vector<std::string>{"animals/fish.toml", "leaf.toml", "upload:leaf/leaf.svg"});
+  CHECK(files.local_file("leaf.svg").job == "upload:leaf/leaf.svg");
+}
+
 TEST_CASE("the last jobs that have ended are kept") {
   const test::TempFolder folder;
   Queue queue(folder / "queue.json");

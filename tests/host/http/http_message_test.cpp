@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "host/daemon/access.hpp"
+#include "host/daemon/secret.hpp"
 #include "host/http/websocket.hpp"
 
 using namespace unicursal::host;

@@ -1,0 +1,100 @@
+#include "host/daemon/api_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/text/wording.hpp"
+
+namespace unicursal::host {
+
+using nlohmann::json;
+
+namespace {
+
+int status_of(Refused::Why why) {
+  switch (why) {
+    case Refused::Why::bad_name:
+      return 400;
+    case Refused::Why::not_found:
+      return 404;
+    case Refused::Why::conflict:
+      return 409;
+    case Refused::Why::bad_job:
+      return 422;
+    case Refused::Why::bad_kind:
+      return 415;
+    case Refused::Why::busy:
+      return 503;
+    case Refused::Why::no_room:
+      break;
+  }
+  return 507;
+}
+
+}  // namespace
+
+HttpError http_error(const Refused& refused) {
+  return {status_of(refused.why()), refused.what()};
+}
+
+Response plain_reply(const json& body, int status) {
+  Response response;
+  response.status = status;
+  response.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  return response;
+}
+
+Response reply(json body, int status) {
+  body["version"] = 1;
+  return plain_reply(body, status);
+}
+
+json read_object(const Request& request) {
+  if (request.body.empty()) return json::object();
+  std::string type = core::lower(request.header("content-type").value_or(""));
+  type.resize(std::min(type.find(';'), type.size()));  // parameters follow (RFC 9110, 8.3.1)
+  type.resize(type.find_last_not_of(" \t") + 1);
+  if (type != "application/json") throw HttpError(415, "send JSON, as Content-Type: application/json");
+  json body = json::parse(request.body, nullptr, false);
+  if (!body.is_object()) throw HttpError(400, "the body is not a JSON object");
+  return body;
+}
+
+json read_object(const Request& request, std::initializer_list<const char*> keys) {
+  json body = read_object(request);
+  for (const auto& [key, value] : body.items()) {
+    const bool known = std::any_of(keys.begin(), keys.end(), [&](const char* one) { return key == one; });
+    if (!known) throw HttpError(400, "a key is not known here: \"" + key.substr(0, 40) + "\"");
+  }
+  return body;
+}
+
+std::string text_in(const json& body, const char* key) {
+  const auto found = body.find(key);
+  if (found == body.end() || found->is_null()) return {};
+  if (!found->is_string()) throw HttpError(400, fmt::format("{} is not a text", key));
+  return found->get<std::string>();
+}
+
+bool yes(const json& body, const char* key) {
+  const auto found = body.find(key);
+  if (found == body.end()) return false;
+  if (!found->is_boolean()) throw HttpError(400, fmt::format("{} is not true or false", key));
+  return found->get<bool>();
+}
+
+void obeyed(const std::optional<std::string>& refusal) {
+  if (refusal) throw HttpError(409, *refusal);
+}
+
+std::uint64_t number_behind(const std::string& path, std::string_view prefix) {
+  std::uint64_t id = 0;
+  const char* end = path.data() + path.size();
+  const auto [stop, error] = std::from_chars(path.data() + prefix.size(), end, id);
+  if (error != std::errc() || stop != end) throw HttpError(404, "it is named by its number");
+  return id;
+}
+
+}  // namespace unicursal::host

@@ -1,0 +1,39 @@
+// What the handlers of requests share: reading JSON, and answering with it.
+#pragma once
+
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "host/daemon/refused.hpp"
+#include "host/http/http_message.hpp"
+
+namespace unicursal::host {
+
+/// With `"version": 1`.
+Response reply(nlohmann::json body, int status = 200);
+/// As it is.
+Response plain_reply(const nlohmann::json& body, int status = 200);
+
+/// Reads an object; an empty body is an empty object. Throws HttpError 400 or 415.
+nlohmann::json read_object(const Request& request);
+/// The same; the object has known keys only.
+nlohmann::json read_object(const Request& request, std::initializer_list<const char*> keys);
+
+/// Throws HttpError 400 if it is there and not a text; absent: empty.
+std::string text_in(const nlohmann::json& body, const char* key);
+/// Throws HttpError 400 if it is there and not true or false; absent: false.
+bool yes(const nlohmann::json& body, const char* key);
+
+/// Throws HttpError 409 if a session has refused.
+void obeyed(const std::optional<std::string>& refusal);
+
+/// With the status that fits.
+HttpError http_error(const Refused& refused);
+
+/// The number behind `prefix` in a path. Throws HttpError 404.
+std::uint64_t number_behind(const std::string& path, std::string_view prefix);
+
+}  // namespace unicursal::host
