@@ -27,7 +27,7 @@ Entries::Entries(std::istream& file, const std::string& name, const Printer& pri
       settings_(settings),
       want_(std::move(want)),
       filament_area_(std::numbers::pi / 4 * printer.filament_diameter * printer.filament_diameter),
-      reader_(file, name, printer, settings.limits) {}
+      reader_(file, name, printer, settings.limits, survey.marked) {}
 
 void Entries::look_whether_to_stop() {
   if (!settings_.stop || reader_.lines() / lines_between_stops == looked_) return;
@@ -100,6 +100,10 @@ bool Entries::leaves_out(const SlicedMove& step) {
     if (step.filament != 0 && std::exchange(rammed_, false)) retraction_.forget();
     left_out_ += retraction_.take(step.filament, !step.moves_flat()) * filament_area_;
     away_ = true;
+  } else if (away_ && !step.moves() && step.filament < 0) {  // drawn back before the way back
+    if (std::exchange(rammed_, false)) retraction_.forget();
+    retraction_.take(step.filament, true);
+    return true;
   } else {
     return away_ && step.filament == 0;  // on its way back
   }

@@ -363,6 +363,11 @@ Remix::Remix(Remix&&) noexcept = default;
 
 Chunk Remix::start() {
   State& s = *state_;
+  for (const auto& [number, material] : s.settings.tools) {
+    const Material& of = s.settings.materials[material];
+    s.chunk.lines.push_back(
+        comment(fmt::format(" unicursal prints T{} with {}: {}", number, of.name, shares_text(of.mixture))));
+  }
   append(s.chunk.lines, choose_extruder(s.dialect));
   append(s.chunk.lines, {stay_watchful(), "M220 S100", "M221 S100"});
   append(s.chunk.lines, modes());
@@ -415,7 +420,7 @@ Chunk Remix::finish(bool stopped) {
     for (const SlicedStep& step : s.entries.rest()) {
       if (const auto* pass = std::get_if<SlicedPass>(&step)) s.write(Text{pass->text});
       const auto* move = std::get_if<SlicedMove>(&step);
-      if (!move) continue;
+      if (!move || move->ramming || (s.settings.leave_out_tower && move->feature == Feature::tower)) continue;
       if (move->filament != 0) s.select_equal_shares();
       s.move(move->to, move->filament, move->feed);
     }

@@ -22,13 +22,18 @@ struct CommentState {
   Feature feature = Feature::unknown;
   bool any_feature = false;  ///< features are named at all
   std::optional<double> width, height;
-  bool tower = false;                ///< inside the wipe tower, whatever the feature
-  bool ramming = false;              ///< filament is unloaded or loaded, which no mixing nozzle needs
-  std::vector<std::string> colours;  ///< of the tools, "#rrggbb" or empty
+  bool tower = false;    ///< inside the wipe tower, whatever the feature
+  bool ramming = false;  ///< filament is unloaded or loaded, which no mixing nozzle needs
+  /// Of the tools, "#rrggbb" or empty: those of the printer's extruders, and those of the filaments.
+  std::vector<std::string> extruder_colours, filament_colours;
+  bool filaments_first = false;  ///< the extruders' colours are a leftover of the printer's settings
+  std::string layer_z;           ///< as the last mark of a layer names it; empty: it does not
   std::optional<double> filament_diameter;
   std::string changed_to;   ///< the colour of the last change of filament that the slicer has planned
   bool volumetric = false;  ///< E is mm³
 
+  /// The colour of a tool's filament, "#rrggbb"; empty if the file does not name it.
+  std::string colour(int tool) const;
   Feature present() const { return tower ? Feature::tower : feature; }
 };
 

@@ -18,6 +18,7 @@ namespace {
 constexpr double beyond_bed = 0.05;    ///< mm that a position may lie outside, by rounding
 constexpr double below_bed = 0.5;      ///< mm; some slicers lower the first layer by an offset
 constexpr double cold = 170;           ///< °C; firmwares refuse to extrude below (Marlin: EXTRUDE_MINTEMP)
+constexpr double least_cold = 150;     ///< °C; a printer that extrudes from here on is not harmed
 constexpr double chord_error = 0.005;  ///< mm between an arc and its chords
 constexpr double radius_error = 0.05;  ///< mm by which the ends of an arc may differ in radius
 constexpr double longest_filament = 1000;  ///< mm in one move; more is a typing error
@@ -35,8 +36,8 @@ std::string shown(std::string_view text) {
 }  // namespace
 
 SlicedReader::SlicedReader(std::istream& file, std::string name, const Printer& printer,
-                           const SlicedLimits& limits)
-    : source_(file, name), name_(std::move(name)), printer_(printer), limits_(limits) {}
+                           const SlicedLimits& limits, bool marked)
+    : source_(file, name), name_(std::move(name)), printer_(printer), limits_(limits), marked_(marked) {}
 
 void SlicedReader::refuse(const std::string& problem, const std::string& remedy) const {
   throw core::DataError(name_, fmt::format("line {}", source_.number()), problem, remedy);
@@ -82,6 +83,7 @@ void SlicedReader::comment(std::string_view text) {
   constexpr std::size_t most_shown = 200;
   switch (read_comment(text, comments_)) {
     case CommentMeaning::layer:
+      marked_late_ = marked_late_ || (!marked_ && layers_ > 0);
       marked_ = true;
       return begin_layer();
     case CommentMeaning::layer_mark:
@@ -132,6 +134,9 @@ void SlicedReader::command(const SlicedCommand& line) {
     return retract_by_firmware(line.code == 10);
   }
   if (line.letter != 'G' && line.letter != 'M') {
+    if (macro_.empty())
+      macro_ = fmt::format("; \"{}\" in line {} is a macro of another printer", shown(line.name),
+                           source_.number());
     note("word " + std::string(line.name),
          fmt::format("\"{}\" is not a G-code that this printer knows; it is left out", shown(line.name)));
     return;
@@ -150,7 +155,8 @@ void SlicedReader::command(const SlicedCommand& line) {
     case CommandKind::homes:
       return home(line);
     case CommandKind::refuse:
-      if (line.is('M', 211) && line.value_or('S', 0) > 0) return pass(std::string(line.text));
+      if (line.is('G', 5) && !line.has('X') && !line.has('Y') && !line.has('E')) return;
+      if (line.is('M', 302) && line.value_or('S', 0) >= least_cold && line.value_or('P', 0) == 0) return;
       refuse(fmt::format("{} {}", shown(line.name), use.why), std::string(use.remedy));
     case CommandKind::leave_out:
       if (use.why.empty()) return;
@@ -166,6 +172,13 @@ void SlicedReader::command(const SlicedCommand& line) {
   if (line.text.size() > longest) {
     return note("long " + word,
                 fmt::format("{} is longer than the printer's buffer; it is left out", shown(line.name)));
+  }
+  if (line.is('M', 117) || line.is('M', 118)) {
+    std::string words(line.text);
+    for (char& c : words) {
+      if (c < ' ' || c > '~' || c == '*') c = '?';
+    }
+    return pass(std::move(words));
   }
   if (std::any_of(line.text.begin(), line.text.end(), [](char c) { return c < ' ' || c > '~' || c == '*'; }))
     return note(
@@ -227,16 +240,31 @@ void SlicedReader::check_inside(const Place& place) const {
       refuse("moves farther than any printer can", "slice the part again, or repair this line");
     refuse(fmt::format("moves to {} = {:g} mm, outside the bed of the profile (0 to {:g} mm)",
                        static_cast<char>(axes[i] - 'A' + 'a'), native, printer_.bed[i]),
-           "slice for this printer, with the origin at the bed's front left corner, or correct `bed` in the "
-           "profile");
+           "slice for this printer, with the origin at the bed's front left corner and without another "
+           "printer's purge "
+           "line, or correct `bed` in the profile");
   }
 }
 
 void SlicedReader::check_warm() const {
   if (nozzle_ >= cold) return;
-  refuse(nozzle_ == 0 ? std::string("extrudes before the file has heated the nozzle")
+  refuse(nozzle_ == 0 ? "extrudes before the file has heated the nozzle" + macro_
                       : fmt::format("extrudes with the nozzle set to {:g} °C", nozzle_),
          "add M109 to the slicer's start G-code, as every slicer's own profiles have it");
+}
+
+/// A host's macro may have homed, which this program does not know.
+void SlicedReader::check_homed() const {
+  if (homed_[0] && homed_[1] && homed_[2]) return;
+  refuse("prints before the file has homed the axes" + macro_,
+         "add G28 to the slicer's start G-code, as every slicer's own profiles have it");
+}
+
+/// Some files rely on a firmware that waits by itself.
+void SlicedReader::wait_for_heat() {
+  if (std::exchange(waited_, true) || layers_ > 0) return;
+  note("no wait", "the file extrudes without waiting for the nozzle's heat; the print waits there");
+  pass(fmt::format("M109 S{}", short_number(nozzle_, 1)));
 }
 
 void SlicedReader::straight(const SlicedCommand&, const Place& to, double filament) {
@@ -245,7 +273,7 @@ void SlicedReader::straight(const SlicedCommand&, const Place& to, double filame
 
 void SlicedReader::move(const Place& to, double filament) {
   check_inside(to);
-  if (filament > 0) check_warm();
+  if (filament > 0) check_warm(), wait_for_heat();
   SlicedMove step;
   step.line = source_.number();
   step.from = at_;
@@ -258,8 +286,10 @@ void SlicedReader::move(const Place& to, double filament) {
   step.ramming = comments_.ramming;
   at_ = to;
   if (!step.moves() && filament == 0) return;
+  if (step.lays()) check_homed();
   // What is laid before the first mark is the user's own.
-  if (step.lays() && step.feature != Feature::custom && to[2]) begin_layer_by_height(*to[2]);
+  const bool beside = step.feature == Feature::custom || step.feature == Feature::tower || step.ramming;
+  if (step.lays() && !beside && to[2]) begin_layer_by_height(*to[2]);
   if (layers_ == 0 && step.feature != Feature::tower) step.feature = Feature::custom;
   if (layers_ == 1 && step.feature == Feature::solid) step.feature = Feature::bottom;
   laid_ = laid_ || (layers_ > 0 && step.lays());
@@ -354,6 +384,10 @@ void SlicedReader::retract_by_firmware(bool back) {
 // ---- modes
 
 void SlicedReader::set_mode(const SlicedCommand& line) {
+  if (line.letter == 'M' && (line.code == 6 || line.code == 108)) {  // FlashPrint's change of tool
+    if (line.valued('T')) change_tool(parse_command(fmt::format("T{}", line.value('T'))));
+    return;
+  }
   if (line.is('G', 20)) inches_ = true;
   if (line.is('G', 21)) inches_ = false;
   if (line.is('G', 90)) relative_ = false;
@@ -377,6 +411,7 @@ void SlicedReader::set_position(const SlicedCommand& line) {
     if (std::abs(value) > farthest) refuse("sets a position that no printer has", "repair this line");
     if (at_[i]) offset_[i] += *at_[i] - value;
     at_[i] = value;
+    homed_[i] = true;
     words += fmt::format(" {}{}", axes[i], short_number(value, 5));
   }
   if (!words.empty()) pass("G92" + words);
@@ -385,26 +420,42 @@ void SlicedReader::set_position(const SlicedCommand& line) {
 /// The firmware chooses where the nozzle stands afterwards.
 void SlicedReader::home(const SlicedCommand& line) {
   const bool some = std::any_of(axes.begin(), axes.end(), [&](char axis) { return line.has(axis); });
-  if (line.is('G', 28) && laid_ && (!some || line.has('Z')))
+  const bool homes = line.is('G', 28) || line.is('G', 161) || line.is('G', 162);
+  if (homes && laid_ && (!some || line.has('Z')))
     note("home", "G28 homes z although plastic was laid; see that the head cannot strike the part");
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (line.is('G', 28) && some && !line.has(axes[i])) continue;
+    if (homes && some && !line.has(axes[i])) continue;
     at_[i].reset();
     offset_[i] = 0;
+    homed_[i] = homed_[i] || homes;
   }
-  pass(std::string(line.text.substr(0, 90)));
+  if (!line.is('G', 161) && !line.is('G', 162)) return pass(std::string(line.text.substr(0, 90)));
+  std::string words = "G28";  // FlashPrint
+  for (const char axis : axes) {
+    if (line.has(axis)) words += fmt::format(" {}", axis);
+  }
+  pass(std::move(words));
 }
 
 void SlicedReader::heat(const SlicedCommand& line) {
+  if (line.is('M', 116)) {  // waits for all heaters
+    if (layers_ > 0) return note("wait", "M116 would wait over the part; it is left out");
+    if (bed_ > 0) pass("M190 S" + short_number(bed_, 1));
+    if (nozzle_ > 0) pass("M109 S" + short_number(nozzle_, 1));
+    waited_ = true;
+    return;
+  }
   const bool bed = line.is('M', 140) || line.is('M', 190);
-  const double target = line.value_or('S', line.value_or('R', -1));
+  const bool standby =
+      line.is('G', 10) || line.is('M', 568);  // their R is the temperature of a tool that waits
+  const double target = line.value_or('S', standby ? -1 : line.value_or('R', -1));
   if (target < 0) return;  // only a wait, or a question
   const double most = bed ? limits_.hottest_bed : limits_.hottest_nozzle;
   if (target > most) {
     refuse(fmt::format("heats the {} to {:g} °C; the most is {:g} °C", bed ? "bed" : "nozzle", target, most),
            "correct the temperature in the slicer");
   }
-  const char which = line.letter == 'G' ? 'P' : 'T';
+  const char which = standby ? 'P' : 'T';
   if (!bed && line.valued(which) && static_cast<int>(line.value(which)) != tool_ && target < nozzle_) {
     return note(
         "other nozzle",
@@ -418,7 +469,8 @@ void SlicedReader::heat(const SlicedCommand& line) {
                              shown(line.name)));
     wait = false;
   }
-  if (!bed) nozzle_ = target;
+  if (!bed) waited_ = wait || (waited_ && target <= nozzle_);
+  (bed ? bed_ : nozzle_) = target;
   const bool only_up = line.valued('S');
   pass(fmt::format("M{} {}{}", bed ? (wait ? 190 : 140) : (wait ? 109 : 104), wait && !only_up ? 'R' : 'S',
                    short_number(target, 1)));
@@ -445,7 +497,9 @@ void SlicedReader::enter_tool(int tool) {
 }
 
 void SlicedReader::change_tool(const SlicedCommand& line) {
-  if (line.code < 0 || line.code > most_tools || line.text.find_first_of("?xXcC") != std::string_view::npos) {
+  const bool word = line.text.find_first_of("?_") != std::string_view::npos ||
+                    line.text.find_first_of("xXcC") != std::string_view::npos;
+  if (line.code < 0 || line.code >= most_tools || word) {
     return note("tool " + std::string(line.name),
                 fmt::format("{} is not a tool of this printer; it is left out", shown(line.name)));
   }

@@ -30,12 +30,17 @@ namespace unicursal::gcode {
 
 class SlicedReader {
  public:
-  /// `file` must outlive this object.
-  SlicedReader(std::istream& file, std::string name, const Printer& printer, const SlicedLimits& limits);
+  /// `file` must outlive this object. `marked`: comments mark the layers, also where none has come yet.
+  SlicedReader(std::istream& file, std::string name, const Printer& printer, const SlicedLimits& limits,
+               bool marked = false);
 
   /// nullopt at the end of the file. Throws core::DataError.
   std::optional<SlicedStep> next();
 
+  /// Comments mark the layers.
+  bool marked() const { return marked_; }
+  /// They do, and layers were begun before by their height: the file has to be read again with `marked`.
+  bool marked_late() const { return marked_late_; }
   /// Whether next() has to read a line.
   bool nothing_pending() const { return steps_.empty(); }
   const CommentState& comments() const { return comments_; }
@@ -75,6 +80,8 @@ class SlicedReader {
   void pass(std::string text);
   void check_inside(const Place& place) const;
   void check_warm() const;
+  void check_homed() const;
+  void wait_for_heat();
   void begin_layer_by_height(double z);
   void begin_layer();
   void note(const std::string& key, const std::string& sentence);
@@ -95,8 +102,12 @@ class SlicedReader {
   bool drawn_by_firmware_ = false;
   int tool_ = 0;          ///< the file's number
   int mixture_tool_ = 0;  ///< the number in the steps
-  double nozzle_ = 0, hottest_nozzle_ = 0, hottest_bed_ = 0;
+  std::array<bool, 3> homed_{};
+  bool waited_ = true;  ///< for the nozzle's heat
+  std::string macro_;   ///< the first word that was left out; it may have homed and heated
+  double nozzle_ = 0, bed_ = 0, hottest_nozzle_ = 0, hottest_bed_ = 0;
   bool laid_ = false;
+  bool marked_late_ = false;
   bool marked_ = false;  ///< comments mark the layers
   std::size_t layers_ = 0;
   double layer_z_ = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -36,6 +37,8 @@ class Surveyor {
     }
     if (move.filament != 0 && std::exchange(rammed_, false)) retraction_.forget();
     const double fed = retraction_.take(move.filament, !move.moves_flat());
+    const bool in_tower = move.ramming || move.feature == Feature::tower;
+    if (in_tower != in_tower_) note_tower_time(), in_tower_ = in_tower;
     PerAxis way{};
     for (std::size_t i = 0; i < 3; ++i)
       way[i] = move.to[i].value_or(0) - move.from[i].value_or(move.to[i].value_or(0));
@@ -55,11 +58,12 @@ class Surveyor {
     for (const Place& place : {move.from, move.to}) extend(place);
     const double z = move.to[2].value_or(0);
     survey_.height = std::max(survey_.height, z);
-    note_height(z);
+    if (std::exchange(layer_is_new_, false)) note_height(z);
   }
   void take(const SlicedToolChange& change) { tool_ = change.tool, retraction_.change_tool(tool_); }
   void take(const SlicedLayer& layer) {
     survey_.layers = layer.index + 1;
+    layer_is_new_ = true;
     end_layer();
     in_layers_ = true;
   }
@@ -74,6 +78,7 @@ class Surveyor {
     survey_.nozzle = reader_.hottest_nozzle();
     survey_.bed = reader_.hottest_bed();
     survey_.lines = reader_.lines();
+    survey_.marked = reader_.marked();
     survey_.notes = reader_.notes();
     if (!any_ || survey_.layers == 0) {
       throw core::DataError(name_, "", "lays no plastic",
@@ -83,8 +88,7 @@ class Surveyor {
     survey_.layer_height = heights_.empty() ? survey_.first_layer_height : most_common_height();
     for (const auto& [number, volume] : tools_) {
       SlicedTool tool{number, {}, volume, {}};
-      if (number >= 0 && static_cast<std::size_t>(number) < comments.colours.size())
-        tool.colour = comments.colours[static_cast<std::size_t>(number)];
+      tool.colour = comments.colour(number);
       if (const auto own = reader_.own_colours().find(number); own != reader_.own_colours().end())
         tool.colour = own->second;
       if (const auto own = reader_.own_mixtures().find(number); own != reader_.own_mixtures().end())
@@ -108,8 +112,9 @@ class Surveyor {
     if (!comments.any_feature) {
       survey_.notes.push_back(
           "the file does not say what is wall and what is infill, so that changes of mixture cannot be "
-          "hidden; switch "
-          "comments on in the slicer (verbose G-code)");
+          "hidden; "
+          "slice with a program that writes it into comments, such as PrusaSlicer from version 2.3 on, or "
+          "Cura");
     }
     return std::move(survey_);
   }
@@ -134,9 +139,19 @@ class Surveyor {
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     return static_cast<double>(most->first) / 1000;
   }
-  void end_layer() {
+  void note_tower_time() {
     const double now = time_.seconds();
-    if (in_layers_) survey_.layer_seconds.push_back(now - layer_began_);
+    if (in_tower_) in_this_tower_ += now - tower_began_;
+    tower_began_ = now;
+  }
+  void end_layer() {
+    note_tower_time();
+    const double now = time_.seconds();
+    if (in_layers_) {
+      survey_.layer_seconds.push_back(now - layer_began_);
+      survey_.tower_seconds.push_back(in_this_tower_);
+    }
+    in_this_tower_ = 0;
     layer_began_ = now;
   }
 
@@ -151,25 +166,41 @@ class Surveyor {
   std::map<long long, std::size_t> heights_;  ///< µm, and how often
   int tool_ = 0;
   std::optional<int> last_tool_;
-  double last_z_ = 0, layer_began_ = 0;
+  double last_z_ = 0, layer_began_ = 0, tower_began_ = 0, in_this_tower_ = 0;
+  bool in_tower_ = false, layer_is_new_ = false;
   bool any_ = false, in_layers_ = false, rammed_ = false, seen_any_ = false;
   double before_part_ = 0;  ///< mm³ before the first bead that is seen
 };
 
 }  // namespace
 
-SlicedSurvey survey_sliced(std::istream& file, const std::string& name, const Printer& printer,
-                           const SlicedLimits& limits, const std::function<void()>& stop) {
-  SlicedReader reader(file, name, printer, limits);
+namespace {
+
+/// nullopt if the file has to be read again, because comments mark its layers.
+std::optional<SlicedSurvey> survey_once(std::istream& file, const std::string& name, const Printer& printer,
+                                        const SlicedLimits& limits, const std::function<void()>& stop,
+                                        bool marked) {
+  SlicedReader reader(file, name, printer, limits, marked);
   Surveyor surveyor(name, printer, reader);
   std::uint64_t looked = 0;
   while (const auto step = reader.next()) {
+    if (reader.marked_late()) return std::nullopt;
     std::visit([&](const auto& kind) { surveyor.take(kind); }, *step);
-    if (stop &&
-        reader.lines() / lines_between_stops != std::exchange(looked, reader.lines() / lines_between_stops))
-      stop();
+    if (!stop || reader.lines() / lines_between_stops == looked) continue;
+    looked = reader.lines() / lines_between_stops;
+    stop();
   }
   return surveyor.finish();
+}
+
+}  // namespace
+
+SlicedSurvey survey_sliced(std::istream& file, const std::string& name, const Printer& printer,
+                           const SlicedLimits& limits, const std::function<void()>& stop) {
+  if (auto survey = survey_once(file, name, printer, limits, stop, false)) return std::move(*survey);
+  file.clear();
+  file.seekg(0);
+  return *survey_once(file, name, printer, limits, stop, true);
 }
 
 }  // namespace unicursal::gcode

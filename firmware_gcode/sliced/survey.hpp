@@ -40,8 +40,10 @@ struct SlicedSurvey {
   double tower_volume = 0;  ///< mm³ of it in the wipe tower
   double seconds = 0;       ///< estimated, without heating
   std::vector<double> layer_seconds;
-  double nozzle = 0, bed = 0;  ///< highest targets
-  std::size_t changes = 0;     ///< of tool, between beads
+  std::vector<double> tower_seconds;  ///< of these, in the wipe tower
+  double nozzle = 0, bed = 0;         ///< highest targets
+  std::size_t changes = 0;            ///< of tool, between beads
+  bool marked = false;                ///< comments mark the layers
   std::uint64_t lines = 0;
   std::uint64_t last_bead = 0;  ///< line of the last move that lays plastic; what follows is the file's end
   std::vector<std::string> notes;  ///< for the user, one sentence each

@@ -7,7 +7,7 @@ namespace unicursal::gcode {
 namespace {
 
 bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
+  return c == ' ' || c == '\t' || c == '\r' || c == '\xc2' || c == '\xa0';  // the last two: a no-break space
 }
 char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;

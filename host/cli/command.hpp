@@ -29,6 +29,7 @@ class Command {
 
 std::unique_ptr<Command> make_dry_run();
 std::unique_ptr<Command> make_plan();
+std::unique_ptr<Command> make_mix();
 std::unique_ptr<Command> make_curve();
 std::unique_ptr<Command> make_simulate();
 

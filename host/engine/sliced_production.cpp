@@ -1,7 +1,6 @@
 #include "host/engine/sliced_production.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "core/stopping.hpp"
@@ -96,8 +95,11 @@ std::optional<double> SlicedProduction::Steps::foretold(std::size_t begin, std::
   const std::vector<double>& seconds = of_.prepared_.survey.layer_seconds;
   end = std::min(end, seconds.size());
   begin = std::min(begin, end);
-  return std::accumulate(seconds.begin() + static_cast<std::ptrdiff_t>(begin),
-                         seconds.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+  const std::vector<double>& in_tower = of_.prepared_.survey.tower_seconds;
+  const bool tower = of_.prepared_.job.sliced->tower;
+  double sum = 0;
+  for (std::size_t i = begin; i < end; ++i) sum += seconds[i] - (tower ? 0 : in_tower.at(i));
+  return sum;
 }
 
 SlicedProduction::SlicedProduction(PreparedSliced prepared)

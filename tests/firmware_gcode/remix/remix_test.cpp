@@ -238,6 +238,13 @@ TEST_CASE("A wipe tower that is left out leaves the part as it was, and travels 
   // What is drawn back is pushed forward again: nothing is missing, and nothing spills.
   CHECK(played.fed == Approx(printed - played.drawn).margin(1e-3));
   CHECK(played.drawn == Approx(2).margin(1e-3));
+  for (const std::string& line : without.lines)
+    CHECK(line.find("X180") == std::string::npos);  // nor a way there
+  CHECK(without.survey.layers == 6);
+  CHECK(without.layers == 6);
+  double tower_seconds = 0;
+  for (const double seconds : without.survey.tower_seconds) tower_seconds += seconds;
+  CHECK(without.seconds == Approx(without.survey.seconds - tower_seconds).epsilon(0.1));
   // With the tower, it is there, and still nothing unloads filament.
   const Remixed with = remix(block.text, printer_of(2.1, 4));
   const Played kept = test::play(with.lines);

@@ -5,11 +5,12 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "firmware_gcode/sliced/survey.hpp"
 
 namespace unicursal::gcode {
 namespace {
 
-const std::string warm = "M109 S210\n";
+const std::string warm = "G28\nM109 S210\n";
 const std::string layer = ";LAYER_CHANGE\n;TYPE:External perimeter\n";
 
 struct Read {
@@ -89,7 +90,7 @@ TEST_CASE("A nozzle that waits is not this printer's", "[sliced]") {
 
 TEST_CASE("Waiting for heat over the part is left out", "[sliced]") {
   const Read file = read(warm + layer + "M109 S215\nM190 R60\n");
-  CHECK(file.passed == std::vector<std::string>{"M109 S210", "M104 S215", "M140 S60"});
+  CHECK(file.passed == std::vector<std::string>{"G28", "M109 S210", "M104 S215", "M140 S60"});
 }
 
 TEST_CASE("The firmware's own retraction becomes the profile's", "[sliced]") {
@@ -107,12 +108,18 @@ TEST_CASE("What would break a print is refused with its line", "[sliced]") {
   const Case one = GENERATE(
       Case{"M0", "M0 waits for a person"}, Case{"M600", "waits for a person"}, Case{"M112", "emergency stop"},
       Case{"M997", "firmware"}, Case{"M500", "keeps when it is switched off"}, Case{"M502", "settings back"},
-      Case{"M302 S0", "cold extrusion"}, Case{"M28 x.gco", "own card"},
-      Case{"G1 X201", "x = 201 mm, outside the bed"}, Case{"G1 Y-3", "outside the bed"},
-      Case{"G1 Z-2", "outside the bed"}, Case{"M104 S500", "500 °C"}, Case{"M140 S250", "250 °C"},
-      Case{"G1 X1 E1", "before the file has heated"}, Case{"M104 S100\nG1 X1 E1", "100 °C"},
-      Case{"M200 D1.75", "makes E a volume"}, Case{"M109 S200\nG1 X1 E5000", "5000 mm of filament"},
-      Case{"G2 X10", "arc"}, Case{"G1 X1\nG1 Y1\nG2 X10 Y10 I3 J0", "arc"}, Case{"G1 X--1", "cannot be read"},
+      Case{"M302 S0", "cold extrusion"}, Case{"M302 P1", "cold extrusion"},
+      Case{"G5 X1 Y1 I0 J3 E1", "spline"}, Case{"G54", "coordinates"},
+      Case{"START_PRINT T=210\nM83\nM109 S210\nG1 X1 E1",
+           "before the file has homed the axes; \"START_PRINT\" in line 1 is a macro"},
+      Case{"PRINT_START\nM83\nG1 X1 E1",
+           "before the file has heated the nozzle; \"PRINT_START\" in line 1 is a macro"},
+      Case{"M28 x.gco", "own card"}, Case{"G1 X201", "x = 201 mm, outside the bed"},
+      Case{"G1 Y-3", "outside the bed"}, Case{"G1 Z-2", "outside the bed"}, Case{"M104 S500", "500 °C"},
+      Case{"M140 S250", "250 °C"}, Case{"G1 X1 E1", "before the file has heated"},
+      Case{"M104 S100\nG1 X1 E1", "100 °C"}, Case{"M200 D1.75", "makes E a volume"},
+      Case{"G28\nM109 S200\nG1 X1 E5000", "5000 mm of filament"}, Case{"G2 X10", "arc"},
+      Case{"G1 X1\nG1 Y1\nG2 X10 Y10 I3 J0", "arc"}, Case{"G1 X--1", "cannot be read"},
       Case{"G1 Xnan", "cannot be read"}, Case{"G1 X1 X2", "cannot be read"}, Case{"M163 S4 P1", "feeder"},
       Case{"M164 S0", "without shares"}, Case{"M165 A-1 B2", "without shares"},
       Case{"M166 A0 Z10", "change the mixture by itself"}, Case{"G18", "arcs out of the layer"},
@@ -136,10 +143,10 @@ TEST_CASE("Unknown commands pass and are mentioned once, and words of other host
       read("M1234 S1\nM1234 S2\nSTART_PRINT BED=60\nM117 Hello there\nT?\nT255\nM107\nM73 P3\n");
   CHECK(file.passed ==
         std::vector<std::string>{"M1234 S1", "M1234 S2", "M117 Hello there", "M107", "M73 P3"});
-  REQUIRE(file.notes.size() == 3);
+  REQUIRE(file.notes.size() == 4);
   CHECK_THAT(file.notes[0],
              Catch::Contains("M1234 is not known to this program; it is sent as it is (and 1 more)"));
-  CHECK(file.tools == std::vector<int>{255});
+  CHECK(file.tools.empty());
 }
 
 TEST_CASE("A file that mixes already says what its tools are", "[sliced]") {
@@ -195,6 +202,7 @@ TEST_CASE("The names of features and layers of each slicer are understood", "[sl
       Case{" FEATURE: Prime tower", Feature::tower}, Case{"TYPE:WALL-INNER", Feature::inner_wall},
       Case{"TYPE:FILL", Feature::sparse}, Case{"TYPE:SKIN", Feature::top},
       Case{"TYPE:PRIME-TOWER", Feature::tower}, Case{"TYPE:SUPPORT-INTERFACE", Feature::support},
+      Case{"TYPE:SOLID-FILL", Feature::top}, Case{" FEATURE: Floating vertical shell", Feature::inner_wall},
       Case{"TYPE:Gizmo", Feature::unknown}, Case{" 'Loop Path', 1.0 [feed mm/s]", Feature::inner_wall},
       Case{" 'Stacked Sparse Infill Path', 1.0 [feed mm/s]", Feature::sparse},
       Case{" 'Prime Pillar Path', 1.0 [feed mm/s]", Feature::tower});
@@ -205,15 +213,75 @@ TEST_CASE("The names of features and layers of each slicer are understood", "[sl
   CHECK(state.any_feature);
 }
 
+TEST_CASE("A purge line before the first mark of a layer is not a layer", "[sliced]") {
+  const std::string text =
+      warm +
+      "M83\nG1 X1 Y1 Z0.3\nG1 Y100 E10\nG1 X5 Y5\n;LAYER:0\n;TYPE:WALL-OUTER\nG1 X50 Y50 Z0.2\nG1 X60 E1\n"
+      ";LAYER:1\nG1 Z0.4\nG1 X50 E1\n";
+  std::istringstream stream(text);
+  const SlicedSurvey seen = survey_sliced(stream, "part.gcode", Printer(), {});
+  CHECK(seen.layers == 2);
+  CHECK(seen.marked);
+  CHECK(seen.extent.min.y() == 50);
+  CHECK(seen.layer_height == Approx(0.2));
+  CHECK(seen.first_layer_height == Approx(0.2));
+}
+
+TEST_CASE("Simplify3D marks a layer once for each process, and its settings are not features", "[sliced]") {
+  const std::string head =
+      "; G-Code generated by Simplify3D(R) Version 4.1.2\n;   mergeAllIntoSolid,0\n" + warm + "M83\n";
+  std::string text = head;
+  for (int process = 0; process < 2; ++process)
+    text +=
+        "; layer 1, Z = 0.200\n; tool H0.200 W0.480\n; feature outer perimeter\nG1 X1 Y1 Z0.2\nG1 X9 E1\n";
+  text += "; layer 2, Z = 0.400\n; internal single extrusion\nG1 X1 Y1 Z0.4\nG1 X9 E1\n";
+  const Read file = read(text);
+  CHECK(file.layers == 2);
+  CHECK(file.moves[1].width == 0.48);
+  CHECK(file.moves[1].feature == Feature::outer_wall);
+  CHECK(file.moves.back().feature == Feature::inner_wall);
+}
+
+TEST_CASE("A file that does not wait for heat is made to, before it extrudes", "[sliced]") {
+  CHECK(read("G28\nM104 S210\nM83\nG1 X1 Y1 Z1\nG1 X9 E1\n").passed ==
+        std::vector<std::string>{"G28", "M104 S210", "M109 S210"});
+  CHECK(read("M140 S60\nM104 S215 T0\nM116\n").passed ==
+        std::vector<std::string>{"M140 S60", "M104 S215", "M190 S60", "M109 S215"});
+  CHECK(read("G10 P0 S215 R180\nG10 P0 R180\nM568 P0 S205 R100\n").passed ==
+        std::vector<std::string>{"M104 S215", "M104 S205"});
+}
+
+TEST_CASE("FlashPrint changes tools by M108 and homes by G161", "[sliced]") {
+  const Read file = read(
+      ";generated by ffslicer 1.30\nM108 T1\nG161 X Y F3300\nM109 S210\n;layer:0.30\n;shell\nM83\nG28\nG1 X1 "
+      "Y1 Z1\nG1 X9 E1\n");
+  CHECK(file.tools == std::vector<int>{1});
+  CHECK(file.passed.front() == "G28 X Y");
+  CHECK(file.moves.back().feature == Feature::outer_wall);
+  CHECK(file.layers == 1);
+}
+
+TEST_CASE("The flushing of Bambu's changer is not printed", "[sliced]") {
+  const Read file = read(warm + "M83\nG1 X1 Y1 Z1\n; FLUSH_START\nG1 E20\n; FLUSH_END\nG1 X9 E1\n");
+  CHECK(file.moves[1].ramming);
+  CHECK(!file.moves[2].ramming);
+}
+
 TEST_CASE("Colours and diameters come from the slicer's settings", "[sliced]") {
   CommentState state;
   read_comment(" filament_colour = #00FF00;#0000ff", state);
   read_comment(" extruder_colour = ;#FF0000;", state);
   read_comment(" filament_diameter = 2.85,2.85", state);
-  CHECK(state.colours == std::vector<std::string>{"#00ff00", "#ff0000", ""});
+  CHECK(state.colour(0) == "#00ff00");
+  CHECK(state.colour(1) == "#ff0000");
+  CHECK(state.colour(2).empty());
+  CHECK(state.colour(-1).empty());
   CHECK(state.filament_diameter == 2.85);
   read_comment(" filament_colour = red;#12345", state);
-  CHECK(state.colours[0] == "#00ff00");
+  CHECK(state.colour(1) == "#ff0000");
+  read_comment(" default_filament_colour = ", state);  // OrcaSlicer
+  read_comment(" filament_colour = #161616", state);
+  CHECK(state.colour(0) == "#161616");
 }
 
 TEST_CASE("Lines end in every way, and what is not text is refused", "[sliced]") {

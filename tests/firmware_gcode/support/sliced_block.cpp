@@ -63,11 +63,24 @@ class Slicer {
     line("M140 S60\nM104 S210\nG28\nM190 S60\nM109 S210");
     line("{}\nG90\n{}", o_.inches ? "G20" : "G21", o_.absolute_filament ? "M82" : "M83");
     line("G92 E0");
+    if (o_.tower && o_.ramming && is(Style::prusaslicer)) {
+      line(
+          "G1 Z0.2 F6000\n;TYPE:Wipe tower\n; CP PRIMING START\nG1 X150 Y10 F7200\n; CP TOOLCHANGE LOAD\nG1 "
+          "E{:.7f} F1500",
+          filament(85));
+      line("; CP TOOLCHANGE WIPE\nG1 X180 E{:.7f} F1800\n; CP PRIMING END\n;TYPE:Custom", filament(2));
+      block_.tower_filament += 2;
+    }
     if (o_.relative_positions) line("G0 X0 Y0 Z{:.5f} F3000\nG91", unit(1.0)), x_ = y_ = 0, at_z_ = 1;
   }
 
   void tail() {
     draw(-o_.retraction);
+    if (o_.tower && o_.ramming && is(Style::prusaslicer)) {
+      line("; CP TOOLCHANGE START\n; CP TOOLCHANGE UNLOAD\nG1 X160 Y150 F7200\nG1 X170 E{:.7f} F1800",
+           filament(5));
+      line("G1 E{:.7f} F2000\n; CP TOOLCHANGE END", filament(-90));
+    }
     line("{}", is(Style::cura) ? ";TIME_ELAPSED:100" : "; end");
     line("M104 S0\nM140 S0\nG90\nG1 Z{:.5f} F600\nM84", unit(z_ + 10));
     if (is(Style::prusaslicer) || is(Style::orcaslicer))

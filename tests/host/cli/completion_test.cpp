@@ -123,12 +123,12 @@ TEST_CASE("Tab offers the values of an option") {
 }
 
 TEST_CASE("Tab offers files of the kind that an argument wants") {
-  const std::string jobs = "files .toml .svg .stl .3mf .obj .amf\n";
+  const std::string jobs = "files .toml .svg .stl .3mf .obj .amf .gcode .gco .gc .g\n";
   CHECK(answer({"dry-run", ""}) == jobs);
   CHECK(answer({"dry-run", "--layers", "0:0", ""}) == jobs);
   CHECK(answer({"print", "--", ""}) == jobs);
   CHECK(answer({"queue", "--upload", ""}) == jobs);
-  CHECK(answer({"new", "a.stl", "b.stl", ""}) == "files .svg .stl .3mf .obj .amf\n");
+  CHECK(answer({"new", "a.stl", "b.stl", ""}) == "files .svg .stl .3mf .obj .amf .gcode .gco .gc .g\n");
   CHECK(answer({"tune", "transition", ""}) == "files .toml\n");
   CHECK(answer({"dry-run", "--profile", ""}) == "files .toml\n");
   CHECK(answer({"dry-run", "--report="}) == "files\n");
