@@ -25,6 +25,8 @@ constexpr double longest_filament = 1000;  ///< mm in one move; more is a typing
 constexpr double new_layer = 0.04;         ///< mm by which a layer is higher, if no comment says so
 constexpr double farthest = 1e5;           ///< mm
 constexpr int most_tools = 255;
+constexpr std::size_t most_layers = 1'000'000;
+constexpr std::size_t most_notes = 100;    ///< a hostile file may have any number of unknown words
 constexpr int first_own_number = 1000;     ///< of tools whose mixture the file changes as it goes
 constexpr int first_colour_number = 2000;  ///< of tools whose filament the file changes as it goes
 constexpr std::array<char, 3> axes{'X', 'Y', 'Z'};
@@ -44,6 +46,7 @@ void SlicedReader::refuse(const std::string& problem, const std::string& remedy)
 }
 
 void SlicedReader::note(const std::string& key, const std::string& sentence) {
+  if (noted_.size() >= most_notes && !noted_.contains(key)) return;
   Noted& noted = noted_[key];
   if (noted.count++ == 0) noted.line = source_.number(), noted.sentence = sentence;
 }
@@ -110,6 +113,8 @@ void SlicedReader::comment(std::string_view text) {
 }
 
 void SlicedReader::begin_layer() {
+  if (layers_ == most_layers)
+    refuse(fmt::format("begins layer {}", most_layers + 1), "check that the file is one print");
   steps_.emplace_back(SlicedLayer{layers_++, source_.number()});
 }
 
@@ -142,7 +147,8 @@ void SlicedReader::command(const SlicedCommand& line) {
     return;
   }
   const CommandUse use = use_of(line);
-  const std::string word = std::string(line.name);
+  std::string word(line.name);
+  word.front() = line.letter;
   switch (use.kind) {
     case CommandKind::mode:
       return set_mode(line);
@@ -184,7 +190,9 @@ void SlicedReader::command(const SlicedCommand& line) {
     return note(
         "odd " + word,
         fmt::format("{} has characters that a serial line cannot carry; it is left out", shown(line.name)));
-  pass(std::string(line.text));
+  std::string words(line.text);
+  words.front() = line.letter;  // the file may write it small
+  pass(std::move(words));
 }
 
 // ---- motion

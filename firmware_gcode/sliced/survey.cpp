@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::uint64_t lines_between_stops = 1 << 14;
 constexpr double other_diameter = 0.02;  ///< mm by which filament may differ from the profile's
-constexpr double least_height = 0.01;    ///< mm
+constexpr std::size_t most_beside = 200'000;
+constexpr double least_height = 0.01;  ///< mm
 
 class Surveyor {
  public:
@@ -31,6 +32,7 @@ class Surveyor {
         time_(printer) {}
 
   void take(const SlicedMove& move) {
+    count(move.line);
     if (move.ramming) {  // is never printed
       rammed_ = true;
       return;
@@ -51,6 +53,7 @@ class Surveyor {
     if (move.feature == Feature::tower) survey_.tower_volume += volume;
     if (!move.moves_flat()) return;
     survey_.last_bead = move.line;
+    if (in_layers_) beside_ = 0;
     if (move.feature == Feature::custom) return;
     if (is_seen(move.feature) && !seen_any_) seen_any_ = true, before_part_ = survey_.volume - volume;
     if (last_tool_ && *last_tool_ != tool_) ++survey_.changes;
@@ -67,7 +70,7 @@ class Surveyor {
     end_layer();
     in_layers_ = true;
   }
-  void take(const SlicedPass&) {}
+  void take(const SlicedPass& pass) { count(pass.line); }
   void take(const SlicedRemark&) {}
 
   SlicedSurvey finish() {
@@ -120,6 +123,13 @@ class Surveyor {
   }
 
  private:
+  /// What precedes the first layer, and what follows the last bead, is kept in memory as a whole.
+  void count(std::uint64_t line) {
+    if (++beside_ <= most_beside) return;
+    throw core::DataError(name_, fmt::format("line {}", line),
+                          fmt::format("is the {}th in a row that lays nothing", most_beside + 1),
+                          "check that the file is the G-code of a print");
+  }
   void extend(const Place& place) {
     if (!place[0] || !place[1]) return;
     const core::Vec2 point(*place[0], *place[1]);
@@ -167,6 +177,7 @@ class Surveyor {
   int tool_ = 0;
   std::optional<int> last_tool_;
   double last_z_ = 0, layer_began_ = 0, tower_began_ = 0, in_this_tower_ = 0;
+  std::size_t beside_ = 0;  ///< steps since the last bead of a layer
   bool in_tower_ = false, layer_is_new_ = false;
   bool any_ = false, in_layers_ = false, rammed_ = false, seen_any_ = false;
   double before_part_ = 0;  ///< mm³ before the first bead that is seen

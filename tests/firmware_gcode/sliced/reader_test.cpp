@@ -140,12 +140,12 @@ TEST_CASE("A person who stays may allow stops, and a pause that ends by itself n
 
 TEST_CASE("Unknown commands pass and are mentioned once, and words of other hosts are left out", "[sliced]") {
   const Read file =
-      read("M1234 S1\nM1234 S2\nSTART_PRINT BED=60\nM117 Hello there\nT?\nT255\nM107\nM73 P3\n");
+      read("m1234 S1\nM1234 S2\nSTART_PRINT BED=60\nM117 Hello there\nT?\nT255\nM107\nM73 P3\n");
   CHECK(file.passed ==
         std::vector<std::string>{"M1234 S1", "M1234 S2", "M117 Hello there", "M107", "M73 P3"});
   REQUIRE(file.notes.size() == 4);
   CHECK_THAT(file.notes[0],
-             Catch::Contains("M1234 is not known to this program; it is sent as it is (and 1 more)"));
+             Catch::Contains("1234 is not known to this program; it is sent as it is (and 1 more)"));
   CHECK(file.tools.empty());
 }
 

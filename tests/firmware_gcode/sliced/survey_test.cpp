@@ -77,6 +77,18 @@ TEST_CASE("A file that lays nothing is refused", "[sliced]") {
   CHECK_THROWS_WITH(survey("M109 S200\nG1 X1 Y1\nG1 E5\n"), Catch::Contains("lays no plastic"));
 }
 
+TEST_CASE("A hostile file costs no more memory than a sound one", "[sliced]") {
+  std::string travels = "G28\nM109 S200\nM83\n";
+  for (int i = 0; i < 200'001; ++i) travels += i % 2 == 0 ? "G1 X1\n" : "G1 X2\n";
+  CHECK_THROWS_WITH(survey(travels), Catch::Contains("in a row that lays nothing"));
+  std::string layers, words;
+  for (int i = 0; i <= 1'000'000; ++i) layers += ";LAYER:1\n";
+  CHECK_THROWS_WITH(survey(layers), Catch::Contains("layer 1000001"));
+  const test::Block block = test::sliced_block({Style::prusaslicer, 2, 2});
+  for (int i = 0; i < 100'000; ++i) words += "MACRO_" + std::to_string(i) + "\n";
+  CHECK(survey(words + block.text).notes.size() <= 101);
+}
+
 TEST_CASE("Filament of another diameter is mentioned", "[sliced]") {
   Printer thick;
   thick.filament_diameter = 2.85;
