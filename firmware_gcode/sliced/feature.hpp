@@ -10,7 +10,7 @@ namespace unicursal::gcode {
 enum class Feature : std::uint8_t {
   outer_wall,
   inner_wall,
-  top,     ///< top surfaces, ironing; with Cura all surfaces, which its comments do not tell apart
+  top,     ///< top surfaces, ironing; with Cura all surfaces, which its comments do not distinguish
   bottom,  ///< the first layer's and bridges' undersides
   solid,   ///< solid infill inside the part
   sparse,  ///< infill with gaps

@@ -70,7 +70,8 @@ class KeysCommand final : public Command {
     for (const json& key : answer.at("keys"))
       show(stdout, "{} {}: {}, {}\n", key.at("id").get<std::uint64_t>(), key.at("name").get<std::string>(),
            key.at("right").get<std::string>(), key.at("key").get<std::string>());
-    if (answer.at("keys").empty()) show(stdout, "there are no keys; `unicursal keys --new NAME` makes one\n");
+    if (answer.at("keys").empty())
+      show(stdout, "a key does not exist yet; `unicursal keys --new NAME` makes one\n");
     for (const json& one : answer.at("requests"))
       show(stdout, "\"{}\" at {} asks for a key: `unicursal keys --grant {}` or --deny\n",
            one.at("name").get<std::string>(), one.at("from").get<std::string>(),

@@ -104,7 +104,7 @@ const Key& Keys::add(const std::string& name, Right right) {
 void Keys::remove(std::uint64_t id) {
   const auto key = std::find_if(keys_.begin(), keys_.end(), [id](const Key& one) { return one.id == id; });
   if (key == keys_.end())
-    throw Refused(Why::not_found, "there is no key with that number; see `unicursal keys`");
+    throw Refused(Why::not_found, "a key with that number does not exist; see `unicursal keys`");
   const std::vector<Key> before = keys_;
   keys_.erase(key);
   try {

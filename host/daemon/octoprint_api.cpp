@@ -39,7 +39,7 @@ asio::awaitable<Response> Api::octo_server(Request) {
   co_return plain_reply(octo::server());
 }
 
-/// A client that has a key asks who it is (`passive`). There are no passwords.
+/// A client that has a key asks who it is (`passive`). Passwords do not exist.
 asio::awaitable<Response> Api::octo_login(Request request) {
   const json asked = read_object(request);
   if (asked.contains("user") || asked.contains("pass"))

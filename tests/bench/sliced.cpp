@@ -190,14 +190,15 @@ void measure(const std::string& file, std::size_t tanks, bool without_tower) {
       for (const gcode::Chunk& chunk : chunks)
         send(*firmware, chunk), printing += chunk.seconds, volume += chunk.volume;
       firmware->run_down();
-      const gcode::SeenMixing told = remix.seen();
+      const gcode::SeenMixing foretold = remix.seen();
       fmt::print(
           "  {:4g} + {:2g} mm³  {:24} misplaced {:6.3f} %, wrong {:6.3f} % of {:.0f} mm³ seen (foretold "
           "{:.3f} %); {:.1f} s "
           "of work, prints {:.0f} s, {:.0f} mm³, left out {:.0f} mm³, not found {:.1f} mm³\n",
           dead, mixing, way.name, 100 * comparison.misplaced / comparison.seen,
-          100 * comparison.wrong / comparison.seen, comparison.seen, 100 * told.misplaced / told.volume,
-          seconds, printing, volume, remix.left_out(), comparison.lost);
+          100 * comparison.wrong / comparison.seen, comparison.seen,
+          100 * foretold.misplaced / foretold.volume, seconds, printing, volume, remix.left_out(),
+          comparison.lost);
     }
   }
 }

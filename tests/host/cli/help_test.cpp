@@ -35,7 +35,8 @@ std::string shown(const std::vector<std::string>& words, int columns) {
 
 }  // namespace
 
-TEST_CASE("help of every command fits its window, with an example, and options without their types") {
+TEST_CASE("help of every command fits its window, with an example, and options without their types",
+          "[optimised]") {
   const int width = GENERATE(60, 80, 120);
   CHECK_THAT(shown({"--help"}, width), Contains("  dry-run") && Contains("  completion"));
   for (const std::string& command : commands) {

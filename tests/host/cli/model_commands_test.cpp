@@ -52,7 +52,8 @@ TEST_CASE("A model is printed without a job") {
   CHECK(test::read_text(folder / "plate.gcode").find("G1 ") != std::string::npos);
 }
 
-TEST_CASE("A mesh without a job or a profile is tried on a common printer, in windows of three widths") {
+TEST_CASE("A mesh without a job or a profile is tried on a common printer, in windows of three widths",
+          "[optimised]") {
   const TempFolder folder;
   const std::string model = folder.write("part.stl", boxes(-0.5)).string();
   const int width = GENERATE(60, 80, 120);

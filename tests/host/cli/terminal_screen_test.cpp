@@ -40,7 +40,7 @@ class Bench {
 
 }  // namespace
 
-TEST_CASE("the progress of a print fits a window of 60, 80 or 120 columns") {
+TEST_CASE("the progress of a print fits a window of 60, 80 or 120 columns", "[optimised]") {
   const auto [width, fields] =
       GENERATE(table<int, std::string>({{60, " left"}, {80, " ahead"}, {120, "nozzle "}}));
   const Bench bench;
