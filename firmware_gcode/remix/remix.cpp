@@ -17,6 +17,7 @@
 #include "firmware_gcode/dialect/number.hpp"
 #include "firmware_gcode/dialect/share_writing.hpp"
 #include "firmware_gcode/mixing/overshoot.hpp"
+#include "firmware_gcode/mixing/print_mixtures.hpp"
 #include "firmware_gcode/mixing/schedule.hpp"
 #include "firmware_gcode/mixing/tool_table.hpp"
 #include "firmware_gcode/motion/time_estimate.hpp"
@@ -29,45 +30,21 @@
 namespace unicursal::gcode {
 namespace {
 
-constexpr double unseen = 0.02;       ///< weight of plastic beside the part if nothing is hidden
-constexpr double early = 0.999;       ///< fraction of a change that a switch may precede its border by
-constexpr double horizon = 3;         ///< mixing volumes after which a switch is final
-constexpr double least_piece = 1e-3;  ///< mm³; beads are not cut nearer to their ends
-constexpr double park_lift = 10;      ///< mm above the last layer
+constexpr double unseen = 0.02;        ///< weight of plastic beside the part if nothing is hidden
+constexpr double before_border = 0.5;  ///< fraction of each change
+constexpr double early = 0.999;        ///< fraction of a change that a switch may precede its border by
+constexpr double horizon = 3;          ///< mixing volumes after which a switch is final
+constexpr double least_piece = 1e-3;   ///< mm³; beads are not cut nearer to their ends
+constexpr double park_lift = 10;       ///< mm above the last layer
 constexpr std::size_t chunk_lines = 2000;
 
 void append(std::vector<std::string>& lines, std::vector<std::string> more) {
   lines.insert(lines.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// The mixtures of a print, and the tools that hold them at its start.
-struct Mixtures {
-  Palette palette;
-  Overshoots overshoots;
-  ToolTable tools;
-};
-
-ChamberModel chamber_of(const Printer& printer) {
-  return {printer.dead_volume, printer.mixing_volume, printer.tanks};
-}
-
-Mixtures mixtures_of(const Printer& printer, const RemixSettings& settings, const Dialect& dialect) {
-  const Palette::Calibrate calibrate = [floor = printer.floor_share, factors = printer.flow_factors,
-                                        &dialect](const Mixture& mixture) {
-    return calibrated(mixture.with_floor(floor), factors, dialect);
-  };
-  PaletteWithOvershoots all{Palette(settings.materials, calibrate), {}};
-  if (settings.look_ahead && printer.overshoot) {
-    const std::size_t most = dialect.limits().virtual_tools - 1;  // one tool draws filament back
-    all = with_overshoots(std::move(all.palette), {chamber_of(printer), 0.5, printer.floor_share, most});
-  }
-  ToolTable tools(dialect, all.palette, calibrate(Mixture({1, 1, 1})));
-  return {std::move(all.palette), std::move(all.overshoots), std::move(tools)};
-}
-
 ScheduleOptions schedule_options(const Printer& printer, const RemixSettings& settings,
                                  const Overshoots& overshoots) {
-  ScheduleOptions options{chamber_of(printer), 0.5, settings.look_ahead, &overshoots};
+  ScheduleOptions options{chamber_of(printer), before_border, settings.look_ahead, &overshoots};
   if (settings.hide) options.early = early, options.horizon = horizon;
   return options;
 }
@@ -83,7 +60,7 @@ LayerMaterials all_materials(const RemixSettings& settings) {
 
 struct Remix::State {
   State(std::istream& file, const std::string& name, const Printer& of, const SlicedSurvey& surveyed,
-        const RemixSettings& with, const Dialect& speaks, Mixtures mixtures);
+        const RemixSettings& with, const Dialect& speaks, PrintMixtures mixtures);
 
   void want(const Go& go, std::size_t of_layer);
   void read_more();
@@ -138,7 +115,7 @@ struct Remix::State {
 
 Remix::State::State(std::istream& file, const std::string& of_name, const Printer& of,
                     const SlicedSurvey& surveyed, const RemixSettings& with, const Dialect& speaks,
-                    Mixtures mixtures)
+                    PrintMixtures mixtures)
     : name(of_name),
       printer(of),
       survey(surveyed),
@@ -354,8 +331,9 @@ Remix::Remix(std::istream& file, const std::string& name, const Printer& printer
              const RemixSettings& settings) {
   check_printer(printer);
   const Dialect& dialect = dialect_named(printer.firmware);
-  state_ = std::make_unique<State>(file, name, printer, survey, settings, dialect,
-                                   mixtures_of(printer, settings, dialect));
+  state_ = std::make_unique<State>(
+      file, name, printer, survey, settings, dialect,
+      mixtures_of(printer, settings.materials, settings.look_ahead, before_border, dialect));
   state_->check_materials();
 }
 Remix::~Remix() = default;

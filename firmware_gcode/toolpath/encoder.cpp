@@ -16,6 +16,7 @@
 #include "firmware_gcode/mixing/change_cost.hpp"
 #include "firmware_gcode/mixing/forecast.hpp"
 #include "firmware_gcode/mixing/overshoot.hpp"
+#include "firmware_gcode/mixing/print_mixtures.hpp"
 #include "firmware_gcode/mixing/schedule.hpp"
 #include "firmware_gcode/mixing/tool_table.hpp"
 #include "firmware_gcode/motion/held_flow.hpp"
@@ -66,34 +67,8 @@ core::BeadPath turned(const core::BeadPath& path, const Traversal& leg) {
   return result;
 }
 
-ChamberModel chamber_of(const Printer& printer) {
-  return {printer.dead_volume, printer.mixing_volume, printer.tanks};
-}
-
 bool prints_anything(const PlacedLayer& layer) {
   return std::any_of(layer.paths.begin(), layer.paths.end(), is_printable);
-}
-
-/// The mixtures of a print, and the tools that hold them at its start.
-struct Mixtures {
-  Palette palette;
-  Overshoots overshoots;
-  ToolTable tools;
-};
-
-Mixtures mixtures_of(const Printer& printer, const PrintSettings& settings, const Dialect& dialect) {
-  const Palette::Calibrate calibrate = [floor = printer.floor_share, factors = printer.flow_factors,
-                                        &dialect](const Mixture& mixture) {
-    return calibrated(mixture.with_floor(floor), factors, dialect);
-  };
-  PaletteWithOvershoots all{Palette(settings.materials, calibrate), {}};
-  if (settings.look_ahead && printer.overshoot) {
-    const std::size_t most = dialect.limits().virtual_tools - 1;  // one tool draws filament back
-    all = with_overshoots(std::move(all.palette),
-                          {chamber_of(printer), settings.change_before_border, printer.floor_share, most});
-  }
-  ToolTable tools(dialect, all.palette, calibrate(Mixture({1, 1, 1})));
-  return {std::move(all.palette), std::move(all.overshoots), std::move(tools)};
 }
 
 /// By material: false for materials of transition zones.
@@ -118,7 +93,7 @@ RouteOptions route_options(const PrintSettings& settings, const ChangeCosts& cos
 
 struct Encoder::State {
   /// Precondition: printer and settings are checked.
-  State(const Printer& of, const PrintSettings& with, const Dialect& speaks, Mixtures mixtures);
+  State(const Printer& of, const PrintSettings& with, const Dialect& speaks, PrintMixtures mixtures);
 
   std::size_t material_at(const core::BeadPath& path, std::size_t bead) const;
 
@@ -184,7 +159,8 @@ struct Encoder::State {
   double written_width = 0;  ///< mm, of the last ;WIDTH: comment
 };
 
-Encoder::State::State(const Printer& of, const PrintSettings& with, const Dialect& speaks, Mixtures mixtures)
+Encoder::State::State(const Printer& of, const PrintSettings& with, const Dialect& speaks,
+                      PrintMixtures mixtures)
     : printer(of),
       settings(with),
       dialect(speaks),
@@ -503,7 +479,9 @@ Encoder::Encoder(const Printer& printer, const PrintSettings& settings) {
   check_printer(printer);
   check_settings(settings, printer);
   const Dialect& dialect = dialect_named(printer.firmware);
-  state_ = std::make_unique<State>(printer, settings, dialect, mixtures_of(printer, settings, dialect));
+  state_ = std::make_unique<State>(
+      printer, settings, dialect,
+      mixtures_of(printer, settings.materials, settings.look_ahead, settings.change_before_border, dialect));
 }
 Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
