@@ -90,6 +90,12 @@ Visitor check_access(const RequestHead& head, const AccessRules& rules) {
       "computer, and `unicursal token` shows the token");
 }
 
+std::optional<Visitor> seek_access(const RequestHead& head, const AccessRules& rules) {
+  if (head.by_socket || !rules.token || token_of(head)) return check_access(head, rules);
+  check_site(head, rules);
+  return std::nullopt;
+}
+
 std::vector<std::string> hosts_for(const std::string& address, unsigned port,
                                    const std::vector<std::string>& names) {
   const std::vector<std::string> own = {

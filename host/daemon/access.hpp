@@ -32,6 +32,8 @@ struct Visitor {
 /// Throws HttpError 400, 401, 403 or 421. Who has come through the Unix socket needs no proof. The token or
 /// key stands in `Authorization: Bearer` or in `X-Api-Key`.
 Visitor check_access(const RequestHead& head, const AccessRules& rules);
+/// The same for an address that strangers may ask for: absent if the client has shown no token or key.
+std::optional<Visitor> seek_access(const RequestHead& head, const AccessRules& rules);
 /// The part of it that strangers, too, must pass: the checks of Host and Origin. Throws HttpError 400, 403 or
 /// 421.
 void check_site(const RequestHead& head, const AccessRules& rules);

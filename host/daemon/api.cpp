@@ -21,7 +21,8 @@ using nlohmann::json;
 
 constexpr std::uint64_t longest_json = 64 * 1024;            ///< bytes
 constexpr std::uint64_t longest_request_for_key = 4 * 1024;  ///< bytes; strangers send it
-constexpr std::string_view jobs_path = "/api/jobs/", keys_path = "/api/keys/", files_path = "/api/files/";
+constexpr std::string_view jobs_path = "/api/jobs/", keys_path = "/api/keys/", files_path = "/api/files/",
+                           push_path = "/sockjs/websocket";
 
 std::optional<double> number(const json& body, const char* key) {
   const auto found = body.find(key);
@@ -139,8 +140,15 @@ std::span<const Api::Route> Api::Route::all() {
       {"GET", "/api/printerprofiles", &Api::octo_profiles},
       {"GET", "/api/connection", &Api::octo_connection},
       {"POST", "/api/connection", &Api::octo_connect, steer},
+      {"GET", "/api/printer/tool", &Api::octo_tool},
+      {"POST", "/api/printer/tool", &Api::octo_set_tool, steer},
+      {"GET", "/api/printer/bed", &Api::octo_bed},
+      {"POST", "/api/printer/bed", &Api::octo_set_bed, steer},
+      {"POST", "/api/printer/printhead", &Api::octo_move, steer},
+      {"POST", "/api/printer/command", &Api::octo_send, steer},
       {"GET", "/api/job", &Api::octo_job},
       {"POST", "/api/job", &Api::octo_steer, steer},
+      {"GET", push_path, nullptr, watch, for_strangers},
       {"GET", "/plugin/appkeys/probe", &Api::octo_probe_keys, watch, for_strangers},
       {"POST", "/plugin/appkeys/request", &Api::octo_request_key, watch, for_strangers},
       {"GET", "/plugin/appkeys/request/", &Api::octo_poll_key, watch, for_strangers},
@@ -170,9 +178,9 @@ bool Api::is_open(const RequestHead& head) {
 
 Admission Api::admit(const RequestHead& head) {
   if (is_open(head)) {
-    check_site(head, rules_);
-    route_of(head);
-    return {longest_request_for_key, false, nullptr};
+    const bool follows = !route_of(head).handler;
+    if (!follows) check_site(head, rules_);
+    return {longest_request_for_key, follows && seek_access(head, rules_), nullptr};
   }
   const Visitor visitor = check_access(head, rules_);
   const Route& route = route_of(head);
@@ -198,7 +206,8 @@ bool Api::wants_events(const RequestHead& head) const {
 /// What makes a printer safe; it must not be locked out.
 bool Api::is_urgent(const RequestHead& head) const {
   return head.path == "/api/print/stop" || head.path == "/api/print/cancel" ||
-         head.path == "/api/print/pause" || (head.path == "/api/job" && head.method == "POST");
+         head.path == "/api/print/pause" || head.path == "/api/printer/command" ||
+         (head.path == "/api/job" && head.method == "POST");
 }
 
 asio::awaitable<Response> Api::answer(Request request) {
@@ -217,7 +226,8 @@ asio::awaitable<Response> Api::answer(Request request) {
   }
 }
 
-void Api::join(std::shared_ptr<EventStream> client) {
+void Api::join(std::shared_ptr<EventStream> client, const RequestHead& head, bool proven) {
+  if (head.path == push_path) return push_to(*client, proven, daemon_, sessions_);
   daemon_.join(std::make_unique<StreamFollower>(std::move(client)));
 }
 
@@ -340,6 +350,7 @@ asio::awaitable<Response> Api::remove_key(Request request) {
   check_owner(request);
   const std::uint64_t id = number_behind(request.path, keys_path);
   keys().remove(id);
+  sessions_.clear();
   disconnect_();
   co_return reply({{"removed", id}});
 }
@@ -430,6 +441,7 @@ asio::awaitable<Response> Api::renew_token(Request request) {
     throw HttpError(403, "the token is renewed through the socket in the state folder only");
   if (!rules_.token) throw HttpError(409, "this daemon asks for no token");
   Tokens tokens = renew_();
+  sessions_.clear();
   rules_.token = std::move(tokens.all);
   rules_.metrics_token = std::move(tokens.metrics);
   co_return reply(json::object());

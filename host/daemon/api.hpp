@@ -8,6 +8,7 @@
 #include "host/daemon/access.hpp"
 #include "host/daemon/daemon.hpp"
 #include "host/daemon/keys.hpp"
+#include "host/daemon/octoprint_push.hpp"
 #include "host/daemon/secret.hpp"
 #include "host/http/http_server.hpp"
 
@@ -36,7 +37,7 @@ class Api : public HttpHandler {
   asio::awaitable<Response> answer(Request request) override;
   bool wants_events(const RequestHead& head) const override;
   bool is_urgent(const RequestHead& head) const override;
-  void join(std::shared_ptr<EventStream> client) override;
+  void join(std::shared_ptr<EventStream> client, const RequestHead& head, bool proven) override;
 
  private:
   struct Route;
@@ -78,6 +79,12 @@ class Api : public HttpHandler {
   asio::awaitable<Response> octo_profiles(Request request);
   asio::awaitable<Response> octo_connection(Request request);
   asio::awaitable<Response> octo_connect(Request request);
+  asio::awaitable<Response> octo_tool(Request request);
+  asio::awaitable<Response> octo_set_tool(Request request);
+  asio::awaitable<Response> octo_bed(Request request);
+  asio::awaitable<Response> octo_set_bed(Request request);
+  asio::awaitable<Response> octo_move(Request request);
+  asio::awaitable<Response> octo_send(Request request);
   asio::awaitable<Response> octo_job(Request request);
   asio::awaitable<Response> octo_steer(Request request);
   asio::awaitable<Response> octo_files(Request request);
@@ -97,6 +104,7 @@ class Api : public HttpHandler {
   std::function<Tokens()> renew_;
   Keys* keys_ = nullptr;
   std::string identity_;
+  PushSessions sessions_;
   std::function<void()> disconnect_;
 };
 

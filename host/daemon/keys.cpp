@@ -91,7 +91,7 @@ const Key* Keys::with_secret(const std::string& secret) const {
 const Key& Keys::add(const std::string& name, Right right) {
   if (keys_.size() >= most_keys)
     throw Refused(Why::conflict, "there are too many keys; remove those that nobody uses");
-  keys_.push_back({next_id_++, checked_name(name), right, random_token(), seconds_since_1970()});
+  keys_.push_back({next_id_++, checked_name(name), right, random_key(), seconds_since_1970()});
   try {
     save();
   } catch (const Refused&) {

@@ -205,15 +205,40 @@ json job(const json& status, const QueuedJob* next, bool there) {
           {"state", state}};
 }
 
-json printer(const json& status, bool there) {
-  const std::string text = state_text(status, there);
+namespace {
+
+json temperatures(const json& status) {
   const bool busy = status.value("state", "idle") != "idle";
   const json print = busy ? status.value("print", json::object()) : json::object();
   json temperature = json::object();
   if (json nozzle = heater(print, "nozzle"); !nozzle.is_null()) temperature["tool0"] = std::move(nozzle);
   if (json bed = heater(print, "bed"); !bed.is_null()) temperature["bed"] = std::move(bed);
+  return temperature;
+}
+
+}  // namespace
+
+json heaters(const json& status, const char* which) {
+  json all = temperatures(status);
+  if (!all.contains(which)) return json::object();
+  return {{which, std::move(all[which])}};
+}
+
+double temperature(const json& target) {
+  if (!target.is_number()) throw HttpError(400, "the target is missing: a number of degrees Celsius");
+  return target.get<double>();
+}
+
+double percent(const json& factor) {
+  if (!factor.is_number())
+    throw HttpError(400, "factor is missing: per cent as a whole number, or a fraction such as 0.95");
+  return factor.is_number_float() ? factor.get<double>() * 100 : factor.get<double>();
+}
+
+json printer(const json& status, bool there) {
+  const std::string text = state_text(status, there);
   return {{"state", {{"text", text}, {"flags", flags(text, status.contains("interrupted"))}}},
-          {"temperature", temperature},
+          {"temperature", temperatures(status)},
           {"sd", {{"ready", false}}}};
 }
 

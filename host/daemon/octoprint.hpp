@@ -47,6 +47,13 @@ nlohmann::json connection(const nlohmann::json& status, const nlohmann::json& pr
 /// `next`: the job that waits first, or null.
 nlohmann::json job(const nlohmann::json& status, const QueuedJob* next, bool there);
 nlohmann::json printer(const nlohmann::json& status, bool there);
+/// The heater "tool0" or "bed" alone; empty while it is not known.
+nlohmann::json heaters(const nlohmann::json& status, const char* which);
+/// A target, °C. Throws HttpError 400.
+double temperature(const nlohmann::json& target);
+/// A factor of speed or flow: a whole number is per cent, another one a fraction (docs/api/printer.rst).
+/// Throws HttpError 400.
+double percent(const nlohmann::json& factor);
 nlohmann::json file(const LocalFile& file, const std::string& address);
 nlohmann::json files(const std::vector<LocalFile>& files, std::uint64_t free, const std::string& address);
 

@@ -50,10 +50,10 @@ asio::awaitable<Response> Api::octo_login(Request request) {
                {"admin", false},
                {"user", true},
                {"apikey", nullptr},
-               {"needs", json::object()},
+               {"needs", {{"role", {"user_access"}}, {"group", {"users"}}}},
                {"roles", json::array({"user"})},
                {"settings", json::object()},
-               {"session", ""},
+               {"session", sessions_.open()},
                {"_login_mechanism", "apikey"},
                {"_is_external_client", true}});
   co_return plain_reply(body);
@@ -90,6 +90,67 @@ asio::awaitable<Response> Api::octo_connect(Request request) {
   } else {
     throw HttpError(400, "command is \"connect\" or \"disconnect\"");
   }
+  co_return no_content();
+}
+
+// ---- heat and speed
+
+asio::awaitable<Response> Api::octo_tool(Request) {
+  co_return plain_reply(octo::heaters(daemon_.status(), "tool0"));
+}
+
+asio::awaitable<Response> Api::octo_bed(Request) {
+  co_return plain_reply(octo::heaters(daemon_.status(), "bed"));
+}
+
+asio::awaitable<Response> Api::octo_set_tool(Request request) {
+  const json body = read_object(request);
+  const std::string command = text_in(body, "command");
+  if (command == "target") {
+    const json targets = body.value("targets", json());
+    if (!targets.is_object() || targets.size() != 1 || !targets.contains("tool0"))
+      throw HttpError(400, "targets is {\"tool0\": 210}: there is one nozzle, however many feeders");
+    obeyed(daemon_.session().set_nozzle(octo::temperature(targets["tool0"])));
+  } else if (command == "flowrate") {
+    obeyed(daemon_.session().set_flow(octo::percent(body.value("factor", json()))));
+  } else if (command == "select") {
+    if (text_in(body, "tool") != "tool0")
+      throw HttpError(400, "tool is \"tool0\": there is one nozzle, however many feeders");
+  } else if (command == "extrude" || command == "offset") {
+    throw HttpError(409, command == "extrude" ? "plastic is not extruded by hand during a print"
+                                              : "targets have no offset here; set the target itself");
+  } else {
+    throw HttpError(400, "command is \"target\", \"flowrate\" or \"select\"");
+  }
+  co_return no_content();
+}
+
+asio::awaitable<Response> Api::octo_set_bed(Request request) {
+  const json body = read_object(request);
+  const std::string command = text_in(body, "command");
+  if (command == "offset") throw HttpError(409, "targets have no offset here; set the target itself");
+  if (command != "target") throw HttpError(400, "command is \"target\"");
+  obeyed(daemon_.session().set_bed(octo::temperature(body.value("target", json()))));
+  co_return no_content();
+}
+
+asio::awaitable<Response> Api::octo_move(Request request) {
+  const json body = read_object(request);
+  const std::string command = text_in(body, "command");
+  if (command == "jog" || command == "home")
+    throw HttpError(409, "the head is moved by prints only; the port is open during a print only");
+  if (command != "feedrate") throw HttpError(400, "command is \"feedrate\"");
+  obeyed(daemon_.session().set_speed(octo::percent(body.value("factor", json()))));
+  co_return no_content();
+}
+
+/// M112 is known; other commands are not passed on, since a print would not know of them.
+asio::awaitable<Response> Api::octo_send(Request request) {
+  const json body = read_object(request);
+  if (text_in(body, "command") != "M112")
+    throw HttpError(409,
+                    "commands are not passed on to the printer, but M112 is: it stops the print at once");
+  daemon_.stop_at_once();
   co_return no_content();
 }
 

@@ -125,6 +125,7 @@ void EventStream::take(const Frame& frame) {
   unanswered_ = 0;
   if (frame.kind == Frame::Kind::ping && waiting_.size() < most_waiting && !closing_)
     put(encode({Frame::Kind::pong, frame.payload}));
+  if (frame.kind == Frame::Kind::text && !closing_ && on_text_) on_text_(frame.payload);
   if (frame.kind == Frame::Kind::close) {
     client_closes_ = true;
     close(close_code(frame).value_or(normal_end));

@@ -43,6 +43,8 @@ constexpr auto farewell =
     2s;  ///< how long a refused client's bytes are still read, so that it gets the answer
 constexpr std::size_t longest_farewell = 4 * 1024 * 1024;  ///< bytes
 
+constexpr std::uint16_t no_right = 1008, try_again_later = 1013;  ///< RFC 6455, 7.4.1
+
 constexpr std::string_view end_of_head = "\r\n\r\n";
 
 /// Prepares a connection; returns false for one that is not wanted.
@@ -110,7 +112,8 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   asio::awaitable<void> write(std::string bytes);
   asio::awaitable<void> refuse(Response response);
   asio::awaitable<Response> answered(Request request);
-  asio::awaitable<void> stream_events(RequestHead head);
+  asio::awaitable<void> stream_events(RequestHead head, bool proven);
+  bool enter_stream();
   void expire_after(asio::steady_timer::duration patience);
 
   Socket socket_;
@@ -279,12 +282,12 @@ asio::awaitable<Response> HttpServer::Connection::answered(Request request) {
   co_return std::move(*failed);
 }
 
-asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head) {
+asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head, bool proven) {
   const auto key = head.header("sec-websocket-key");
   if (head.method != "GET" || !key || !is_websocket_key(*key) || !head.lists("connection", "upgrade") ||
       !head.lists("upgrade", "websocket") || head.header("sec-websocket-version") != "13")
     throw HttpError(426, "events come by WebSocket, version 13");
-  enter(Place::stream, most_streams);
+  if (proven) enter(Place::stream, most_streams);
   Response response;
   response.status = 101;
   response.headers = {
@@ -293,8 +296,28 @@ asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head) {
     response.headers.emplace_back("Sec-WebSocket-Protocol", "unicursal.v1");
   co_await write(to_text(response, true));
   events_ = std::make_shared<EventStream>(std::move(socket_));
-  server_.handler_.join(events_);
+  if (!proven) {
+    events_->on_proof([this] { return enter_stream(); });
+    deadline_.expires_after(head_patience);
+    deadline_.async_wait([this, self = shared_from_this()](const asio::error_code& cut) {
+      if (!cut && place_ == Place::unproven) events_->close(no_right);
+    });
+  }
+  server_.handler_.join(events_, head, proven);
   co_await events_->run(std::move(buffer_));
+}
+
+/// Returns false if all places are taken; the client is let go then.
+bool HttpServer::Connection::enter_stream() {
+  if (place_ == Place::stream) return true;
+  if (place_ != Place::unproven) return false;
+  if (count(Place::stream) >= most_streams) {
+    events_->close(try_again_later);
+    return false;
+  }
+  place_ = Place::stream;
+  deadline_.cancel();
+  return true;
 }
 
 /// Returns whether another request may follow.
@@ -306,7 +329,7 @@ asio::awaitable<bool> HttpServer::Connection::serve_one() {
   head_only_ = head->method == "HEAD";
   Admission admission = server_.handler_.admit(*head);
   if (server_.handler_.wants_events(*head)) {
-    co_await stream_events(std::move(*head));
+    co_await stream_events(std::move(*head), admission.proven);
     co_return false;
   }
   if (admission.proven) enter(Place::request, server_.handler_.is_urgent(*head) ? SIZE_MAX : most_requests);

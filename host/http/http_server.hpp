@@ -50,11 +50,13 @@ class HttpHandler {
   virtual Admission admit(const RequestHead& head) = 0;
   /// Throws HttpError; any other exception becomes a 500.
   virtual asio::awaitable<Response> answer(Request request) = 0;
-  /// Whether an admitted request asks for the stream of events.
+  /// Whether an admitted request asks for a stream of events.
   virtual bool wants_events(const RequestHead& head) const = 0;
   /// Whether an admitted request is carried out although all places of requests are taken.
   virtual bool is_urgent(const RequestHead& head) const = 0;
-  virtual void join(std::shared_ptr<EventStream> client) = 0;
+  /// `proven`: as in the Admission. A client that is not has the time of a request's head to show its right
+  /// by a text; EventStream::admit() lets it stay.
+  virtual void join(std::shared_ptr<EventStream> client, const RequestHead& head, bool proven) = 0;
 };
 
 class HttpServer {

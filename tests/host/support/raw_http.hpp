@@ -50,6 +50,14 @@ class RawConnection {
     received_.erase(0, size);
     return text;
   }
+  /// So many bytes, fewer at the end of all.
+  std::string read(std::size_t size) {
+    while (received_.size() < size && read_some()) {
+    }
+    const std::string text = received_.substr(0, size);
+    received_.erase(0, size);
+    return text;
+  }
   std::string read_all() {
     while (read_some()) {
     }
