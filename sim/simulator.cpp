@@ -47,6 +47,8 @@ Usb usb_named(const std::string& name) {
 
 void check(const SimulatorOptions& options) {
   require(three_positive(options.bed), "the bed needs three positive sizes: x, y and z in mm");
+  require(options.overtravel.size() == 2 && options.overtravel[0] >= 0 && options.overtravel[1] >= 0,
+          "the overtravel has two lengths that are not negative: x and y in mm");
   require(three_positive(options.steps_per_mm), "the axes need three positive numbers of steps per mm");
   require(three_positive(options.max_acceleration), "the axes need three positive accelerations in mm/s²");
   require(three_positive(options.max_speed), "the axes need three positive speeds in mm/s");
@@ -79,6 +81,7 @@ namespace {
 Machine machine_for(const SimulatorOptions& options) {
   Machine machine;
   std::copy_n(options.bed.begin(), 3, machine.bed.begin());
+  std::copy_n(options.overtravel.begin(), 2, machine.overtravel.begin());
   std::copy_n(options.steps_per_mm.begin(), 3, machine.limits.steps_per_mm.begin());
   std::copy_n(options.max_acceleration.begin(), 3, machine.limits.max_acceleration.begin());
   std::copy_n(options.max_speed.begin(), 3, machine.limits.max_speed.begin());

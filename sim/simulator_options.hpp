@@ -36,6 +36,7 @@ struct SimulatorOptions {
   double mixing_volume = 4.0;        ///< Volume from the first trace to 95 %, mm³.
   std::optional<std::size_t> tanks;  ///< Stirred tanks in series in the chamber, 1 to 8; nullopt = 2.
   std::vector<double> bed = {200, 200, 200};                 ///< Bed size, x y z, mm.
+  std::vector<double> overtravel = {0, 0};                   ///< Beyond its left and front edge, x y, mm.
   double filament_diameter = 1.75;                           ///< Filament diameter, mm.
   std::vector<double> steps_per_mm = {80, 80, 400};          ///< Steps per mm, x y z.
   double feeder_steps_per_mm = 400;                          ///< Steps per mm of one feeder's filament.

@@ -15,6 +15,7 @@ struct Bounds {
 namespace bounds {
 
 constexpr Bounds bed{1, 10000};
+constexpr Bounds overtravel{0, 100};
 constexpr Bounds nozzle{0.05, 10};
 constexpr Bounds bead_width{0.01, 100};
 constexpr Bounds speed{0.1, 10000};  ///< a slower feed rate would round to F0, which stops some firmwares

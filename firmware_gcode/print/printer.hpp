@@ -24,8 +24,9 @@ struct Motion {
 struct Printer {
   std::string name;
   std::string firmware = "marlin";
-  std::array<double, 3> bed{200, 200, 200};                 ///< x y z, origin at the front left
-  double nozzle = 0.4;                                      ///< diameter of the opening
+  std::array<double, 3> bed{200, 200, 200};  ///< x y z, origin at the front left
+  std::array<double, 2> overtravel{};        ///< how far left and in front of the bed the nozzle can go
+  double nozzle = 0.4;                       ///< diameter of the opening
   std::array<double, 2> bead_width_range{0.24, 1.0};        ///< mm; least and greatest
   std::array<double, 3> max_speed{150, 150, 10};            ///< x y z
   std::array<double, 3> max_acceleration{1500, 1500, 100};  ///< x y z

@@ -18,6 +18,7 @@ enum class CommandKind {
   leave_out,  ///< means nothing to a mixing printer, or would disturb the line to it
   refuse,     ///< would break the print or the printer
   mixture,    ///< defines mixtures: M163, M164, M165, M567
+  rate,       ///< a factor of speed or flow (rates.hpp)
   homes,      ///< leaves the place of the nozzle unknown
   unknown     ///< sent as it is, and mentioned
 };

@@ -160,6 +160,10 @@ void SlicedReader::command(const SlicedCommand& line) {
       return mixture(line);
     case CommandKind::homes:
       return home(line);
+    case CommandKind::rate:
+      if (!rates_.take(line))
+        refuse(fmt::format("{} sets a rate that is not 1 to 999 %", shown(line.text)), "repair this line");
+      return;
     case CommandKind::refuse:
       if (line.is('G', 5) && !line.has('X') && !line.has('Y') && !line.has('E')) return;
       if (line.is('M', 302) && line.value_or('S', 0) >= least_cold && line.value_or('P', 0) == 0) return;
@@ -235,22 +239,23 @@ void SlicedReader::motion(const SlicedCommand& line) {
   const double filament = filament_of(line);
   if (nowhere) return relative_from_nowhere(line, filament);
   const Place to = target_of(line);
-  if (line.code <= 1) return straight(line, to, filament);
+  if (line.code <= 1) return move(to, filament);
   arc(line, to, filament, line.code == 2);
 }
 
 void SlicedReader::check_inside(const Place& place) const {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (!place[i]) continue;
-    const double native = *place[i] + offset_[i], least = i == 2 ? -below_bed : -beyond_bed;
+    const double native = *place[i] + offset_[i];
+    const double least = i == 2 ? -below_bed : -printer_.overtravel[i] - beyond_bed;
     if (std::isfinite(native) && native >= least && native <= printer_.bed[i] + beyond_bed) continue;
     if (!std::isfinite(native) || std::abs(native) > farthest)
       refuse("moves farther than any printer can", "slice the part again, or repair this line");
-    refuse(fmt::format("moves to {} = {:g} mm, outside the bed of the profile (0 to {:g} mm)",
-                       static_cast<char>(axes[i] - 'A' + 'a'), native, printer_.bed[i]),
+    refuse(fmt::format("moves to {} = {:g} mm, outside the bed of the profile ({:g} to {:g} mm)",
+                       static_cast<char>(axes[i] - 'A' + 'a'), native,
+                       i == 2 ? 0 : 0 - printer_.overtravel[i], printer_.bed[i]),
            "slice for this printer, with the origin at the bed's front left corner and without another "
-           "printer's purge "
-           "line, or correct `bed` in the profile");
+           "printer's purge line, or correct `bed` or `overtravel` in the profile");
   }
 }
 
@@ -275,10 +280,6 @@ void SlicedReader::wait_for_heat() {
   pass(fmt::format("M109 S{}", short_number(nozzle_, 1)));
 }
 
-void SlicedReader::straight(const SlicedCommand&, const Place& to, double filament) {
-  move(to, filament);
-}
-
 void SlicedReader::move(const Place& to, double filament) {
   check_inside(to);
   if (filament > 0) check_warm(), wait_for_heat();
@@ -286,8 +287,8 @@ void SlicedReader::move(const Place& to, double filament) {
   step.line = source_.number();
   step.from = at_;
   step.to = to;
-  step.filament = filament;
-  step.feed = feed_;
+  step.filament = filament * rates_.flow();
+  step.feed = feed_ * rates_.speed();
   step.feature = comments_.present();
   step.width = comments_.width.value_or(0);
   step.height = comments_.height.value_or(0);
@@ -316,7 +317,7 @@ void SlicedReader::relative_from_nowhere(const SlicedCommand& line, double filam
     words += fmt::format(" {}{}", axes[i], short_number(value, 5));
     if (at_[i]) *at_[i] += value;
   }
-  if (feed_ > 0) words += " F" + short_number(feed_, 1);
+  if (feed_ > 0) words += " F" + short_number(feed_ * rates_.speed(), 1);
   pass("G91");
   pass(std::move(words));
   pass("G90");
@@ -325,8 +326,8 @@ void SlicedReader::relative_from_nowhere(const SlicedCommand& line, double filam
   SlicedMove step;
   step.line = source_.number();
   step.from = step.to = at_;
-  step.filament = filament;
-  step.feed = feed_;
+  step.filament = filament * rates_.flow();
+  step.feed = feed_ * rates_.speed();
   step.feature = Feature::custom;
   steps_.emplace_back(std::move(step));
 }

@@ -24,6 +24,7 @@
 #include "firmware_gcode/sliced/comments.hpp"
 #include "firmware_gcode/sliced/limits.hpp"
 #include "firmware_gcode/sliced/line_source.hpp"
+#include "firmware_gcode/sliced/rates.hpp"
 #include "firmware_gcode/sliced/step.hpp"
 
 namespace unicursal::gcode {
@@ -61,7 +62,6 @@ class SlicedReader {
   void comment(std::string_view text);
   void command(const SlicedCommand& command);
   void motion(const SlicedCommand& command);
-  void straight(const SlicedCommand& command, const Place& to, double filament);
   void arc(const SlicedCommand& command, const Place& to, double filament, bool clockwise);
   void move(const Place& to, double filament);
   void relative_from_nowhere(const SlicedCommand& command, double filament);
@@ -98,6 +98,7 @@ class SlicedReader {
   std::array<double, 3> offset_{};  ///< native minus logical position (G92)
   double e_ = 0;                    ///< the file's E
   double feed_ = 0;
+  Rates rates_;
   bool inches_ = false, relative_ = false, relative_filament_ = false;
   bool drawn_by_firmware_ = false;
   int tool_ = 0;          ///< the file's number

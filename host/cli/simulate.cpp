@@ -17,6 +17,7 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   const gcode::Printer& printer = profile.printer;
   options.baud = profile.baud;
   options.bed.assign(printer.bed.begin(), printer.bed.end());
+  options.overtravel.assign(printer.overtravel.begin(), printer.overtravel.end());
   options.filament_diameter = printer.filament_diameter;
   options.max_acceleration.assign(printer.max_acceleration.begin(), printer.max_acceleration.end());
   options.max_speed.assign(printer.max_speed.begin(), printer.max_speed.end());

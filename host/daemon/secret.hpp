@@ -8,7 +8,8 @@ namespace unicursal::host {
 /// 256 random bits from the system, in hexadecimal.
 std::string random_token();
 
-/// 128 random bits, in hexadecimal: as long as a key of OctoPrint, since some of its clients refuse longer ones.
+/// 128 random bits, in hexadecimal: as long as a key of OctoPrint, since some of its clients refuse longer
+/// ones.
 std::string random_key();
 
 /// Compares in a time that does not show where they differ.

@@ -52,6 +52,9 @@ void read_machine(const Section& section, Profile& profile) {
   profile.display = section.flag_or("display", profile.display, "write true or false");
   printer.bed =
       section.numbers_or("bed", printer.bed, within(gcode::bounds::bed, "mm"), "write bed = [x, y, z] in mm");
+  printer.overtravel =
+      section.numbers_or("overtravel", printer.overtravel, within(gcode::bounds::overtravel, "mm"),
+                         "write overtravel = [left, front] in mm");
   printer.nozzle = section.number_or("nozzle", printer.nozzle, within(gcode::bounds::nozzle, "mm"),
                                      "write for example nozzle = 0.4");
   printer.bead_width_range = section.numbers_or("bead_width_range", printer.bead_width_range,

@@ -24,7 +24,7 @@ MoveTarget Coordinates::target(const Command& command) {
     if (const auto value = command.value(letters[i])) {
       target.place[i] = bounded(*value * unit_ + (absolute_ ? origin_[i] : place_[i]), farthest_place);
     }
-    const double inside = std::clamp(target.place[i], 0.0, bed_[i]);
+    const double inside = std::clamp(target.place[i], least_[i], bed_[i]);
     if (!homed_[i] || inside == target.place[i]) continue;
     target.place[i] = inside;
     target.held_at_edge = true;

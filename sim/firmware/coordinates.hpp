@@ -20,8 +20,10 @@ struct MoveTarget {
 
 class Coordinates {
  public:
-  /// `bed` is its size in mm; homed axes stay within it.
-  explicit Coordinates(const std::array<double, 3>& bed) : bed_(bed) {}
+  /// `bed` is its size in mm; homed axes stay within it, or go below 0 as far as `overtravel` says for x and
+  /// y.
+  explicit Coordinates(const std::array<double, 3>& bed, const std::array<double, 2>& overtravel = {})
+      : bed_(bed), least_{0 - overtravel[0], 0 - overtravel[1], 0} {}
 
   /// Returns the target of a G0 or G1, and remembers its F.
   MoveTarget target(const Command& command);
@@ -54,7 +56,7 @@ class Coordinates {
  private:
   static double limited(double percent);
 
-  std::array<double, 3> bed_;
+  std::array<double, 3> bed_, least_;
   std::array<double, 3> place_{}, origin_{};
   std::array<bool, 3> homed_{};
   double e_ = 0;

@@ -41,7 +41,7 @@ Firmware::Firmware(const Machine& machine, const Personality& personality, MoveS
       assembler_(personality.family == Personality::Family::repetier),
       check_(rules_of(personality)),
       planner_(limits_of(machine, personality), sink),
-      coordinates_(machine.bed),
+      coordinates_(machine.bed, machine.overtravel),
       mixer_(machine.feeders, personality.mix_scale, personality.virtual_tools),
       nozzle_(machine.nozzle),
       bed_(machine.bed_heater),
@@ -70,7 +70,7 @@ void Firmware::reset() {
   planner_.limits() = limits_of(machine_, personality_);
   origin_ = planner_.executed_position();
   origin_[axis_e] = 0;
-  coordinates_ = Coordinates(machine_.bed);
+  coordinates_ = Coordinates(machine_.bed, machine_.overtravel);
   mixer_ = Mixer(machine_.feeders, personality_.mix_scale, personality_.virtual_tools);
   cold_ = personality_.cold;
   busy_interval_ = 2;

@@ -41,6 +41,7 @@ namespace unicursal::sim {
 
 struct Machine {
   std::array<double, 3> bed{200, 200, 200};  ///< Bed size, mm.
+  std::array<double, 2> overtravel{};        ///< How far the software endstops let x and y go below 0, mm.
   MotionLimits limits;
   std::size_t feeders = 3;
   HeaterModel nozzle;

@@ -91,8 +91,9 @@ void Firmware::cold_extrusion(const Command& command) {
 }
 
 void Firmware::soft_endstops(const Command&) {
-  say(fmt::format("echo:Soft endstops: On  Min:  X0.00 Y0.00 Z0.00   Max:  X{:.2f} Y{:.2f} Z{:.2f}",
-                  machine_.bed[0], machine_.bed[1], machine_.bed[2]));
+  say(fmt::format("echo:Soft endstops: On  Min:  X{:.2f} Y{:.2f} Z0.00   Max:  X{:.2f} Y{:.2f} Z{:.2f}",
+                  0 - machine_.overtravel[0], 0 - machine_.overtravel[1], machine_.bed[0], machine_.bed[1],
+                  machine_.bed[2]));
 }
 
 /// M118 A1 E1 TEXT

@@ -22,9 +22,9 @@ struct Read {
   std::map<int, Mixture> mixtures;
 };
 
-Read read(const std::string& text, SlicedLimits limits = {}) {
+Read read(const std::string& text, SlicedLimits limits = {}, const Printer& printer = {}) {
   std::istringstream stream(text);
-  SlicedReader reader(stream, "part.gcode", Printer(), limits);
+  SlicedReader reader(stream, "part.gcode", printer, limits);
   Read result;
   while (const auto step = reader.next()) {
     if (const auto* move = std::get_if<SlicedMove>(&*step)) result.moves.push_back(*move);
@@ -128,6 +128,40 @@ TEST_CASE("What would break a print is refused with its line", "[sliced]") {
   const std::string said = refusal(one.text);
   CHECK_THAT(said, Catch::Contains(one.says));
   CHECK_THAT(said, Catch::StartsWith("part.gcode: line "));
+}
+
+TEST_CASE("The file's own speed and flow are applied to its moves, and not sent", "[sliced]") {
+  const Read file = read(warm + layer +
+                         "M83\nG1 X1 Y1 Z1 F600\nM220 S120\nM221 S95 T0\nG1 X2 E1\nM220 B\nM220 S50\nG1 X3 "
+                         "E1\nM220 R\nG1 X4 E1\nM221 S100\nM220\nG1 E-2\nG91\nG1 X1 E1\n");
+  for (const std::string& line : file.passed) CHECK(!line.starts_with("M22"));
+  REQUIRE(file.moves.size() == 6);
+  const auto check = [&](std::size_t index, double feed, double filament) {
+    CAPTURE(index);
+    CHECK(file.moves[index].feed == Approx(feed));
+    CHECK(file.moves[index].filament == Approx(filament));
+  };
+  check(0, 600, 0);
+  check(1, 720, 0.95);
+  check(2, 300, 0.95);
+  check(3, 720, 0.95);
+  check(4, 720, -2);
+  check(5, 720, 1);
+  CHECK_THAT(refusal("M220 S0"), Catch::Contains("M220 S0 sets a rate that is not 1 to 999 %"));
+  CHECK_THAT(refusal("M221 S-5"), Catch::Contains("not 1 to 999 %"));
+}
+
+TEST_CASE("A purge line beside the bed is refused unless the profile says that the nozzle can go there",
+          "[sliced]") {
+  const std::string purge = warm + "M83\nG1 X-1 Y-3 Z0.3\nG1 X60 E9\n";
+  CHECK_THAT(refusal(purge), Catch::Contains("x = -1 mm, outside the bed of the profile (0 to 200 mm)") &&
+                                 Catch::Contains("`overtravel`"));
+  Printer printer;
+  printer.overtravel = {2, 4};
+  CHECK(read(purge, {}, printer).moves.size() == 2);
+  printer.overtravel = {2, 2};
+  CHECK_THROWS_WITH(read(purge, {}, printer),
+                    Catch::Contains("y = -3 mm") && Catch::Contains("(-2 to 200 mm)"));
 }
 
 TEST_CASE("A person who stays may allow stops, and a pause that ends by itself needs none", "[sliced]") {

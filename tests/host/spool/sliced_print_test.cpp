@@ -1,4 +1,6 @@
 // Prints of a slicer's G-code: whole, cut short, and resumed.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -7,6 +9,7 @@
 #include "tests/firmware_gcode/support/sliced_block.hpp"
 #include "tests/host/support/json_events.hpp"
 #include "tests/host/support/print_bench.hpp"
+#include "tests/host/support/terminal.hpp"
 
 using namespace unicursal;
 using Catch::Matchers::Contains;
@@ -38,9 +41,9 @@ sun = [0.0, 1.0, 1.0]
 
 constexpr std::size_t layers = 16;
 
-std::string block() {
+std::string block(std::size_t height = layers) {
   gcode::test::BlockOptions options;
-  options.layers = layers;
+  options.layers = height;
   return gcode::test::sliced_block(options).text;
 }
 
@@ -137,6 +140,78 @@ TEST_CASE(
   });
   CHECK(parked != seen.lines.rend());
   CHECK(parked - seen.lines.rbegin() < 10);
+}
+
+TEST_CASE("A cable that is pulled while a slicer's G-code is printed costs nothing") {
+  const Seen whole = undisturbed();
+  SlicedBench bench(100, {"--fault", "disconnect:100@line=250"});
+  const Outcome outcome = test::run(bench.print());
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK_THAT(outcome.err, Contains("the printer is back"));
+  test::check_equal(bench.seen(), whole);
+}
+
+TEST_CASE("A full disk makes the print of a slicer's G-code wait until there is room") {
+  const Seen whole = undisturbed();
+  SlicedBench bench(100);
+  Child host(bench.print());
+  Bench::wait_for([&] { return bench.begun(); }, host);
+  // To the program, a limit on the size of files looks like a full disk.
+  const rlimit full{10000, RLIM_INFINITY};
+  const rlimit room{RLIM_INFINITY, RLIM_INFINITY};
+  REQUIRE(prlimit(host.id(), RLIMIT_FSIZE, &full, nullptr) == 0);
+  Bench::wait_for([&] { return host.err().find("make room") != std::string::npos; }, host);
+  INFO(host.err());
+  REQUIRE(host.running());
+  REQUIRE(prlimit(host.id(), RLIMIT_FSIZE, &room, nullptr) == 0);
+  const Outcome outcome = host.wait();
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  test::check_equal(bench.seen(), whole);  // there was room again before the nozzle had nothing to do
+}
+
+TEST_CASE("A slicer's G-code that waits for a person is answered from the terminal, and goes on",
+          "[optimised]") {
+  const std::string text = block(4);
+  const std::size_t middle = text.rfind(";LAYER_CHANGE");
+  REQUIRE(middle != std::string::npos);
+  SlicedBench bench(100, {"--personality", "marlin-host"});
+  bench.folder().write("block.gcode", text.substr(0, middle) + "M0 Put the nut in\n" + text.substr(middle));
+  const Outcome refused = test::run(bench.print());
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("--allow-stops"));
+  test::Terminal terminal(bench.print({"--allow-stops"}));
+  terminal.await("the printer asks \"M0 Stop\": answer 0 (Continue)");
+  terminal.type("answer 0\n");
+  CHECK(terminal.wait() == 0);
+  const Seen seen = bench.seen();
+  const auto stop = std::find_if(seen.lines.begin(), seen.lines.end(),
+                                 [](const std::string& line) { return line.starts_with("M0"); });
+  REQUIRE(stop != seen.lines.end());
+  CHECK(std::count_if(stop, seen.lines.end(),
+                      [](const std::string& line) { return line.starts_with("G1 "); }) > 40);
+}
+
+TEST_CASE("The speed that a person sets outlives the one that a slicer's G-code sets", "[optimised]") {
+  std::string text = block();
+  for (std::size_t at = text.find(";LAYER_CHANGE"); at != std::string::npos;
+       at = text.find(";LAYER_CHANGE", at + 30))
+    text.insert(at, "M220 S100\nM221 S95\n");
+  SlicedBench bench(300);
+  bench.folder().write("block.gcode", text);
+  test::Terminal terminal(bench.print());
+  terminal.await("printing layer 3");
+  terminal.type("speed 150\n");
+  terminal.await("speed is 150 % now");
+  CHECK(terminal.wait() == 0);
+  const Seen seen = bench.seen(), whole = undisturbed();
+  const auto set = std::find(seen.lines.begin(), seen.lines.end(), "M220 S150");
+  REQUIRE(set != seen.lines.end());
+  const auto parked = std::find(set, seen.lines.end(), "M104 S0");
+  CHECK(std::find(set, parked, "M220 S100") == parked);
+  const auto laid = [](const Seen& print) { return print.report["extruded_mm"].get<double>(); };
+  CHECK(laid(seen) == Approx(0.95 * laid(whole)).epsilon(0.01));
 }
 
 TEST_CASE("A G-code file is kept as stretches, of which the layers are those of the file") {

@@ -29,6 +29,16 @@ TEST_CASE("Marlin reports its settings, all of them and each by its own command"
   }
 }
 
+TEST_CASE("Homed axes go below 0 as far as the software endstops let them, and no further") {
+  Machine machine;
+  machine.overtravel = {2, 4};
+  Bench bench(machine);
+  CHECK(bench.send("M211").front().find("Min:  X-2.00 Y-4.00 Z0.00") != std::string::npos);
+  bench.finish("G28");
+  bench.finish("G1 X-1 Y-9 Z-1 F6000");
+  CHECK(bench.finish("M114").front().starts_with("X:-1.00 Y:-4.00 Z:0.00"));
+}
+
 TEST_CASE("M113 changes how often a busy Marlin says so, and M302 what is too cold") {
   Bench bench;
   bench.send("M113 S0");
