@@ -1,5 +1,7 @@
 #include "sim/simulator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -67,11 +69,13 @@ void check(const SimulatorOptions& options) {
           "the chamber's volumes are 0 to 1000 mm³");
   require(!options.tanks || (*options.tanks >= 1 && *options.tanks <= 8), "a chamber has one to eight tanks");
   require(std::isfinite(options.speed) && options.speed >= 0, "the clock's speed is 0 or a positive number");
-  require(options.feeders >= 1 && options.feeders <= max_feeders, "a printer has one to six feeders");
   require(positive(options.baud), "the line needs a positive number of bits per second");
   require(!options.control || options.speed == 0, "with a control socket the host sets the clock's speed");
   usb_named(options.usb);
-  personality(options.personality);
+  const std::size_t most = personality(options.personality).most_feeders;
+  if (options.feeders < 1 || options.feeders > most)
+    throw std::invalid_argument(
+        fmt::format("a printer with the personality {} has 1 to {} feeders", options.personality, most));
   for (const std::string& fault : options.faults) parse_fault(fault);
   if (options.fault_file) read_faults(*options.fault_file);
 }
@@ -146,7 +150,7 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   Deposit deposit({.drawing = pictures ? &*pictures : nullptr, .strikes = &strikes});
   if (options.rasters) {
     rasters.emplace(*options.rasters);
-    spread.emplace(BedSize{options.bed[0], options.bed[1]}, options.raster_pixel);
+    spread.emplace(BedSize{options.bed[0], options.bed[1]}, options.raster_pixel, options.feeders);
     deposit = Deposit({pictures ? &*pictures : nullptr, &*spread, &*rasters, &strikes});
   }
   Nozzle nozzle(

@@ -14,6 +14,7 @@ namespace unicursal::gcode {
 struct Limits {
   std::size_t line_length = 95;    ///< characters of a line, including its number and checksum
   std::size_t virtual_tools = 16;  ///< T0 … T15
+  std::size_t feeders = most_feeders;
   double extrusion = 200;          ///< mm of filament in one move; the firmware refuses more
   int mixture_decimals = 4;        ///< decimals of a share that the firmware keeps
   bool tool_change_stops = false;  ///< T waits until all motion has ended

@@ -13,7 +13,7 @@ const Limits& Marlin::limits() const {
 
 std::vector<std::string> Marlin::define_tool(std::size_t tool, const Mixture& mixture) const {
   std::vector<std::string> lines;
-  for (std::size_t feeder = 0; feeder < max_feeders; ++feeder) {
+  for (std::size_t feeder = 0; feeder < mixture.feeders(); ++feeder) {
     lines.push_back(
         fmt::format("M163 S{} P{}", feeder, short_number(mixture.share(feeder), limits().mixture_decimals)));
   }

@@ -11,6 +11,7 @@ constexpr double parts = 100;  ///< in which a share is written
 
 Limits own_limits() {
   Limits limits;
+  limits.feeders = 6;
   limits.extrusion = 160;
   limits.mixture_decimals = 2;
   limits.tool_change_stops = true;
@@ -27,7 +28,7 @@ const Limits& Repetier::limits() const {
 
 std::vector<std::string> Repetier::define_tool(std::size_t tool, const Mixture& mixture) const {
   std::vector<std::string> lines = {"M400"};
-  for (std::size_t feeder = 0; feeder < max_feeders; ++feeder) {
+  for (std::size_t feeder = 0; feeder < mixture.feeders(); ++feeder) {
     lines.push_back(fmt::format("M163 S{} P{}", feeder, std::lround(mixture.share(feeder) * parts)));
   }
   lines.push_back(fmt::format("M164 S{}", tool));

@@ -11,10 +11,9 @@ std::vector<std::string> choose_extruder(const Dialect& dialect) {
   return writing ? writing->choose_extruder() : std::vector<std::string>{};
 }
 
-std::string begin_mixture(const Dialect& dialect, std::size_t tool, const Mixture& mixture,
-                          const Printer& printer) {
+std::string begin_mixture(const Dialect& dialect, std::size_t tool, const Mixture& mixture) {
   const ShareWriting* writing = share_writing(dialect);
-  return writing ? writing->write_shares(mixture, printer) : dialect.select_tool(tool);
+  return writing ? writing->write_shares(mixture) : dialect.select_tool(tool);
 }
 
 }  // namespace unicursal::gcode

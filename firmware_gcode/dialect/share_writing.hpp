@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "firmware_gcode/dialect/dialect.hpp"
-#include "firmware_gcode/print/printer.hpp"
 
 namespace unicursal::gcode {
 
@@ -16,7 +15,7 @@ class ShareWriting : public Dialect {
   /// The lines that choose the extruder that mixes, before anything is heated or extruded.
   virtual std::vector<std::string> choose_extruder() const = 0;
   /// From here on moves feed this mixture.
-  virtual std::string write_shares(const Mixture& mixture, const Printer& printer) const = 0;
+  virtual std::string write_shares(const Mixture& mixture) const = 0;
 
   std::vector<std::string> define_tool(std::size_t, const Mixture&) const override { return {}; }
 };
@@ -28,7 +27,6 @@ const ShareWriting* share_writing(const Dialect& dialect);
 std::vector<std::string> choose_extruder(const Dialect& dialect);
 
 /// The line from which on moves feed the mixture that define_tool() has stored in `tool`, which is `mixture`.
-std::string begin_mixture(const Dialect& dialect, std::size_t tool, const Mixture& mixture,
-                          const Printer& printer);
+std::string begin_mixture(const Dialect& dialect, std::size_t tool, const Mixture& mixture);
 
 }  // namespace unicursal::gcode

@@ -35,12 +35,12 @@ double share_in(const std::string& line) {
 
 /// Returns whether the lines define a tool that feeds equal shares; dialects scale shares differently.
 bool feeds_equal_shares(const ModalState::Lines& definition, const Printer& printer) {
-  if (definition.size() != max_feeders + 1) return false;
-  std::array<double, max_feeders> fed{};
-  for (std::size_t f = 0; f < max_feeders; ++f) fed[f] = share_in(definition[f]) / printer.flow_factors[f];
+  if (definition.size() != printer.feeders + 1) return false;
+  Shares fed = Shares::zeros(printer.feeders);
+  for (std::size_t f = 0; f < fed.size(); ++f) fed[f] = share_in(definition[f]) / printer.flow_factors[f];
   const double sum = std::accumulate(fed.begin(), fed.end(), 0.0);
   return sum > 0 && std::all_of(fed.begin(), fed.end(), [&](double share) {
-           return std::abs(share / sum - 1.0 / max_feeders) < rounding;
+           return std::abs(share / sum - 1.0 / static_cast<double>(printer.feeders)) < rounding;
          });
 }
 
@@ -53,8 +53,8 @@ std::string selecting(int tool) {
 std::optional<std::string> line_of_equal_shares(const ModalState& state, const Printer& printer) {
   const Dialect& dialect = dialect_named(printer.firmware);
   if (const ShareWriting* writing = share_writing(dialect))
-    return writing->write_shares(calibrated(Mixture({1, 1, 1}), printer.flow_factors, dialect).written,
-                                 printer);
+    return writing->write_shares(
+        calibrated(Mixture::equal(printer.feeders), printer.flow_factors, dialect).written);
   for (const auto& [tool, definition] : state.tools) {
     if (feeds_equal_shares(definition, printer)) return selecting(tool);
   }

@@ -3,8 +3,6 @@
 // So the difference between feeders is corrected in the shares, and the common part in E.
 #pragma once
 
-#include <array>
-
 #include "firmware_gcode/dialect/dialect.hpp"
 
 namespace unicursal::gcode {
@@ -16,8 +14,7 @@ struct CalibratedMixture {
   double scale = 1;   ///< E ÷ mm of filament to be fed
 };
 
-/// Precondition: the factors are positive.
-CalibratedMixture calibrated(const Mixture& wanted, const std::array<double, max_feeders>& factors,
-                             const Dialect& dialect);
+/// Precondition: the factors are positive, one for each feeder of the mixture.
+CalibratedMixture calibrated(const Mixture& wanted, const PerFeeder& factors, const Dialect& dialect);
 
 }  // namespace unicursal::gcode

@@ -53,51 +53,50 @@ double ChamberModel::mean_delay() const {
 }
 
 Tanks::Tanks(const ChamberModel& model, const Shares& shares)
-    : count_(model.mixing_volume > 0 ? model.tanks : 0), tank_volume_(model.tank_volume()) {
+    : count_(model.mixing_volume > 0 ? model.tanks : 0),
+      feeders_(shares.size()),
+      tank_volume_(model.tank_volume()) {
   assert(model.tanks <= max_tanks);
-  tanks_.fill(shares);
+  for (std::size_t k = 0; k < count_; ++k)
+    std::copy(shares.begin(), shares.end(), shares_.begin() + static_cast<std::ptrdiff_t>(k * feeders_));
+}
+
+Tanks& Tanks::operator=(const Tanks& other) {
+  count_ = other.count_;
+  feeders_ = other.feeders_;
+  tank_volume_ = other.tank_volume_;
+  std::copy_n(other.shares_.begin(), count_ * feeders_, shares_.begin());
+  return *this;
 }
 
 // With x = volume ÷ tank volume, the deviation of tank k from the inflow becomes e^−x·Σ_{j≤k} x^(k−j)/(k−j)!
 // times the former deviation of tank j. The outflow follows from the balance of volumes.
-Tanks::Shares Tanks::pass(const Shares& inflow, double volume) {
+Shares Tanks::pass(const Shares& inflow, double volume) {
+  assert(inflow.size() == feeders_);
   Shares out = inflow;
   if (count_ == 0) return out;
   const double x = volume / tank_volume_;
   std::array<double, max_tanks> weights;
   weights[0] = std::exp(-x);
   for (std::size_t k = 1; k < count_; ++k) weights[k] = weights[k - 1] * x / static_cast<double>(k);
-  for (std::size_t f = 0; f < max_feeders; ++f) {
+  for_each_feeder(feeders_, [&](std::size_t f) {
     double released = 0;
     for (std::size_t k = count_; k-- > 0;) {
       double deviation = 0;
-      for (std::size_t j = 0; j <= k; ++j) deviation += weights[k - j] * (tanks_[j][f] - inflow[f]);
-      released += tanks_[k][f] - (inflow[f] + deviation);
-      tanks_[k][f] = inflow[f] + deviation;
+      for (std::size_t j = 0; j <= k; ++j) deviation += weights[k - j] * (share(j, f) - inflow[f]);
+      released += share(k, f) - (inflow[f] + deviation);
+      share(k, f) = inflow[f] + deviation;
     }
     out[f] = inflow[f] + released / x;
-  }
+  });
   return out;
 }
 
-double Tanks::difference(const Tanks& other) const {
-  double greatest = 0;
-  for (std::size_t k = 0; k < count_; ++k) {
-    for (std::size_t f = 0; f < max_feeders; ++f) {
-      greatest = std::max(greatest, std::abs(tanks_[k][f] - other.tanks_[k][f]));
-    }
+bool Tanks::is_like(const Tanks& other, double least) const {
+  for (std::size_t i = 0; i < count_ * feeders_; ++i) {
+    if (std::abs(shares_[i] - other.shares_[i]) >= least) return false;
   }
-  return greatest;
-}
-
-double Tanks::difference(const Shares& shares) const {
-  double greatest = 0;
-  for (std::size_t k = 0; k < count_; ++k) {
-    for (std::size_t f = 0; f < max_feeders; ++f) {
-      greatest = std::max(greatest, std::abs(tanks_[k][f] - shares[f]));
-    }
-  }
-  return greatest;
+  return true;
 }
 
 }  // namespace unicursal::gcode

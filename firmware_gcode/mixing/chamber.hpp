@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "firmware_gcode/print/mixture.hpp"
@@ -37,28 +38,32 @@ struct ChamberModel {
 /// The state of the tanks behind the dead volume.
 class Tanks {
  public:
-  using Shares = std::array<double, max_feeders>;
-
   /// All tanks are full of `shares`.
   Tanks(const ChamberModel& model, const Shares& shares);
 
   /// Lets `volume` (above zero) of constant shares flow in and returns the mean shares of the outflow
   /// meanwhile. The solution is exact.
   Shares pass(const Shares& inflow, double volume);
-  /// The greatest difference in any share of any tank.
-  double difference(const Tanks& other) const;
-  double difference(const Shares& shares) const;
+  /// Whether no share of any tank differs by `least` or more.
+  bool is_like(const Tanks& other, double least) const;
+
+  /// The schedule copies tanks often: only what is used is copied.
+  Tanks(const Tanks& other) { *this = other; }
+  Tanks& operator=(const Tanks& other);
 
  private:
-  std::size_t count_;
+  double& share(std::size_t tank, std::size_t feeder) { return shares_[tank * feeders_ + feeder]; }
+  double share(std::size_t tank, std::size_t feeder) const { return shares_[tank * feeders_ + feeder]; }
+
+  std::size_t count_, feeders_;
   double tank_volume_;
-  std::array<Shares, max_tanks> tanks_{};
+  std::array<double, max_tanks * most_feeders> shares_;  ///< of the tanks in turn; behind the last unused
 };
 
 /// The fraction of plastic that is misplaced: half the sum of the absolute differences of all shares.
-inline double misplaced(const std::array<double, max_feeders>& a, const std::array<double, max_feeders>& b) {
+inline double misplaced(const Shares& a, const Shares& b) {
   double sum = 0;
-  for (std::size_t f = 0; f < max_feeders; ++f) sum += a[f] < b[f] ? b[f] - a[f] : a[f] - b[f];
+  for_each_feeder(a.size(), [&](std::size_t f) { sum += std::abs(a[f] - b[f]); });
   return sum / 2;
 }
 

@@ -14,7 +14,11 @@ constexpr double counts = 1;  ///< least weight of plastic that counts
 }  // namespace
 
 Forecast::Forecast(const Palette& palette, const ChamberModel& chamber)
-    : palette_(palette), chamber_(chamber), wanted_(palette), tanks_(chamber, inflow_) {}
+    : palette_(palette),
+      chamber_(chamber),
+      wanted_(palette),
+      inflow_(Mixture::equal(palette.feeders()).shares()),
+      tanks_(chamber, inflow_) {}
 
 void Forecast::add(const WantedBead& piece) {
   wanted_.add(piece);
@@ -66,7 +70,7 @@ void Forecast::arrive(double to) {
     layer_ = {};
     layer_.layer = run.layer;
   }
-  const Tanks::Shares arrived = tanks_.pass(inflow_, volume);
+  const Shares arrived = tanks_.pass(inflow_, volume);
   const Mismatch bad = mismatch(palette_, run, wanted_.shares(run, (at_ + to) / 2), arrived);
   if (bad.wrong) run_wrong_ += volume;
   if (run.weight >= counts) {

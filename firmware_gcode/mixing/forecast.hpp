@@ -32,7 +32,7 @@ class Forecast {
   ChamberModel chamber_;
   WantedRuns wanted_;
   std::deque<Switch> coming_;
-  Tanks::Shares inflow_{1.0 / 3, 1.0 / 3, 1.0 / 3};
+  Shares inflow_;
   Tanks tanks_;
   double at_ = 0;         ///< volume at the nozzle up to which all is computed
   std::size_t here_ = 0;  ///< index of the run there

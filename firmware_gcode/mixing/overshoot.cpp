@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
 namespace unicursal::gcode {
 namespace {
-
-using Shares = Tanks::Shares;
 
 constexpr double cell = 1.0 / 24;       ///< of the mixing volume: step of the computation
 constexpr double reckoned = 2.5;        ///< mixing volumes after which a change is complete
@@ -46,13 +46,34 @@ Answer answer_of(const ChamberModel& profile, const NozzleVariant& variant, doub
 }
 
 struct Pulse {
-  std::array<double, 2> shares{};  ///< of feeders 1 and 2; feeder 3 has the rest
+  Shares shares;  ///< the last feeder has what the others leave (give_last_the_rest())
   int cells = 0;
 };
-using Pulses = std::vector<Pulse>;
+using Pulses = boost::container::static_vector<Pulse, most_pulses>;
 
-Shares full(const Pulse& pulse) {
-  return {pulse.shares[0], pulse.shares[1], std::max(0.0, 1 - pulse.shares[0] - pulse.shares[1])};
+void give_last_the_rest(Shares& shares) {
+  double rest = 1;
+  for (std::size_t f = 0; f + 1 < shares.size(); ++f) rest -= shares[f];
+  shares[shares.size() - 1] = std::max(0.0, rest);
+}
+
+/// All shares of so many feeders in steps of 1 ÷ `grid`.
+std::vector<Shares> shares_on_grid(std::size_t feeders, int grid) {
+  std::vector<Shares> all;
+  Shares shares = Shares::zeros(feeders);
+  const std::function<void(std::size_t, int)> choose = [&](std::size_t feeder, int left) {
+    if (feeder + 1 == feeders) {
+      give_last_the_rest(shares);
+      all.push_back(shares);
+      return;
+    }
+    for (int part = 0; part <= left; ++part) {
+      shares[feeder] = part / static_cast<double>(grid);
+      choose(feeder + 1, left - part);
+    }
+  };
+  choose(0, grid);
+  return all;
 }
 
 /// A change from one mixture to another, and the cost of carrying it out with given pulses.
@@ -60,7 +81,12 @@ class Change {
  public:
   Change(const std::vector<Shares>& materials, const std::vector<Answer>& answers, std::size_t from,
          std::size_t to, double before_border)
-      : materials_(materials), answers_(answers), from_(from), to_(to), before_border_(before_border) {}
+      : materials_(materials), answers_(answers), from_(from), to_(to), before_border_(before_border) {
+    for (const Shares& material : materials) {
+      apart_from_.push_back(squared_distance(material, materials[from]));
+      apart_to_.push_back(squared_distance(material, materials[to]));
+    }
+  }
 
   struct Cost {
     double cost = std::numeric_limits<double>::infinity();  ///< cells of plastic
@@ -76,8 +102,8 @@ class Change {
     for (std::size_t n = 0; n < answers_.size(); ++n) {
       for (std::size_t i = 0; i < count; ++i) {
         const Shares out = arrived(pulses, answers_[n], i);
-        const double behind = variants[n].weight * before_border_ * loss(to_, out);
-        more[i] += variants[n].weight * (1 - before_border_) * loss(from_, out) - behind;
+        const double behind = variants[n].weight * before_border_ * loss(to_, apart_to_, out);
+        more[i] += variants[n].weight * (1 - before_border_) * loss(from_, apart_from_, out) - behind;
         cost += behind;
       }
     }
@@ -91,31 +117,33 @@ class Change {
 
  private:
   Shares arrived(const Pulses& pulses, const Answer& answer, std::size_t at) const {
-    Shares out = materials_[from_], fed = out;
+    Shares out = materials_[from_];
+    const Shares* fed = &materials_[from_];
     std::size_t begun = 0;
     const auto step_to = [&](const Shares& next) {
-      for (std::size_t f = 0; at >= begun && f < max_feeders; ++f)
-        out[f] += (next[f] - fed[f]) * answer[at - begun];
-      fed = next;
+      if (at >= begun) {
+        const double part = answer[at - begun];
+        for_each_feeder(out.size(), [&](std::size_t f) { out[f] += (next[f] - (*fed)[f]) * part; });
+      }
+      fed = &next;
     };
     for (const Pulse& pulse : pulses) {
-      step_to(full(pulse));
+      step_to(pulse.shares);
       begun += static_cast<std::size_t>(pulse.cells);
     }
     step_to(materials_[to_]);
     return out;
   }
 
-  double loss(std::size_t wanted, const Shares& out) const {
+  /// `apart`: the squared distances of all materials from the wanted one.
+  double loss(std::size_t wanted, const std::vector<double>& apart, const Shares& out) const {
     const double misplaced_share = misplaced(out, materials_[wanted]);
     if (before_border_ != 0.5) return misplaced_share;  // like the schedule
     const double own = squared_distance(out, materials_[wanted]);
     double wrong = 0;
     for (std::size_t i = 0; i < materials_.size(); ++i) {
-      if (i == wanted) continue;
-      const double apart = squared_distance(materials_[i], materials_[wanted]);
-      if (apart == 0) continue;
-      const double nearer = (own - squared_distance(out, materials_[i])) / apart;
+      if (i == wanted || apart[i] == 0) continue;
+      const double nearer = (own - squared_distance(out, materials_[i])) / apart[i];
       wrong = std::max(wrong, std::clamp(0.5 + nearer / blur, 0.0, 1.0));
     }
     return misplaced_share + wrong;
@@ -124,6 +152,7 @@ class Change {
   const std::vector<Shares>& materials_;
   const std::vector<Answer>& answers_;
   std::size_t from_, to_;
+  std::vector<double> apart_from_, apart_to_;
   double before_border_;
 };
 
@@ -137,7 +166,8 @@ struct Found {
 /// Finds the cheapest way to carry out a change.
 class Search {
  public:
-  Search(const Change& change, double floor) : change_(change), floor_(floor) {}
+  Search(const Change& change, std::size_t feeders, double floor)
+      : change_(change), feeders_(feeders), floor_(floor) {}
 
   Found best(std::size_t most) const {
     Found best{{}, change_.of({})};
@@ -154,9 +184,12 @@ class Search {
   Found at(Pulses pulses) const {
     for (Pulse& pulse : pulses) {
       pulse.cells = std::clamp(pulse.cells, 1, longest);
-      pulse.shares[0] = std::clamp(pulse.shares[0], floor_, std::max(floor_, 1 - 2 * floor_));
-      const double rest = 1 - floor_ - pulse.shares[0];
-      pulse.shares[1] = std::clamp(pulse.shares[1], floor_, std::max(floor_, rest));
+      for (std::size_t f = 0; f + 1 < feeders_; ++f) {
+        double most = 1 - static_cast<double>(feeders_ - 1 - f) * floor_;
+        for (std::size_t before = 0; before < f; ++before) most -= pulse.shares[before];
+        pulse.shares[f] = std::clamp(pulse.shares[f], floor_, std::max(floor_, most));
+      }
+      give_last_the_rest(pulse.shares);
     }
     const Change::Cost cost = change_.of(pulses);
     return {std::move(pulses), cost};
@@ -166,17 +199,14 @@ class Search {
   Found with_one_more(const Pulses& pulses) const {
     std::vector<Found> coarse;
     constexpr int grid = 3;
-    for (int a = 0; a <= grid; ++a) {
-      for (int b = 0; a + b <= grid; ++b) {
-        for (const int cells : {2, 5, 9}) {
-          const Pulse pulse{{a / static_cast<double>(grid), b / static_cast<double>(grid)}, cells};
-          Pulses more = pulses;
-          more.push_back(pulse);
-          coarse.push_back(at(more));
-          if (pulses.empty()) continue;
-          std::rotate(more.begin(), more.end() - 1, more.end());
-          coarse.push_back(at(std::move(more)));
-        }
+    for (const Shares& shares : shares_on_grid(feeders_, grid)) {
+      for (const int cells : {2, 5, 9}) {
+        Pulses more = pulses;
+        more.push_back({shares, cells});
+        coarse.push_back(at(more));
+        if (pulses.empty()) continue;
+        std::rotate(more.begin(), more.end() - 1, more.end());
+        coarse.push_back(at(std::move(more)));
       }
     }
     std::stable_sort(coarse.begin(), coarse.end());
@@ -203,21 +233,31 @@ class Search {
     }
   }
 
-  static std::vector<Pulses> neighbours(const Pulses& pulses, std::size_t p, double stride, int cells) {
+  std::vector<Pulses> neighbours(const Pulses& pulses, std::size_t p, double stride, int cells) const {
     std::vector<Pulses> result;
+    const std::size_t last = feeders_ - 1;
+    result.reserve(2 + feeders_ * last);
     for (const int sign : {-1, 1}) {
       result.push_back(pulses);
       result.back()[p].cells += sign * cells;
-      // Moves share from each feeder to each other one.
-      for (const std::array<double, 2>& way : {std::array{1.0, 0.0}, {0.0, 1.0}, {1.0, -1.0}}) {
+      // Moves share from each feeder to each other one; at() gives the last one the rest.
+      for (std::size_t f = 0; f < last; ++f) {
         result.push_back(pulses);
-        for (std::size_t f = 0; f < 2; ++f) result.back()[p].shares[f] += sign * stride * way[f];
+        result.back()[p].shares[f] += sign * stride;
+      }
+      for (std::size_t f = 0; f < last; ++f) {
+        for (std::size_t other = f + 1; other < last; ++other) {
+          result.push_back(pulses);
+          result.back()[p].shares[f] += sign * stride;
+          result.back()[p].shares[other] -= sign * stride;
+        }
       }
     }
     return result;
   }
 
   const Change& change_;
+  std::size_t feeders_;
   double floor_;
 };
 
@@ -240,12 +280,12 @@ PaletteWithOvershoots with_overshoots(Palette palette, const OvershootOptions& o
     for (std::size_t to = 0; to < count; ++to) {
       if (from == to) continue;
       const Change change(materials, answers, from, to, options.before_border);
-      const Found found = Search(change, options.floor_share).best(most);
+      const Found found = Search(change, palette.feeders(), options.floor_share).best(most);
       if (found.pulses.empty()) continue;
       Overshoot overshoot;
       overshoot.lead = static_cast<double>(found.cost.lead) * step;
       for (const Pulse& pulse : found.pulses) {
-        overshoot.pulses.push_back({palette.add(Mixture(full(pulse))), pulse.cells * step});
+        overshoot.pulses.push_back({palette.add(Mixture(pulse.shares)), pulse.cells * step});
       }
       overshoots.add(from, to, std::move(overshoot));
     }

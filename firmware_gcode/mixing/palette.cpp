@@ -7,8 +7,8 @@ namespace unicursal::gcode {
 namespace {
 
 Mixture between(const Mixture& a, const Mixture& b, double part) {
-  std::array<double, max_feeders> shares{};
-  for (std::size_t f = 0; f < max_feeders; ++f) shares[f] = a.share(f) + part * (b.share(f) - a.share(f));
+  Shares shares = a.shares();
+  for (std::size_t f = 0; f < shares.size(); ++f) shares[f] += part * (b.share(f) - a.share(f));
   return Mixture(shares);
 }
 

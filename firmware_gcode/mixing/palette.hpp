@@ -24,6 +24,8 @@ class Palette {
   Palette(const std::vector<Material>& materials, const Calibrate& calibrate);
 
   std::size_t size() const { return shades_.size(); }
+  /// Of every mixture; 0 if there are no materials.
+  std::size_t feeders() const { return shades_.empty() ? 0 : shades_.front().front().delivered.feeders(); }
   bool is_gradient(std::size_t material) const { return steps_of(material) > 1; }
   /// The number of shades of a material; 1 unless it is a gradient.
   std::size_t steps_of(std::size_t material) const { return shades_[material].size(); }

@@ -22,7 +22,7 @@ PrintMixtures mixtures_of(const Printer& printer, const std::vector<Material>& m
     all = with_overshoots(std::move(all.palette),
                           {chamber_of(printer), before_border, printer.floor_share, most});
   }
-  ToolTable tools(dialect, all.palette, calibrate(Mixture({1, 1, 1})));
+  ToolTable tools(dialect, all.palette, calibrate(Mixture::equal(printer.feeders)));
   return {std::move(all.palette), std::move(all.overshoots), std::move(tools)};
 }
 

@@ -66,7 +66,7 @@ struct Schedule::State {
   const Overshoot* overshoot_between(const Shade& from, const Shade& to) const;
   void branch();
   void change(std::size_t survivor, std::size_t run, const Shade& shade, const Overshoot* overshoot);
-  Tanks::Shares pass(Survivor& survivor, double to) const;
+  Shares pass(Survivor& survivor, double to) const;
   void follow_gradients();
   double loss(const Mismatch& bad) const;
   void advance(double to);
@@ -127,7 +127,7 @@ Shade Schedule::State::shade_for(const WantedRun& run) const {
 void Schedule::State::begin() {
   here = 0;
   while (wanted.run(here).end <= at && here + 1 < wanted.past()) ++here;
-  const Tanks fresh(options.chamber, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+  const Tanks fresh(options.chamber, Mixture::equal(palette.feeders()).shares());
   for (std::size_t i = 0; i < wanted.past() && wanted.run(i).begin <= at + reach; ++i) {
     const Shade shade = shade_for(wanted.run(i));
     survivors.push_back({0, fresh, i, shade, {{0, shade}}});
@@ -223,13 +223,13 @@ double Schedule::State::loss(const Mismatch& bad) const {
 }
 
 /// Feeds the survivor up to `to` and returns the mean outflow.
-Tanks::Shares Schedule::State::pass(Survivor& survivor, double to) const {
-  Tanks::Shares mean{};
+Shares Schedule::State::pass(Survivor& survivor, double to) const {
+  Shares mean = Shares::zeros(palette.feeders());
   for (double from = at; from < to;) {
     const double end = survivor.overshoot ? std::min(to, survivor.pulse_end) : to;
     if (end > from) {
-      const Tanks::Shares out = survivor.tanks.pass(palette.mixture(survivor.fed()).shares(), end - from);
-      for (std::size_t f = 0; f < max_feeders; ++f) mean[f] += out[f] * (end - from) / (to - at);
+      const Shares out = survivor.tanks.pass(palette.mixture(survivor.fed()).shares(), end - from);
+      for_each_feeder(mean.size(), [&](std::size_t f) { mean[f] += out[f] * (end - from) / (to - at); });
     }
     from = std::max(from, end);
     if (!survivor.overshoot || end < survivor.pulse_end) continue;
@@ -245,7 +245,7 @@ Tanks::Shares Schedule::State::pass(Survivor& survivor, double to) const {
 void Schedule::State::advance(double to) {
   const double volume = to - at, middle = (at + to) / 2;
   const WantedRun& run = wanted.run(here);
-  const Tanks::Shares want = wanted.shares(run, middle);
+  const Shares want = wanted.shares(run, middle);
   // The first half of a run holds the tail of the change before it, the second half the head of the next.
   const double left = border_of(here) - middle;
   const bool head = left < reach && left < middle - run.begin;
@@ -265,7 +265,7 @@ void Schedule::State::prune() {
   for (Survivor& survivor : survivors) {
     if (survivor.cost > limit || kept.size() == most_survivors) break;
     const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Survivor& other) {
-      return feed_alike(other, survivor) && other.tanks.difference(survivor.tanks) < alike;
+      return feed_alike(other, survivor) && other.tanks.is_like(survivor.tanks, alike);
     });
     if (!seen) kept.push_back(std::move(survivor));
   }

@@ -35,13 +35,12 @@ void WantedRuns::forget_before(std::size_t index) {
   while (first_ < index && !runs_.empty()) runs_.pop_front(), ++first_;
 }
 
-Tanks::Shares WantedRuns::shares(const WantedRun& run, double volume) const {
+Shares WantedRuns::shares(const WantedRun& run, double volume) const {
   if (!palette_.is_gradient(run.material)) return palette_.mixture(Shade{run.material, 0}).shares();
   return palette_.mixture(run.material, run.part_at(volume)).shares();
 }
 
-Mismatch mismatch(const Palette& palette, const WantedRun& run, const Tanks::Shares& wanted,
-                  const Tanks::Shares& arrived) {
+Mismatch mismatch(const Palette& palette, const WantedRun& run, const Shares& wanted, const Shares& arrived) {
   Mismatch result{misplaced(arrived, wanted), false};
   if (!run.layer_materials || palette.is_gradient(run.material)) return result;
   const double own = squared_distance(arrived, wanted);

@@ -56,7 +56,7 @@ class WantedRuns {
   void forget_before(std::size_t index);
 
   /// The wanted shares. Precondition: the volume lies within the run.
-  Tanks::Shares shares(const WantedRun& run, double volume) const;
+  Shares shares(const WantedRun& run, double volume) const;
 
  private:
   const Palette& palette_;
@@ -71,7 +71,6 @@ struct Mismatch {
   bool wrong = false;    ///< it is nearer to another material of the layer
 };
 
-Mismatch mismatch(const Palette& palette, const WantedRun& run, const Tanks::Shares& wanted,
-                  const Tanks::Shares& arrived);
+Mismatch mismatch(const Palette& palette, const WantedRun& run, const Shares& wanted, const Shares& arrived);
 
 }  // namespace unicursal::gcode

@@ -11,13 +11,13 @@
 namespace unicursal::gcode {
 namespace {
 
-double sum(const std::array<double, max_feeders>& shares) {
+double sum(const Shares& shares) {
   return std::accumulate(shares.begin(), shares.end(), 0.0);
 }
 
 }  // namespace
 
-Mixture::Mixture(const std::array<double, max_feeders>& shares) : shares_(shares) {
+Mixture::Mixture(const Shares& shares) : shares_(shares) {
   for (double share : shares) {
     if (!(share >= 0) || !std::isfinite(share)) {
       throw core::DataError("", "mixture", "a share is negative or not a number", "give shares of 0 or more");
@@ -35,20 +35,20 @@ Mixture::Mixture(const std::array<double, max_feeders>& shares) : shares_(shares
 }
 
 Mixture Mixture::with_floor(double floor) const {
-  assert(floor >= 0 && floor <= 1.0 / max_feeders);
+  assert(floor >= 0 && floor <= 1.0 / static_cast<double>(feeders()));
   // Shares at the floor are fixed; the others share what is left in proportion, until none falls below.
-  std::array<bool, max_feeders> fixed{};
-  std::array<double, max_feeders> result = shares_;
+  std::array<bool, most_feeders> fixed{};
+  Shares result = shares_;
   for (bool changed = true; changed;) {
     changed = false;
     double free_share = 1, free_weight = 0;
-    for (std::size_t i = 0; i < max_feeders; ++i) {
+    for (std::size_t i = 0; i < feeders(); ++i) {
       if (fixed[i])
         free_share -= floor;
       else
         free_weight += shares_[i];
     }
-    for (std::size_t i = 0; i < max_feeders; ++i) {
+    for (std::size_t i = 0; i < feeders(); ++i) {
       if (fixed[i]) continue;
       result[i] = shares_[i] / free_weight * free_share;
       if (result[i] < floor) result[i] = floor, fixed[i] = changed = true;
@@ -61,12 +61,12 @@ Mixture Mixture::quantised(int decimals) const {
   const double scale = std::pow(10, decimals);
   // Remainders nearer to each other than this are taken to be equal, so that rounding decides nothing.
   constexpr double noise = 1e-9;
-  std::array<double, max_feeders> units = shares_;
+  Shares units = shares_;
   for (double& share : units) share = std::floor(share * scale + noise);
   for (double left = scale - sum(units); left > 0.5; --left) {
     std::size_t most = 0;
     const auto lacks = [&](std::size_t i) { return shares_[i] * scale - units[i]; };
-    for (std::size_t i = 1; i < max_feeders; ++i) {
+    for (std::size_t i = 1; i < feeders(); ++i) {
       if (lacks(i) > lacks(most) + noise) most = i;
     }
     ++units[most];

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "firmware_gcode/print/per_feeder.hpp"
+
 namespace unicursal::gcode {
 
 /// Limits of the firmware's planner besides the maximum speeds and accelerations. They decide how long a
@@ -30,7 +32,7 @@ struct Printer {
   std::array<double, 2> bead_width_range{0.24, 1.0};        ///< mm; least and greatest
   std::array<double, 3> max_speed{150, 150, 10};            ///< x y z
   std::array<double, 3> max_acceleration{1500, 1500, 100};  ///< x y z
-  int feeders = 3;
+  std::size_t feeders = usual_feeders;
   double filament_diameter = 1.75;
   double max_flow = 8;  ///< mm³/s, all feeders together
   double floor_share = 0.02;
@@ -40,7 +42,7 @@ struct Printer {
   /// Steps of an extruder's motor per mm of filament, sent to the firmware; absent: the firmware's own value.
   std::optional<double> extruder_steps;
   /// How far each feeder must turn to feed 1 mm, relative to the others (mixing/calibration.hpp).
-  std::array<double, 3> flow_factors{1, 1, 1};
+  PerFeeder flow_factors = PerFeeder::all(usual_feeders, 1);
   double nozzle_temperature = 210;
   double bed_temperature = 60;
   double dead_volume = 2.1;    ///< mm³ that pass before the first trace of a new mixture

@@ -32,7 +32,7 @@ void LineWriter::select_tool(Chunk& chunk, std::size_t tool) {
   tool_ = tool;
   const Tool& chosen = tools_.at(tool);
   chunk.mixtures.push_back({chunk.lines.size(), chosen.name});
-  chunk.lines.push_back(begin_mixture(dialect_, tool, chosen.mixture.written, printer_));
+  chunk.lines.push_back(begin_mixture(dialect_, tool, chosen.mixture.written));
 }
 
 void LineWriter::forget() {

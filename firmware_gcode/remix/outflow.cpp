@@ -8,17 +8,17 @@ namespace {
 constexpr double step = 1.0 / 40;  ///< of the mixing volume
 constexpr double finest = 0.05;    ///< mm³
 constexpr double nothing = 1e-12;  ///< mm³
-constexpr Tanks::Shares equal{1.0 / 3, 1.0 / 3, 1.0 / 3};
 
 }  // namespace
 
-Outflow::Outflow(const ChamberModel& chamber)
-    : longest_(std::max(step * chamber.mixing_volume, finest)), tanks_(chamber, equal) {
-  if (chamber.dead_volume > 0) plugs_.push_back({equal, chamber.dead_volume});
+Outflow::Outflow(const ChamberModel& chamber, std::size_t feeders)
+    : longest_(std::max(step * chamber.mixing_volume, finest)),
+      tanks_(chamber, Mixture::equal(feeders).shares()) {
+  if (chamber.dead_volume > 0) plugs_.push_back({Mixture::equal(feeders).shares(), chamber.dead_volume});
 }
 
-void Outflow::feed(const Tanks::Shares& shares, double volume,
-                   const std::function<void(double volume, const Tanks::Shares& shares)>& leaves) {
+void Outflow::feed(const Shares& shares, double volume,
+                   const std::function<void(double volume, const Shares& shares)>& leaves) {
   if (!plugs_.empty() && plugs_.back().shares == shares)
     plugs_.back().volume += volume;
   else

@@ -11,15 +11,15 @@ namespace unicursal::gcode {
 class Outflow {
  public:
   /// The chamber is full of equal shares.
-  explicit Outflow(const ChamberModel& chamber);
+  Outflow(const ChamberModel& chamber, std::size_t feeders);
 
   /// Feeds `volume` of these shares; `leaves` gets what comes out meanwhile, in short pieces.
-  void feed(const Tanks::Shares& shares, double volume,
-            const std::function<void(double volume, const Tanks::Shares& shares)>& leaves);
+  void feed(const Shares& shares, double volume,
+            const std::function<void(double volume, const Shares& shares)>& leaves);
 
  private:
   struct Plug {
-    Tanks::Shares shares;
+    Shares shares;
     double volume;
   };
 

@@ -127,7 +127,7 @@ Remix::State::State(std::istream& file, const std::string& of_name, const Printe
       tools(std::move(mixtures.tools)),
       writer(printer, speaks),
       schedule(palette, schedule_options(of, with, overshoots)),
-      outflow(chamber_of(of)),
+      outflow(chamber_of(of), of.feeders),
       time(of),
       materials(all_materials(with)),
       entries(file, name, printer, survey, settings,
@@ -266,11 +266,11 @@ void Remix::State::account(const Go& entry, const Place& from, const Place& to, 
   share.volume += volume;
   highest = std::max(highest, to[2].value_or(0));
   const bool shows = is_seen(entry.feature);
-  const Tanks::Shares& want = palette.mixture(Shade{entry.material, 0}).shares();
+  const Shares& want = palette.mixture(Shade{entry.material, 0}).shares();
   WantedRun run;
   run.material = entry.material;
   run.layer_materials = materials;
-  outflow.feed(mixture.shares(), volume, [&](double piece, const Tanks::Shares& arrived) {
+  outflow.feed(mixture.shares(), volume, [&](double piece, const Shares& arrived) {
     const Mismatch bad = mismatch(palette, run, want, arrived);
     if (!shows) {
       seen.hidden += bad.misplaced * piece;

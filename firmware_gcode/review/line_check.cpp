@@ -161,7 +161,7 @@ void LineCheck::heat(const Words& words, double greatest, double* target) {
 void LineCheck::define(const Words& words) {
   if (words.command == "M163") {
     const double feeder = words.at('S'), share = words.at('P');
-    require(feeder == std::floor(feeder) && feeder >= 0 && feeder < double(max_feeders),
+    require(feeder == std::floor(feeder) && feeder >= 0 && feeder < double(printer_.feeders),
             "there is no such feeder");
     require(share >= 0, "a share is negative");
     state_.shares[static_cast<std::size_t>(feeder)] = share;
@@ -171,9 +171,9 @@ void LineCheck::define(const Words& words) {
   require(tool == std::floor(tool) && tool >= 0 && tool < double(dialect_.limits().virtual_tools),
           "there is no such tool");
   double sum = 0;
-  for (const auto& share : state_.shares) {
-    require(share.has_value(), "a tool is stored before all feeders have their shares");
-    sum += *share;
+  for (std::size_t f = 0; f < printer_.feeders; ++f) {
+    require(state_.shares[f].has_value(), "a tool is stored before all feeders have their shares");
+    sum += *state_.shares[f];
   }
   require(sum > 0, "an all-zero mixture would hang the firmware");
   state_.shares = {};
@@ -188,7 +188,7 @@ void LineCheck::mix(std::string_view line) {
   require(state_.extruder_chosen, "the tool that mixes is not chosen");
   line.remove_prefix(begin.size());
   double sum = 0;
-  int count = 0;
+  std::size_t count = 0;
   for (bool more = true; more; ++count) {
     double share = 0;
     const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), share);

@@ -53,7 +53,7 @@ class LineCheck {
     std::optional<std::size_t> tool;
     std::set<std::size_t> defined;
     bool extruder_chosen = false;                              ///< only where the firmware needs it
-    std::array<std::optional<double>, 3> shares;               ///< from M163, not stored yet
+    std::array<std::optional<double>, most_feeders> shares;    ///< from M163, not stored yet
     double nozzle = 0;                                         ///< target, °C
     double drawn = 0;                                          ///< retraction of the filament, mm
     double flow_way = 0, flow_seconds = 0, flow_filament = 0;  ///< since the flow was last checked

@@ -536,11 +536,11 @@ void SlicedReader::change_colour() {
 
 /// A file that mixes already: each mixture that it gives to a tool counts as a tool of its own.
 void SlicedReader::mixture(const SlicedCommand& line) {
-  std::array<double, max_feeders> shares{};
+  Shares shares = Shares::zeros(printer_.feeders);
   int tool = tool_;
   if (line.is('M', 163)) {
     const double feeder = line.value_or('S', -1), share = line.value_or('P', -1);
-    if (!(feeder >= 0) || feeder >= static_cast<double>(max_feeders) || !(share >= 0))
+    if (!(feeder >= 0) || feeder >= static_cast<double>(shares.size()) || !(share >= 0))
       refuse("M163 names a feeder or a share that this printer does not have",
              "correct it, or remove this line");
     collected_[static_cast<std::size_t>(feeder)] = share;
@@ -548,13 +548,13 @@ void SlicedReader::mixture(const SlicedCommand& line) {
   }
   if (line.is('M', 164)) {
     tool = static_cast<int>(line.value_or('S', tool_));
-    for (std::size_t f = 0; f < max_feeders; ++f) shares[f] = collected_[f].value_or(0);
+    for (std::size_t f = 0; f < shares.size(); ++f) shares[f] = collected_[f].value_or(0);
     collected_ = {};
   }
   if (line.is('M', 165)) {
     constexpr std::array<char, 6> letters{'A', 'B', 'C', 'D', 'H', 'I'};
     for (std::size_t f = 0; f < letters.size(); ++f) {
-      if (const double share = line.value_or(letters[f], 0); f < max_feeders)
+      if (const double share = line.value_or(letters[f], 0); f < shares.size())
         shares[f] = share;
       else if (share > 0)
         refuse("M165 names a feeder that this printer does not have", "correct it, or remove this line");
@@ -565,9 +565,12 @@ void SlicedReader::mixture(const SlicedCommand& line) {
     const auto list = line.text.find('E');
     if (list == std::string_view::npos) return;
     std::string_view rest = line.text.substr(list + 1);
-    for (std::size_t f = 0; f < max_feeders && !rest.empty(); ++f) {
+    for (std::size_t f = 0; f < most_feeders && !rest.empty(); ++f) {
       const SlicedCommand one = parse_command("G0 E" + std::string(rest.substr(0, rest.find(':'))));
-      shares[f] = one.value_or('E', 0);
+      if (const double share = one.value_or('E', 0); f < shares.size())
+        shares[f] = share;
+      else if (share > 0)
+        refuse("M567 names a feeder that this printer does not have", "correct it, or remove this line");
       rest = rest.find(':') == std::string_view::npos ? std::string_view() : rest.substr(rest.find(':') + 1);
     }
   }

@@ -112,8 +112,8 @@ class SlicedReader {
   bool marked_ = false;  ///< comments mark the layers
   std::size_t layers_ = 0;
   double layer_z_ = 0;
-  std::array<std::optional<double>, max_feeders> collected_{};  ///< M163 since the last M164
-  std::map<int, int> numbers_;                                  ///< of tools whose mixture the file gives
+  std::array<std::optional<double>, most_feeders> collected_{};  ///< M163 since the last M164
+  std::map<int, int> numbers_;                                   ///< of tools whose mixture the file gives
   std::map<int, Mixture> own_mixtures_;
   std::map<int, std::string> own_colours_;
   bool changes_colour_ = false;  ///< the wait for new filament that follows is not needed

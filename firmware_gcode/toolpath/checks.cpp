@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/mixing/chamber.hpp"
 #include "firmware_gcode/print/bounds.hpp"
 
@@ -109,10 +110,17 @@ void check_printer(const Printer& printer) {
   require_within(printer.mixing_volume, bounds::transition, "mixing_volume", "mm³");
   require(printer.tanks >= 1 && printer.tanks <= max_tanks, "tanks",
           fmt::format("{} is not between 1 and {}", printer.tanks, max_tanks), "write for example tanks = 2");
-  require(within(printer.floor_share, 0, 1.0 / max_feeders), "floor_share", "is not between 0 and one third",
+  const std::size_t most = dialect_named(printer.firmware).limits().feeders;
+  require(printer.feeders >= least_feeders && printer.feeders <= most, "feeders",
+          fmt::format("{} feeders cannot be mixed by {}", printer.feeders, printer.firmware),
+          fmt::format("use a printer with {} to {}", least_feeders, most));
+  require(printer.flow_factors.size() == printer.feeders, "flow_factors",
+          fmt::format("has {} numbers for {} feeders", printer.flow_factors.size(), printer.feeders),
+          "give one number for each feeder");
+  const double equal = 1 / static_cast<double>(printer.feeders);
+  require(within(printer.floor_share, 0, equal), "floor_share",
+          fmt::format("is not between 0 and {:.3g}, an equal share of {} feeders", equal, printer.feeders),
           "give a small share such as 0.02");
-  require(printer.feeders == max_feeders, "feeders",
-          fmt::format("{} feeders cannot be mixed", printer.feeders), "use a printer with three feeders");
 }
 
 void check_settings(const PrintSettings& settings, const Printer& printer) {

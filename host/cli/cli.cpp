@@ -77,8 +77,8 @@ class CommandLine {
   };
 
   CLI::App app_{
-      "Prints each layer as one closed space-filling curve, on printers with three feeders and one "
-      "mixing nozzle.",
+      "Prints each layer as one closed space-filling curve, on printers with two to eight feeders "
+      "and one mixing nozzle.",
       "unicursal"};
   std::vector<Declared> commands_;
 };

@@ -1,7 +1,6 @@
 #include "host/cli/foreground.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -67,26 +66,27 @@ class Shown {
 
 /// A mixture without a name of its own is called by its shares (gcode::shares_text()).
 std::optional<gcode::Mixture> mixture_of_shares(const std::string& text) {
-  std::array<double, gcode::max_feeders> shares{};
+  std::vector<double> shares;
   std::istringstream stream(text);
-  const char* separator = "";
-  for (double& share : shares) {
-    std::string between;
-    if (*separator != 0 && !(stream >> between && between == separator)) return std::nullopt;
+  std::string between = ":";
+  while (shares.size() < gcode::most_feeders && between == ":") {
+    double share = 0;
     if (!(stream >> share)) return std::nullopt;
-    separator = ":";
+    shares.push_back(share);
+    if (!(stream >> between)) break;
   }
-  if (stream >> std::ws; !stream.eof()) return std::nullopt;
+  if (!stream.eof()) return std::nullopt;
   try {
-    return gcode::Mixture(shares);
+    return gcode::Mixture(gcode::Shares::of(shares));
   } catch (const core::DataError&) {
     return std::nullopt;
   }
 }
 
 /// Metres of filament that each feeder was commanded.
-std::array<double, gcode::max_feeders> filament_used(const RunTotals& totals, double diameter) {
-  std::array<double, gcode::max_feeders> metres{};
+gcode::PerFeeder filament_used(const RunTotals& totals, double diameter) {
+  gcode::PerFeeder metres;
+  if (!totals.fed.empty()) metres = gcode::PerFeeder::zeros(totals.fed.front().mixture.feeders());
   const double area = std::numbers::pi * diameter * diameter / 4;
   for (const gcode::MixtureVolume& one : totals.fed) {
     for (std::size_t f = 0; f < metres.size(); ++f)
@@ -151,7 +151,7 @@ void show_done(const ForegroundResult& result, const DisplayOptions& display) {
 
 std::string used_filament(const RunTotals& totals, double diameter) {
   std::string line = "filament:  ";
-  const std::array<double, gcode::max_feeders> metres = filament_used(totals, diameter);
+  const gcode::PerFeeder metres = filament_used(totals, diameter);
   const char* separator = "";
   for (std::size_t f = 0; f < metres.size(); ++f) {
     if (metres[f] <= 0) continue;

@@ -216,8 +216,10 @@ void note_reported(ProfileDraft& draft, const FoundPrinter& found, const gcode::
   };
   limit("max_speed", frame.max_speed, seen.settings.max_speed);
   limit("max_acceleration", frame.max_acceleration, seen.settings.max_acceleration);
-  if (seen.feeders && *seen.feeders >= 1 && *seen.feeders <= int(gcode::max_feeders))
-    draft.set("extruder", "feeders", fmt::format("{}", *seen.feeders));
+  std::optional<std::size_t> feeders = seen.feeders;
+  if (seen.identity.family == gcode::Family::repetier) feeders = seen.identity.extruders;
+  if (feeders && *feeders >= gcode::least_feeders && *feeders <= gcode::most_feeders)
+    draft.set("extruder", "feeders", fmt::format("{}", *feeders));
 }
 
 Exit Setup::run() {
@@ -243,9 +245,9 @@ Exit Setup::run() {
     const auto& bed = profile.printer.bed;
     draft.set("printer", "bed",
               list_of(ask_numbers("Size of the bed and height, mm", {bed.begin(), bed.end()}, 10, 2000)));
-    const int feeders = profile_in(draft.text(), output).printer.feeders;
+    const std::size_t feeders = profile_in(draft.text(), output).printer.feeders;
     std::vector<std::string> filaments;
-    for (int feeder = 1; feeder <= feeders; ++feeder)
+    for (std::size_t feeder = 1; feeder <= feeders; ++feeder)
       filaments.push_back(toml_text(ask(fmt::format("Filament in feeder {}, for example red PLA", feeder),
                                         fmt::format("filament {}", feeder))));
     draft.set("extruder", "filaments", fmt::format("[{}]", fmt::join(filaments, ", ")));

@@ -32,7 +32,7 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   options.mixing_volume = printer.mixing_volume;
   if (!options.tanks) options.tanks = printer.tanks;
   if (profile.clearance) options.clearance = {profile.clearance->radius, profile.clearance->height};
-  options.feeders = static_cast<std::size_t>(printer.feeders);
+  options.feeders = printer.feeders;
 }
 
 class Simulate final : public Command {
@@ -44,6 +44,7 @@ class Simulate final : public Command {
   SimulatedPrinter printer_;
   std::optional<std::filesystem::path> profile_;
   std::optional<double> baud_;
+  std::optional<std::size_t> feeders_;
 };
 
 CLI::App& Simulate::declare(CLI::App& program) {
@@ -79,6 +80,10 @@ CLI::App& Simulate::declare(CLI::App& program) {
       .group("Output");
   add_value(app, "--profile", profile_, "PROFILE", "Simulate the printer that this profile describes.")
       .group("Simulated printer");
+  add_value(app, "--feeders", feeders_, "N",
+            "Number of feeders that meet in the nozzle, 1 to 8. Default: the profile's number, or 3.")
+      .check(integer_between(1, 8))
+      ->group("Simulated printer");
   printer_.declare(app);
   return app;
 }
@@ -92,6 +97,7 @@ Exit Simulate::run() {
     if (!printer_.personality) options.personality = profile.printer.firmware;
   }
   if (baud_) options.baud = *baud_;
+  if (feeders_) options.feeders = *feeders_;
   printer_.check();
   check_outputs(present({profile_, options.fault_file}),
                 present({options.report, options.transcript, options.rasters}));

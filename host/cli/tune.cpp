@@ -55,7 +55,7 @@ class GivenReader final : public StripReader {
 };
 
 void check_feeders(const TuneOptions& command, const Profile& profile) {
-  const auto feeders = static_cast<std::size_t>(profile.printer.feeders);
+  const auto feeders = profile.printer.feeders;
   for (const auto& [option, feeder] :
        {std::pair{"--from", command.feeders().from}, std::pair{"--to", command.feeders().to}}) {
     if (feeder < feeders) continue;

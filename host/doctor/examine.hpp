@@ -33,7 +33,7 @@ struct Examination {
   std::optional<PrinterQueues> queues;  ///< nullopt without ADVANCED_OK.
   bool reset_by_opening = false;        ///< Whether the board has said "start".
   bool mixes = false;                   ///< Whether its feeders mix.
-  std::optional<int> feeders;           ///< How many meet in the tool, if it has said so.
+  std::optional<std::size_t> feeders;   ///< How many meet in the tool, if it has said so.
   std::optional<unsigned> tools;        ///< Its virtual tools, up to 16; nullopt if it cannot be asked.
   bool shuts_down = false;              ///< Whether M85 makes it cool down by itself.
   bool tells_settings = false;          ///< Whether it reports its settings.

@@ -67,7 +67,8 @@ class Doctor {
     add_if(found_.mixes, Weight::trouble,
            "its feeders mix (it knows M163); it does not report how many there are, so check the profile",
            does_not_mix("marlin"));
-    if (const auto few = lacks_feeders(found_.identity)) add(Weight::trouble, *few);
+    const std::size_t wanted = profile_ != nullptr ? profile_->printer.feeders : gcode::Printer().feeders;
+    if (const auto other = has_other_feeders(found_.identity, wanted)) add(Weight::trouble, *other);
     constexpr unsigned enough = 16;
     if (found_.tools)
       add_if(
@@ -85,7 +86,7 @@ class Doctor {
 
   void tool() {
     if (!found_.feeders) return add(Weight::trouble, does_not_mix("reprapfirmware"));
-    const int wanted = profile_ != nullptr ? profile_->printer.feeders : *found_.feeders;
+    const std::size_t wanted = profile_ != nullptr ? profile_->printer.feeders : *found_.feeders;
     add_if(*found_.feeders == wanted, Weight::trouble,
            fmt::format("its tool 0 mixes the filament of its {} feeders", *found_.feeders),
            mixes_other_feeders(*found_.feeders, wanted));

@@ -38,12 +38,12 @@ bool denies_mixing(const std::string& line) {
          (echo->text.find(marlins_question) != std::string::npos || echo->text.starts_with("M567: "));
 }
 
-std::optional<int> mixing_feeders(const std::string& line) {
+std::optional<std::size_t> mixing_feeders(const std::string& line) {
   constexpr std::string_view words = " mix ratios: ";
   const auto at = line.find(words);
   if (!line.starts_with("Tool ") || at == std::string::npos) return std::nullopt;
-  return 1 + static_cast<int>(
-                 std::count(line.begin() + static_cast<std::ptrdiff_t>(at + words.size()), line.end(), ':'));
+  const auto shares = std::string_view(line).substr(at + words.size());
+  return 1 + static_cast<std::size_t>(std::count(shares.begin(), shares.end(), ':'));
 }
 
 std::string does_not_mix(const std::string& firmware) {
@@ -52,7 +52,7 @@ std::string does_not_mix(const std::string& firmware) {
   return "it has no tool 0; define one with all feeders in its config.g, for example M563 P0 D0:1:2 H1";
 }
 
-std::string mixes_other_feeders(int has, int wanted) {
+std::string mixes_other_feeders(std::size_t has, std::size_t wanted) {
   return fmt::format(
       "{} {} in its tool 0, but the profile says {}; correct the drives in its config.g (M563 P0 D0:1:2), or "
       "extruder.feeders in the profile",
@@ -78,11 +78,14 @@ std::string lacks_tools(unsigned highest) {
       highest + 1);
 }
 
-std::optional<std::string> lacks_feeders(const gcode::Identity& printer) {
+std::optional<std::string> has_other_feeders(const gcode::Identity& printer, std::size_t wanted) {
   if (printer.family != gcode::Family::repetier || !printer.extruders) return std::nullopt;
-  if (*printer.extruders >= gcode::max_feeders) return std::nullopt;
-  return fmt::format("it has {} feeders and a print needs {}; set NUM_EXTRUDER in its firmware",
-                     *printer.extruders, gcode::max_feeders);
+  if (*printer.extruders == wanted) return std::nullopt;
+  return fmt::format(
+      "it has {} feeders, but the profile says {}; set NUM_EXTRUDER in its firmware, or extruder.feeders in "
+      "the "
+      "profile",
+      *printer.extruders, wanted);
 }
 
 std::optional<std::string> dialect_of(gcode::Family family) {

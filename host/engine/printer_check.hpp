@@ -18,10 +18,10 @@ std::string mixing_question(const std::string& firmware);
 bool denies_mixing(const std::string& line);
 /// The number of feeders that meet in RepRapFirmware's tool, from "Tool 0 mix ratios: 1.000:0.000:0.000"
 /// (GCodes2.cpp of RepRapFirmware 3.5.3, M567); nullopt for any other line.
-std::optional<int> mixing_feeders(const std::string& line);
+std::optional<std::size_t> mixing_feeders(const std::string& line);
 /// Sentences with their remedies.
 std::string does_not_mix(const std::string& firmware);
-std::string mixes_other_feeders(int has, int wanted);
+std::string mixes_other_feeders(std::size_t has, std::size_t wanted);
 
 /// The highest virtual tool that lines define, by "M164 S5"; absent if they define none.
 std::optional<unsigned> highest_tool(const std::vector<std::string>& lines);
@@ -30,9 +30,10 @@ std::optional<unsigned> highest_tool(const std::vector<std::string>& lines);
 /// invalid_extruder_error()). Repetier selects T0 instead and does not say so; its VIRTUAL_EXTRUDER cannot be
 /// asked.
 std::string lacks_tools(unsigned highest);
-/// Why the feeders of a Repetier are too few, a sentence with its remedy; absent if they are enough, and for
-/// other firmwares: a Marlin that mixes counts all its feeders as one extruder.
-std::optional<std::string> lacks_feeders(const gcode::Identity& printer);
+/// Why the feeders of a Repetier are not the wanted number, a sentence with its remedy; absent if they are,
+/// and for other firmwares: a Marlin that mixes counts all its feeders as one extruder. A feeder more is not
+/// harmless: no mixture would name it, and it would keep the part that it has in a tool after a reset.
+std::optional<std::string> has_other_feeders(const gcode::Identity& printer, std::size_t wanted);
 
 /// The profile's word for a family of firmware; absent for families that this program does not support.
 std::optional<std::string> dialect_of(gcode::Family family);

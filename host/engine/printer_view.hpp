@@ -39,19 +39,19 @@ struct PrinterView {
   /// Whether the nozzle's position is known, so that it can be taken aside and back.
   bool knows_position() const;
 
-  gcode::Temperatures temperatures;  ///< as the printer last reported them, °C
-  bool mixes = true;                 ///< false once the printer has denied it
-  bool has_tools = true;             ///< false once the printer has denied one
-  std::optional<int> feeders;        ///< feeders that meet in the nozzle, if the printer has said so
-  bool halted = false;               ///< the firmware has said that it has stopped itself
-  gcode::ModalState expected;        ///< its state after all lines of the print that were handed to the link
-  HostPrompt prompt;                 ///< what it asks a person
-  PrinterDisplay display;            ///< what its own display shows
-  std::string mixture;               ///< fed after those lines: name or shares; empty before the first
-  bool may_wait_for_heat = false;    ///< it may be in a wait for heat, and read nothing until that ends
-  bool must_not_move = false;        ///< it does not know where its nozzle is
-  double speed_percent = 100;        ///< of the print's speed, as the user has set it
-  double flow_percent = 100;         ///< of the print's extrusion, as the user has set it
+  gcode::Temperatures temperatures;    ///< as the printer last reported them, °C
+  bool mixes = true;                   ///< false once the printer has denied it
+  bool has_tools = true;               ///< false once the printer has denied one
+  std::optional<std::size_t> feeders;  ///< feeders that meet in the nozzle, if the printer has said so
+  bool halted = false;                 ///< the firmware has said that it has stopped itself
+  gcode::ModalState expected;      ///< its state after all lines of the print that were handed to the link
+  HostPrompt prompt;               ///< what it asks a person
+  PrinterDisplay display;          ///< what its own display shows
+  std::string mixture;             ///< fed after those lines: name or shares; empty before the first
+  bool may_wait_for_heat = false;  ///< it may be in a wait for heat, and read nothing until that ends
+  bool must_not_move = false;      ///< it does not know where its nozzle is
+  double speed_percent = 100;      ///< of the print's speed, as the user has set it
+  double flow_percent = 100;       ///< of the print's extrusion, as the user has set it
 };
 
 }  // namespace unicursal::host

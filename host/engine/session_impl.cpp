@@ -131,7 +131,7 @@ void Session::State::check_firmware() {
                                    : correction(identity, settings.profile);
     refuse(fmt::format("{}; {}", *why, remedy));
   }
-  if (const auto why = lacks_feeders(identity)) refuse(*why);
+  if (const auto why = has_other_feeders(identity, source.printer().feeders)) refuse(*why);
   if (const auto strange = strangeness(identity)) announcer.warn(*strange);
   if (settings.display) printer.display.begin(identity, source.printer().firmware);
 }

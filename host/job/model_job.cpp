@@ -24,8 +24,6 @@ double rounded(double length) {
   return std::max(1.0, std::round(length / step)) * step;
 }
 
-using Shares = std::vector<double>;
-
 /// A bare key of TOML that is not taken yet.
 std::string key_for(const std::string& select, std::set<std::string>& taken) {
   std::string key;
@@ -104,7 +102,7 @@ ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, c
   std::string zones, mixtures = fmt::format("\n[mixture]           # shares of {}\n", of_what);
   std::set<std::string> keys;
   std::size_t uncoloured = 0;
-  const auto add_mixture = [&](const std::string& key, const Shares& shares) {
+  const auto add_mixture = [&](const std::string& key, const gcode::Shares& shares) {
     mixtures += fmt::format("{} = {}\n", key, shares_in_toml(shares));
   };
   for (const core::ZoneOffer& offer : job.contents.zones) {
@@ -114,7 +112,7 @@ ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, c
         "}}\n",
         toml_text(offer.select), offer.amount,
         job.contents.drawing ? "mm²" : (offer.paint ? "mm³ of paint" : "mm³"));
-    const int feeders = profile.printer.feeders;
+    const std::size_t feeders = profile.printer.feeders;
     if (offer.gradient && can_be_followed(*offer.gradient, usual_bead_width(profile.printer))) {
       const core::DrawnGradient& drawn = *offer.gradient;
       const std::string from = key_for(offer.select + " from", keys),

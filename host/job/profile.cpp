@@ -1,10 +1,12 @@
 #include "host/job/profile.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_gcode/dialect/dialect_named.hpp"
 #include "firmware_gcode/mixing/chamber.hpp"
 #include "firmware_gcode/print/bounds.hpp"
 #include "firmware_gcode/print/mixture.hpp"
@@ -15,6 +17,8 @@
 
 namespace unicursal::host {
 namespace {
+
+constexpr double most_of_equal_share = 0.9;  ///< that a floor share may be; mixtures then still differ
 
 Range within(const gcode::Bounds& bounds, const char* unit) {
   return between(bounds.least, bounds.greatest, unit);
@@ -104,18 +108,43 @@ std::string read_script(const Section& section, const char* key) {
   return text;
 }
 
+/// The firmware has been read before.
+void read_feeders(const Section& section, gcode::Printer& printer) {
+  const std::size_t most = gcode::dialect_named(printer.firmware).limits().feeders;
+  const std::string remedy = fmt::format("write how many feeders meet in the nozzle, {} to {} with {}",
+                                         gcode::least_feeders, most, printer.firmware);
+  const double feeders =
+      section.number_or("feeders", static_cast<double>(printer.feeders),
+                        between(gcode::least_feeders, static_cast<double>(most), ""), remedy);
+  if (feeders != std::floor(feeders)) section.fail("feeders", "is not a whole number", remedy);
+  printer.feeders = static_cast<std::size_t>(feeders);
+}
+
+void read_flow_factors(const Section& section, gcode::Printer& printer) {
+  const auto example = [&] { return gcode::PerFeeder::all(printer.feeders, 1); };
+  printer.flow_factors = example();
+  if (!section.has("flow_factors")) return;
+  const std::string remedy = fmt::format("write one number for each feeder, for example flow_factors = [{}]",
+                                         fmt::join(example(), ", "));
+  const std::vector<double> factors =
+      section.numbers("flow_factors", within(gcode::bounds::flow_factor, ""), remedy);
+  if (factors.size() != printer.feeders)
+    section.fail(
+        "flow_factors",
+        fmt::format("has {} numbers, but the printer has {} feeders", factors.size(), printer.feeders),
+        remedy);
+  printer.flow_factors = gcode::PerFeeder::of(factors);
+}
+
 void read_extruder(const Section& section, gcode::Printer& printer) {
-  const double feeders = section.number_or("feeders", printer.feeders, between(1, gcode::max_feeders, ""),
-                                           "write how many feeders meet in the nozzle");
-  if (feeders != static_cast<int>(feeders))
-    section.fail("feeders", "is not a whole number", "write 1, 2 or 3");
-  printer.feeders = static_cast<int>(feeders);
+  read_feeders(section, printer);
   printer.filament_diameter = section.number_or("filament_diameter", printer.filament_diameter,
                                                 within(gcode::bounds::filament_diameter, "mm"),
                                                 "write for example filament_diameter = 1.75");
   printer.max_flow = section.number_or("max_flow", printer.max_flow, within(gcode::bounds::flow, "mm³/s"),
                                        "write for example max_flow = 8.0");
-  printer.floor_share = section.number_or("floor_share", printer.floor_share, between(0, 0.3, ""),
+  const double greatest_floor = most_of_equal_share / static_cast<double>(printer.feeders);
+  printer.floor_share = section.number_or("floor_share", printer.floor_share, between(0, greatest_floor, ""),
                                           "write for example floor_share = 0.02");
   printer.retraction_length = section.number_or("retraction_length", printer.retraction_length,
                                                 within(gcode::bounds::retraction_length, "mm"),
@@ -125,9 +154,7 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
                         "write for example retraction_speed = 25.0");
   printer.z_hop = section.number_or("z_hop", printer.z_hop, within(gcode::bounds::z_hop, "mm"),
                                     "write for example z_hop = 0.4");
-  printer.flow_factors =
-      section.numbers_or("flow_factors", printer.flow_factors, within(gcode::bounds::flow_factor, ""),
-                         "write one number for each feeder, for example [1, 1.03, 1]");
+  read_flow_factors(section, printer);
   if (section.has("steps_per_mm")) {
     printer.extruder_steps = section.number("steps_per_mm", within(gcode::bounds::extruder_steps, "steps/mm"),
                                             "write for example steps_per_mm = 400");
@@ -135,7 +162,7 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
   read_extruder_motion(section, printer.motion);
 }
 
-std::vector<std::string> read_filaments(const Section& section, int feeders) {
+std::vector<std::string> read_filaments(const Section& section, std::size_t feeders) {
   const toml::node* node = section.find("filaments");
   if (!node) return {};
   const char* const remedy = "write one name for each feeder, for example [\"red\", \"white\", \"blue\"]";
@@ -147,7 +174,7 @@ std::vector<std::string> read_filaments(const Section& section, int feeders) {
     if (!name) section.fail("filaments", "holds something that is not a text", remedy);
     names.push_back(*name);
   }
-  if (names.size() != static_cast<std::size_t>(feeders)) {
+  if (names.size() != feeders) {
     section.fail("filaments", fmt::format("has {} names, but there are {} feeders", names.size(), feeders),
                  remedy);
   }

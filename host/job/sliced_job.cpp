@@ -52,19 +52,10 @@ std::string named(int tool) {
 }
 
 /// The mixture that a tool gets without a person's choice.
-std::vector<double> usual_mixture(const gcode::SlicedTool& tool, int feeders) {
-  if (tool.mixture) {
-    const auto& shares = tool.mixture->shares();
-    return {shares.begin(), shares.begin() + feeders};
-  }
+gcode::Shares usual_mixture(const gcode::SlicedTool& tool, std::size_t feeders) {
+  if (tool.mixture) return tool.mixture->shares();
   if (!tool.colour.empty()) return mixture_near(tool.colour, feeders);
   return one_feeder(static_cast<std::size_t>(std::max(tool.number, 0)), feeders);
-}
-
-gcode::Mixture mixture_of(const std::vector<double>& shares) {
-  std::array<double, gcode::max_feeders> all{};
-  std::copy(shares.begin(), shares.end(), all.begin());
-  return gcode::Mixture(all);
 }
 
 std::string head(const std::filesystem::path& file, const std::string& profile,
@@ -122,7 +113,7 @@ void choose_mixtures(Job& job, const gcode::SlicedSurvey& survey) {
   std::vector<gcode::Material>& materials = job.print.materials;
   for (const gcode::SlicedTool& tool : survey.tools) {
     if (job.sliced->tools.contains(tool.number)) continue;
-    const gcode::Mixture mixture = mixture_of(usual_mixture(tool, job.profile.printer.feeders));
+    const gcode::Mixture mixture(usual_mixture(tool, job.profile.printer.feeders));
     auto same = std::find_if(materials.begin(), materials.end(),
                              [&](const gcode::Material& material) { return material.mixture == mixture; });
     if (same == materials.end())

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <vector>
 
 #include "core/picture/filaments.hpp"
 
@@ -12,22 +12,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using gcode::Shares;
+
 constexpr int share_steps = 20;  ///< mixtures are tried in steps of 1/20
+constexpr int most_mixed = 4;    ///< feeders in a mixture; four filaments reach all colours between them
 
-using Shares = std::vector<double>;
-
-/// All mixtures of so many feeders in steps of 1 / share_steps.
-void for_each_mixture(int feeders, int left, Shares& shares, const auto& visit) {
-  if (feeders == 1) {
-    shares.push_back(double(left) / share_steps);
-    visit(shares);
-    shares.pop_back();
+/// All mixtures in steps of 1 / share_steps of at most `more` feeders from `feeder` on.
+void for_each_mixture(std::size_t feeder, int more, int left, Shares& shares, const auto& visit) {
+  if (feeder + 1 == shares.size()) {
+    shares[feeder] = double(left) / share_steps;
+    if (more > 0 || left == 0) visit(shares);
     return;
   }
-  for (int n = 0; n <= left; ++n) {
-    shares.push_back(double(n) / share_steps);
-    for_each_mixture(feeders - 1, left - n, shares, visit);
-    shares.pop_back();
+  for (int n = 0; n <= (more > 0 ? left : 0); ++n) {
+    shares[feeder] = double(n) / share_steps;
+    for_each_mixture(feeder + 1, more - (n > 0 ? 1 : 0), left - n, shares, visit);
   }
 }
 
@@ -41,29 +40,27 @@ std::string name_in_job(const fs::path& file, fs::path folder) {
   return (below ? relative : fs::absolute(file).lexically_normal()).string();
 }
 
-std::vector<double> mixture_near(const std::string& colour, int feeders) {
+Shares mixture_near(const std::string& colour, std::size_t feeders) {
   const unsigned long rgb = std::stoul(colour.substr(1), nullptr, 16);
-  Shares best, shares;
+  Shares best, shares = Shares::zeros(feeders);
   double least = 1e300;
-  for_each_mixture(std::min(feeders, int(picture::filaments.size())), share_steps, shares,
-                   [&](const Shares& tried) {
-                     const picture::Colour made = picture::mixed_filaments(tried);
-                     const double r = made.r - double(rgb >> 16), g = made.g - double(rgb >> 8 & 255),
-                                  b = made.b - double(rgb & 255);
-                     const double distance = r * r + g * g + b * b;
-                     if (distance < least) least = distance, best = tried;
-                   });
-  best.resize(std::size_t(feeders), 0);
+  for_each_mixture(0, most_mixed, share_steps, shares, [&](const Shares& tried) {
+    const picture::Colour made = picture::mixed_filaments(tried);
+    const double r = made.r - double(rgb >> 16), g = made.g - double(rgb >> 8 & 255),
+                 b = made.b - double(rgb & 255);
+    const double distance = r * r + g * g + b * b;
+    if (distance < least) least = distance, best = tried;
+  });
   return best;
 }
 
-std::vector<double> one_feeder(std::size_t which, int feeders) {
-  Shares shares(std::size_t(feeders), 0);
+Shares one_feeder(std::size_t which, std::size_t feeders) {
+  Shares shares = Shares::zeros(feeders);
   shares[which % shares.size()] = 1;
   return shares;
 }
 
-std::string shares_in_toml(const std::vector<double>& shares) {
+std::string shares_in_toml(const Shares& shares) {
   std::vector<std::string> words;
   for (const double share : shares) words.push_back(fmt::format("{:.2f}", share));
   return fmt::format("[{}]", fmt::join(words, ", "));

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
-#include <vector>
+
+#include "firmware_gcode/print/mixture.hpp"
 
 namespace unicursal::host {
 
@@ -13,12 +14,12 @@ std::string name_in_job(const std::filesystem::path& file, std::filesystem::path
 
 /// Shares of the feeders that come nearest to a colour, "#rrggbb", in steps of 1/20, if the feeders hold the
 /// filaments that pictures show (core/picture/filaments.hpp).
-std::vector<double> mixture_near(const std::string& colour, int feeders);
+gcode::Shares mixture_near(const std::string& colour, std::size_t feeders);
 
 /// Feeder number `which` alone, counted from 0 and from the beginning again behind the last.
-std::vector<double> one_feeder(std::size_t which, int feeders);
+gcode::Shares one_feeder(std::size_t which, std::size_t feeders);
 
 /// "[0.05, 0.60, 0.35]"
-std::string shares_in_toml(const std::vector<double>& shares);
+std::string shares_in_toml(const gcode::Shares& shares);
 
 }  // namespace unicursal::host

@@ -23,27 +23,21 @@ const char* const mixture_remedy =
 const char* const pattern_remedy =
     "write a name such as \"isotropic\", { angle = 45 } or { field = \"directions.csv\" }";
 
-std::array<double, gcode::max_feeders> padded(const std::vector<double>& values) {
-  std::array<double, gcode::max_feeders> shares{};
-  std::copy(values.begin(), values.end(), shares.begin());
-  return shares;
-}
-
-gcode::Mixture read_mixture(const Section& section, std::string_view name, int feeders) {
+gcode::Mixture read_mixture(const Section& section, std::string_view name, std::size_t feeders) {
   const std::string example = fmt::format("write one share of 0 or more for each of the {} feeders", feeders);
   const std::vector<double> shares = section.numbers(name, at_least(0, ""), example);
-  if (shares.size() != static_cast<std::size_t>(feeders)) {
+  if (shares.size() != feeders) {
     section.fail(name, fmt::format("has {} shares, but the printer has {} feeders", shares.size(), feeders),
                  example);
   }
   try {
-    return gcode::Mixture(padded(shares));
+    return gcode::Mixture(gcode::Shares::of(shares));
   } catch (const core::DataError& error) {
     section.fail(name, error.problem(), error.remedy());
   }
 }
 
-Palette read_palette(const Section& root, int feeders) {
+Palette read_palette(const Section& root, std::size_t feeders) {
   const Section section =
       root.section("mixture", {}, "write [mixture] and below it for example white = [0.34, 0.33, 0.33]");
   Palette palette;
@@ -187,7 +181,7 @@ core::Zone read_zone(const Section& section, const Palette& palette, std::vector
 
 }  // namespace
 
-ZonesAndMaterials read_zones(const Section& root, int feeders) {
+ZonesAndMaterials read_zones(const Section& root, std::size_t feeders) {
   const char* const remedy = "write [[zone]] and below it select, pattern and mixture";
   const toml::node* node = root.find("zone");
   if (!node) root.fail("zone", "is missing", remedy);

@@ -18,6 +18,6 @@ struct ZonesAndMaterials {
 /// Reads [[zone]] and [mixture] of a job's root. `feeders`: number of shares of a mixture. A gradient without
 /// `over` begins and ends at 0; prepare() (host/engine/prepared_job.hpp) then computes its ends. Throws
 /// JobError.
-ZonesAndMaterials read_zones(const Section& root, int feeders);
+ZonesAndMaterials read_zones(const Section& root, std::size_t feeders);
 
 }  // namespace unicursal::host

@@ -36,7 +36,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "host of 3D printers with a mixing nozzle,
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "unicursal fills each layer of a part with one closed, space-filling curve and
 prints it over USB while it computes the next layers. It is made for printers
-with three feeders and one mixing nozzle, with Marlin, Repetier or
+with two to eight feeders and one mixing nozzle, with Marlin, Repetier or
 RepRapFirmware. It changes mixtures ahead of the borders of colours, simulates
 a print before it is made, resumes interrupted prints, and runs as a daemon.")
 set(CPACK_GENERATOR DEB)

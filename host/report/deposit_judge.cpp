@@ -10,7 +10,7 @@
 namespace unicursal::host {
 namespace {
 
-using Shares = std::array<double, gcode::max_feeders>;
+using gcode::Shares;
 
 constexpr double margin = 1;     // mm around the part that count as beside it
 constexpr double widest = 1.5;   // stroke widths that its plastic may spread over
@@ -127,8 +127,8 @@ std::vector<sim::RasterPixel> read(const sim::RasterFrame& frame, const RowSourc
   return pixels;
 }
 
-Shares shares_of(const sim::RasterPixel& pixel) {
-  Shares shares{};
+Shares shares_of(const sim::RasterPixel& pixel, std::size_t feeders) {
+  Shares shares = Shares::zeros(feeders);
   for (std::size_t f = 0; f < shares.size(); ++f) shares[f] = pixel.share(f);
   return shares;
 }
@@ -156,6 +156,7 @@ class Judge {
   DepositFindings findings(const std::vector<sim::RasterPixel>& pixels, Outside& outside) {
     wrong_.assign(pixels.size(), false);
     const double place = grid_.pixel * grid_.pixel;
+    const std::size_t feeders = intended_.empty() ? 0 : intended_.front().mixture.feeders();
     DepositFindings f;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const double fill = pixels[i].fill;
@@ -170,7 +171,7 @@ class Judge {
       f.fill.add(fill, place);
       f.fill_moment += fill * place;
       f.fill_squares += fill * fill * place;
-      if (fill >= hardly) judge_mixture(i, shares_of(pixels[i]), f);
+      if (fill >= hardly) judge_mixture(i, shares_of(pixels[i], feeders), f);
     }
     measure_distances(f);
     f.outside = outside.elsewhere, f.prime = outside.prime, f.skirt = outside.skirt;

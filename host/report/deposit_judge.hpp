@@ -2,7 +2,6 @@
 // raster whose middle lies in the part. Nothing was laid where the raster does not reach. mm, mm².
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -25,7 +24,7 @@ struct IntendedMaterial {
   IntendedMaterial(const gcode::Mixture& plain) : mixture(plain) {}
 
   /// The shares that are wanted at a place.
-  std::array<double, gcode::max_feeders> at(const core::Vec2& place, double z) const;
+  gcode::Shares at(const core::Vec2& place, double z) const;
 };
 
 /// A straight piece of bead.

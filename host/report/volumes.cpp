@@ -10,7 +10,8 @@
 namespace unicursal::host {
 namespace {
 
-using Shares = std::array<double, gcode::max_feeders>;
+using gcode::PerFeeder;
+using gcode::Shares;
 
 /// Mixtures closer than this in every share are the same to the printer.
 constexpr double same_mixture = 1e-4;
@@ -21,9 +22,9 @@ double difference(const Shares& a, const Shares& b) {
   return greatest;
 }
 
-/// Up to three numbers of a list in a report; missing ones are zero.
-Shares numbers(const nlohmann::json& entry, const char* key) {
-  Shares result{};
+/// Numbers of a list in a report; missing ones are zero.
+PerFeeder numbers(const nlohmann::json& entry, const char* key, std::size_t feeders) {
+  PerFeeder result = PerFeeder::zeros(feeders);
   const auto list = entry.find(key);
   if (list == entry.end() || !list->is_array()) return result;
   for (std::size_t i = 0; i < std::min(result.size(), list->size()); ++i) {
@@ -40,8 +41,8 @@ std::int64_t count(const nlohmann::json& object, const char* key) {
 /// One mixture, as far as the printer can distinguish them.
 struct Row {
   Comparison::Mixture mixture;
-  Shares shares{};
-  Shares fed{};  ///< mm³ by feeder
+  Shares shares;
+  PerFeeder fed;  ///< mm³
 };
 
 std::vector<Row> rows_of(const std::vector<MaterialVolume>& volumes) {
@@ -51,7 +52,7 @@ std::vector<Row> rows_of(const std::vector<MaterialVolume>& volumes) {
     auto row = std::find_if(rows.begin(), rows.end(),
                             [&](const Row& r) { return difference(r.shares, shares) < same_mixture; });
     if (row == rows.end())
-      row = rows.insert(rows.end(), Row{{volume.name}, shares, {}});
+      row = rows.insert(rows.end(), Row{{volume.name}, shares, PerFeeder::zeros(shares.size())});
     else
       row->mixture.name += " + " + volume.name;
     row->mixture.intended += volume.total();
@@ -59,8 +60,10 @@ std::vector<Row> rows_of(const std::vector<MaterialVolume>& volumes) {
   return rows;
 }
 
-void add_steps(std::vector<Row>& rows, const nlohmann::json& entry, const Shares& volume_per_step) {
-  const Shares shares = numbers(entry, "shares"), steps = numbers(entry, "feeder_steps");
+void add_steps(std::vector<Row>& rows, const nlohmann::json& entry, const PerFeeder& volume_per_step) {
+  const std::size_t feeders = volume_per_step.size();
+  const Shares shares = numbers(entry, "shares", feeders);
+  const PerFeeder steps = numbers(entry, "feeder_steps", feeders);
   const auto row = std::min_element(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
     return difference(a.shares, shares) < difference(b.shares, shares);
   });
@@ -77,6 +80,7 @@ Comparison::Mixture judged(const Row& row) {
   Comparison::Mixture mixture = row.mixture;
   for (double volume : row.fed) mixture.fed += volume;
   mixture.relative_error = relative_error(mixture.fed, mixture.intended);
+  mixture.feeder_error = PerFeeder::zeros(row.fed.size());
   for (std::size_t f = 0; f < row.fed.size(); ++f) {
     mixture.feeder_error[f] = relative_error(row.fed[f], row.shares[f] * mixture.intended);
   }
@@ -91,7 +95,7 @@ double worst_of(const Comparison::Mixture& mixture) {
 
 double worst_in_between(const std::vector<Row>& rows) {
   double intended = 0;
-  Shares lacks{};  // mm³
+  PerFeeder lacks = rows.empty() ? PerFeeder() : PerFeeder::zeros(rows.front().fed.size());  // mm³
   for (const Row& row : rows) {
     if (row.mixture.name != mixed_between) continue;
     intended += row.mixture.intended;
@@ -132,8 +136,9 @@ std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>&
   return volumes;
 }
 
-Shares feeder_volumes(const std::vector<MaterialVolume>& volumes) {
-  Shares sum{};
+PerFeeder feeder_volumes(const std::vector<MaterialVolume>& volumes) {
+  if (volumes.empty()) return {};
+  PerFeeder sum = PerFeeder::zeros(volumes.front().intended.feeders());
   for (const MaterialVolume& volume : volumes) {
     for (std::size_t f = 0; f < sum.size(); ++f) sum[f] += volume.total() * volume.intended.share(f);
   }
@@ -155,7 +160,7 @@ nlohmann::json to_json(const std::vector<MaterialVolume>& volumes) {
 Comparison compare(const std::vector<MaterialVolume>& volumes, const nlohmann::json& simulator,
                    const Fed& fed) {
   const double radius = fed.filament_diameter / 2;
-  Shares volume_per_step{};
+  PerFeeder volume_per_step = PerFeeder::zeros(fed.flow_factors.size());
   for (std::size_t f = 0; f < volume_per_step.size(); ++f) {
     volume_per_step[f] = std::numbers::pi * radius * radius / (fed.feeder_steps_per_mm * fed.flow_factors[f]);
   }

@@ -1,7 +1,6 @@
 // How much of each mixture a job wants, and how much the simulator's feeders fed. mm³, mm.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -35,8 +34,8 @@ inline constexpr const char* mixed_between = "between";
 std::vector<MaterialVolume> fed_volumes(const std::vector<gcode::MixtureVolume>& fed,
                                         const std::vector<MaterialVolume>& materials);
 
-/// mm³ for each feeder, of all mixtures together.
-std::array<double, gcode::max_feeders> feeder_volumes(const std::vector<MaterialVolume>& volumes);
+/// mm³ for each feeder, of all mixtures together; for no feeder if there are no mixtures.
+gcode::PerFeeder feeder_volumes(const std::vector<MaterialVolume>& volumes);
 
 nlohmann::json to_json(const std::vector<MaterialVolume>& volumes);
 
@@ -44,19 +43,18 @@ nlohmann::json to_json(const std::vector<MaterialVolume>& volumes);
 struct Fed {
   double filament_diameter = 1.75;  ///< mm
   double feeder_steps_per_mm = 400;
-  std::uint64_t lines_sent = 0;                                  ///< numbered lines, each once
-  std::array<double, gcode::max_feeders> flow_factors{1, 1, 1};  ///< the factors by which feeders turn more
+  std::uint64_t lines_sent = 0;   ///< numbered lines, each once
+  gcode::PerFeeder flow_factors;  ///< the factors by which feeders turn more
 };
 
 /// Steps of each feeder compared with the intended volume of each mixture, and what became of every line.
 struct Comparison {
   struct Mixture {
     std::string name;
-    double intended = 0;        ///< mm³
-    double fed = 0;             ///< mm³, from the feeders' steps
-    double relative_error = 0;  ///< of the sum, signed
-    std::array<double, gcode::max_feeders>
-        feeder_error{};  ///< of each feeder, relative to its intended volume
+    double intended = 0;                 ///< mm³
+    double fed = 0;                      ///< mm³, from the feeders' steps
+    double relative_error = 0;           ///< of the sum, signed
+    gcode::PerFeeder feeder_error = {};  ///< of each feeder, relative to its intended volume
   };
   std::vector<Mixture> mixtures;
   /// Greatest magnitude of the mixtures' relative errors, feeders included. Mixtures in between are fed so

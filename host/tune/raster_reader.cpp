@@ -24,7 +24,7 @@ StripOnRaster::StripOnRaster(const Strip& strip, const std::array<gcode::Mixture
 
 double StripOnRaster::change_in(const sim::RasterPixel& pixel) const {
   double part = 0, whole = 0;
-  for (std::size_t f = 0; f < gcode::max_feeders; ++f) {
+  for (std::size_t f = 0; f < mixtures_.front().feeders(); ++f) {
     const double from = mixtures_.front().share(f), way = mixtures_.back().share(f) - from;
     part += (pixel.share(f) - from) * way;
     whole += way * way;

@@ -26,17 +26,17 @@ constexpr double park_lift = 10;  ///< mm above the strip
 constexpr std::size_t equal_tool = shade_count;
 
 Mixture blend(const Mixture& a, const Mixture& b, double part) {
-  std::array<double, gcode::max_feeders> shares{};
+  gcode::Shares shares = a.shares();
   for (std::size_t f = 0; f < shares.size(); ++f) {
     shares[f] = (1 - part) * a.share(f) + part * b.share(f);
   }
   return Mixture(shares);
 }
 
-Mixture feeder_alone(std::size_t feeder, double floor_share) {
-  std::array<double, gcode::max_feeders> shares{};
-  shares.at(feeder) = 1;
-  return Mixture(shares).with_floor(floor_share);
+Mixture feeder_alone(std::size_t feeder, const gcode::Printer& printer) {
+  gcode::Shares shares = gcode::Shares::zeros(printer.feeders);
+  shares[feeder] = 1;
+  return Mixture(shares).with_floor(printer.floor_share);
 }
 
 void append(Chunk& chunk, const std::vector<std::string>& lines) {
@@ -75,7 +75,7 @@ class StripWriter {
     append(chunk, gcode::calibration(printer_));
     const auto mixtures = strip_mixtures(printer_, feeders_);
     for (std::size_t i = 0; i < mixtures.size(); ++i) define(chunk, i, mixtures[i]);
-    define(chunk, equal_tool, Mixture({1, 1, 1}));
+    define(chunk, equal_tool, Mixture::equal(printer_.feeders));
     review_(chunk, "the start");
     return chunk;
   }
@@ -170,8 +170,8 @@ class StripWriter {
 
 std::array<Mixture, shade_count> strip_mixtures(const gcode::Printer& printer, const StripFeeders& feeders) {
   const gcode::Dialect& dialect = gcode::dialect_named(printer.firmware);
-  const Mixture from = feeder_alone(feeders.from, printer.floor_share);
-  const Mixture to = feeder_alone(feeders.to, printer.floor_share);
+  const Mixture from = feeder_alone(feeders.from, printer);
+  const Mixture to = feeder_alone(feeders.to, printer);
   const auto part = [&](double share) { return dialect.as_written(blend(from, to, share)); };
   return {part(0), part(perception.began), part(perception.half), part(perception.stopped), part(1)};
 }

@@ -30,9 +30,9 @@ bool plausible(const Head& head) {
 
 }  // namespace
 
-void RasterPixel::add(double amount, const std::array<double, feeders>& of) {
+void RasterPixel::add(double amount, std::span<const double> of) {
   const double together = fill + amount;
-  for (std::size_t f = 0; f < feeders; ++f) {
+  for (std::size_t f = 0; f < of.size(); ++f) {
     const double mixed = (share(f) * fill + of[f] * amount) / together;
     shares[f] = static_cast<std::uint16_t>(std::lround(std::clamp(mixed, 0.0, 1.0) * whole));
   }

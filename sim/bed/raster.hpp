@@ -16,17 +16,17 @@
 namespace unicursal::sim {
 
 struct RasterPixel {
-  static constexpr std::size_t feeders = 6;
+  static constexpr std::size_t feeders = 8;
   static constexpr double whole = 65535;
 
   float fill = 0;                               ///< Height of the plastic ÷ layer height; 1 = exactly full.
   std::array<std::uint16_t, feeders> shares{};  ///< Share of each feeder × `whole`.
 
   double share(std::size_t feeder) const { return shares[feeder] / whole; }
-  /// Adds plastic of the shares `of` with a height of `amount` layer heights.
-  void add(double amount, const std::array<double, feeders>& of);
+  /// Adds plastic of the shares `of`, those of the first feeders, with a height of `amount` layer heights.
+  void add(double amount, std::span<const double> of);
 };
-static_assert(sizeof(RasterPixel) == 16);
+static_assert(sizeof(RasterPixel) == 20);
 
 /// Position and size of a raster. Pixel (0, 0) is at `left`, `bottom`; y goes up.
 struct RasterFrame {

@@ -71,7 +71,7 @@ void Spread::Grid::read_row(std::uint64_t row, std::span<RasterPixel> pixels) co
   }
 }
 
-Spread::Spread(const BedSize& bed, double finest_pixel) {
+Spread::Spread(const BedSize& bed, double finest_pixel, std::size_t feeders) : feeders_(feeders) {
   const double area = (bed.x + 2 * margin) * (bed.y + 2 * margin);
   grid_.pixel = std::max(finest_pixel, std::sqrt(area / most_pixels));
   grid_.across = tiles_for(bed.x, grid_.pixel, Tile::side);
@@ -109,12 +109,12 @@ void Spread::lay(const Bead& bead, double width) {
   for (int i = 0; i < steps; ++i) {
     const double part = (i + 0.5) / steps;
     drop(along(bead.from.x, bead.to.x, part), along(bead.from.y, bead.to.y, part), amount, radius,
-         bead.shares);
+         std::span(bead.shares).first(feeders_));
   }
 }
 
 /// `amount` is the number of pixels that it fills to the layer's height.
-void Spread::drop(double x, double y, double amount, double radius, const PerFeeder<double>& shares) {
+void Spread::drop(double x, double y, double amount, double radius, std::span<const double> shares) {
   const auto cell = [this](double mm) { return static_cast<int>(std::floor((mm + margin) / grid_.pixel)); };
   const int cx = cell(x), cy = cell(y);
   const double pixels = radius / grid_.pixel;
@@ -123,7 +123,7 @@ void Spread::drop(double x, double y, double amount, double radius, const PerFee
 }
 
 /// Returns the amount that did not fit.
-double Spread::fill_room(int cx, int cy, double amount, double within, const PerFeeder<double>& shares) {
+double Spread::fill_room(int cx, int cy, double amount, double within, std::span<const double> shares) {
   for (const Offset& offset : offsets_) {
     if (offset.distance > within || amount <= 0) break;
     RasterPixel* pixel = grid_.at(cx + offset.x, cy + offset.y);
@@ -135,7 +135,7 @@ double Spread::fill_room(int cx, int cy, double amount, double within, const Per
   return amount;
 }
 
-void Spread::heap(int cx, int cy, double amount, double within, const PerFeeder<double>& shares) {
+void Spread::heap(int cx, int cy, double amount, double within, std::span<const double> shares) {
   const auto end = std::find_if(offsets_.begin(), offsets_.end(),
                                 [within](const Offset& offset) { return offset.distance > within; });
   const double each = amount / static_cast<double>(end - offsets_.begin());

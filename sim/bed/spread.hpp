@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/bed/raster.hpp"
@@ -29,7 +30,8 @@ class Spread {
  public:
   static constexpr double reach = 1.5;
 
-  Spread(const BedSize& bed, double finest_pixel);
+  /// `feeders`: as many as the printer has.
+  Spread(const BedSize& bed, double finest_pixel, std::size_t feeders);
 
   /// Begins a new, empty layer.
   void begin(double z, double height);
@@ -66,11 +68,12 @@ class Spread {
     void read_row(std::uint64_t row, std::span<RasterPixel> pixels) const override;
   };
 
-  void drop(double x, double y, double amount, double radius, const PerFeeder<double>& shares);
-  double fill_room(int x, int y, double amount, double within, const PerFeeder<double>& shares);
-  void heap(int x, int y, double amount, double within, const PerFeeder<double>& shares);
+  void drop(double x, double y, double amount, double radius, std::span<const double> shares);
+  double fill_room(int x, int y, double amount, double within, std::span<const double> shares);
+  void heap(int x, int y, double amount, double within, std::span<const double> shares);
 
   Grid grid_;
+  std::size_t feeders_;
   std::vector<Offset> offsets_;  ///< Sorted by distance.
   double lost_ = 0;
 };

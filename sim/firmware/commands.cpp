@@ -24,6 +24,10 @@ constexpr auto stopped_sentence =
     "Printer stopped due to errors. Fix the error and use M999 to restart. (Temperature is reset. Set it "
     "after restarting)";
 
+/// Of M165. Marlin has no letters for more feeders, and is then built without the command
+/// (DIRECT_MIXING_IN_G1).
+constexpr std::string_view direct_letters = "ABCDHI";
+
 constexpr std::array<char, axes> axis_letters{'X', 'Y', 'Z', 'E'};
 
 /// Takes the number of a word, if it has one, but at least `least`.
@@ -135,7 +139,7 @@ void Firmware::say_unknown(const std::string& body) {
 bool Firmware::knows(const Command& command) const {
   if (command.is('M', 155) && !personality_.capabilities) return false;
   if (command.is('M', 73) && !personality_.progress) return false;
-  return personality_.direct_mixing || !command.is('M', 165);
+  return (personality_.direct_mixing && machine_.feeders <= direct_letters.size()) || !command.is('M', 165);
 }
 
 // ---- moves
@@ -383,12 +387,14 @@ void Firmware::store_mixture(const Command& command) {
   }
 }
 
-/// M165 A… B… C…: sets the current tool at once; an omitted letter means 0.
+/// M165 A… B… C…: fills the collector and stores it into the current tool; an omitted letter means 0, but
+/// without any letter nothing changes.
 void Firmware::mix_directly(const Command& command) {
-  constexpr std::string_view letters = "ABCDHI";
-  PerFeeder<double> shares{};
-  for (std::size_t i = 0; i < max_feeders; ++i) shares[i] = command.value_or(letters[i], 0);
-  mixer_.set_current(shares);
+  const std::string_view letters = direct_letters.substr(0, machine_.feeders);
+  if (std::none_of(letters.begin(), letters.end(), [&](char letter) { return command.has(letter); })) return;
+  for (std::size_t i = 0; i < letters.size(); ++i)
+    mixer_.collect(static_cast<double>(i), command.value_or(letters[i], 0));
+  mixer_.store();
 }
 
 void Firmware::select_tool(const Command& command) {

@@ -33,10 +33,6 @@ void Mixer::store(double tool) {
   factors_[static_cast<std::size_t>(tool)] = factors_for(collector_);
 }
 
-void Mixer::set_current(const PerFeeder<double>& shares) {
-  factors_[static_cast<std::size_t>(selected_)] = factors_for(shares);
-}
-
 bool Mixer::select(double tool) {
   if (tool < 0 || tool >= tools_) return false;
   selected_ = static_cast<int>(tool);

@@ -24,8 +24,6 @@ class Mixer {
   /// M164. A tool that does not exist is ignored.
   void store(double tool);
   void store() { store(selected_); }
-  /// M165: sets the current tool without the collector. Negative shares count as zero.
-  void set_current(const PerFeeder<double>& shares);
 
   bool select(double tool);  ///< Returns false if the tool does not exist.
   int selected() const { return selected_; }

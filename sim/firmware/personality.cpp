@@ -70,6 +70,7 @@ Personality repetier() {
   one.name = "repetier";
   one.cold = 150;
   one.family = Personality::Family::repetier;
+  one.most_feeders = 6;
   one.direct_mixing = false;
   one.longest_text = 20;
   one.step_rate = eight_bit_step_rate;
@@ -95,7 +96,6 @@ Personality reprapfirmware() {
   one.longest_text = 120;
   one.queue_size = 1;
   one.boot_seconds = 4;
-  one.chatter = {"RepRapFirmware for Duet 2 WiFi/Ethernet is up and running."};
   return one;
 }
 

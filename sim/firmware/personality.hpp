@@ -16,6 +16,7 @@ struct Personality {
   std::string_view name;
   Family family = Family::marlin;
   bool advanced_ok = false;          ///< Whether an ok reads "ok N2 P14 B3".
+  std::size_t most_feeders = 8;      ///< That a build can drive.
   bool direct_mixing = true;         ///< Whether it knows M165.
   std::int32_t mix_scale = 32768;    ///< Factor of the largest share of a mixture.
   int virtual_tools = 16;            ///< T0 … T15

@@ -46,6 +46,18 @@ bool names_an_axis(const Command& command) {
   return std::any_of(letters.begin(), letters.end(), [&](char axis) { return command.has(axis); });
 }
 
+/// A board that drives so many extruders: MaxExtruders is 7 on a Duet 2 and 8 on a Duet 3 Mini (Pins_DuetNG.h
+/// and Pins_Duet3Mini.h of 3.5.3).
+const char* board_for(std::size_t feeders) {
+  return feeders <= 7 ? "Duet 2 WiFi/Ethernet" : "Duet 3 Mini 5+";
+}
+
+Personality with_its_name(const Personality& personality, std::size_t feeders) {
+  Personality named = personality;
+  named.chatter = {fmt::format("RepRapFirmware for {} is up and running.", board_for(feeders))};
+  return named;
+}
+
 /// The numbers of "E.5:.25:.25" in a command's text; empty if the letter is absent.
 std::vector<double> list_behind(std::string_view text, char letter) {
   std::vector<double> values;
@@ -68,7 +80,8 @@ std::vector<double> list_behind(std::string_view text, char letter) {
 
 RepRapFirmware::RepRapFirmware(const Machine& machine, const Personality& personality, MoveSink& sink,
                                Reply reply)
-    : Firmware(guarded_as_usual(machine), personality, sink, std::move(reply)) {
+    : Firmware(guarded_as_usual(machine), with_its_name(personality, machine.feeders), sink,
+               std::move(reply)) {
   forget();
 }
 
@@ -497,8 +510,10 @@ void RepRapFirmware::tell_place(const Command&) {
 }
 
 void RepRapFirmware::tell_name(const Command&) {
-  say("FIRMWARE_NAME: RepRapFirmware for Duet 2 WiFi/Ethernet FIRMWARE_VERSION: 3.5.3 ELECTRONICS: simulated "
-      "FIRMWARE_DATE: 2024-09-18");
+  say(
+      fmt::format("FIRMWARE_NAME: RepRapFirmware for {} FIRMWARE_VERSION: 3.5.3 ELECTRONICS: simulated "
+                  "FIRMWARE_DATE: 2024-09-18",
+                  board_for(machine_.feeders)));
 }
 
 }  // namespace unicursal::sim

@@ -10,7 +10,7 @@
 
 namespace unicursal::sim {
 
-inline constexpr std::size_t max_feeders = 6;
+inline constexpr std::size_t max_feeders = 8;
 
 /// One value for each feeder; feeders that the printer does not have stay zero.
 template <class T>

@@ -63,7 +63,7 @@ double step_response(const ChamberSize& size, double volume) {
 }
 
 Chamber::Chamber(const ChamberSize& size, std::size_t feeders)
-    : size_(size), tank_volume_(tank_volume(size)) {
+    : size_(size), tank_volume_(tank_volume(size)), feeders_(feeders) {
   assert(feeders >= 1 && feeders <= max_feeders && size.dead_volume >= 0);
   Shares equal{};
   for (std::size_t f = 0; f < feeders; ++f) equal[f] = 1 / static_cast<double>(feeders);
@@ -76,7 +76,7 @@ std::vector<Outflow> Chamber::feed(const Shares& volume) {
   std::vector<Outflow> out;
   std::vector<double> moments{0, 1};
   Shares begins{};
-  for (std::size_t f = 0; f < max_feeders; ++f) {
+  for (std::size_t f = 0; f < feeders_; ++f) {
     if (volume[f] > 0) {
       begins[f] = std::min(1.0, voids_[f] / volume[f]);
       moments.push_back(begins[f]);
@@ -88,7 +88,7 @@ std::vector<Outflow> Chamber::feed(const Shares& volume) {
     const double time = moments[i + 1] - moments[i];
     if (time <= 0) continue;
     Shares inflow{};
-    for (std::size_t f = 0; f < max_feeders; ++f) {
+    for (std::size_t f = 0; f < feeders_; ++f) {
       if (volume[f] > 0 && begins[f] <= moments[i]) inflow[f] = volume[f] * time;
     }
     if (sum(inflow) > 0) push(inflow, moments[i], moments[i + 1], out);
@@ -99,7 +99,7 @@ std::vector<Outflow> Chamber::feed(const Shares& volume) {
 void Chamber::push(const Shares& inflow, double from, double to, std::vector<Outflow>& out) {
   const double total = sum(inflow);
   Shares shares{};
-  for (std::size_t f = 0; f < max_feeders; ++f) shares[f] = inflow[f] / total;
+  for (std::size_t f = 0; f < feeders_; ++f) shares[f] = inflow[f] / total;
   append(shares, total);
   const double finest = total / most_pieces;
   for (double left = total; left > 0;) {
@@ -136,7 +136,7 @@ PerFeeder<double> Chamber::through_tanks(const Shares& shares, double volume) {
   Shares leaving{};
   const double x = tank_volume_ > 0 ? volume / tank_volume_ : 0;
   const double decay = std::exp(-x);
-  for (std::size_t f = 0; f < max_feeders; ++f) {
+  for (std::size_t f = 0; f < feeders_; ++f) {
     leaving[f] = shares[f] * volume;
     for (std::size_t k = tanks_.size(); k-- > 0;) {
       double deviation = 0, weight = decay;
@@ -155,7 +155,7 @@ PerFeeder<double> Chamber::through_tanks(const Shares& shares, double volume) {
 
 PerFeeder<double> Chamber::content() const {
   Shares content{};
-  for (std::size_t f = 0; f < max_feeders; ++f) {
+  for (std::size_t f = 0; f < feeders_; ++f) {
     for (const Slug& slug : pipe_) content[f] += slug.volume * slug.shares[f];
     for (const Shares& tank : tanks_) content[f] += tank_volume_ * tank[f];
     content[f] -= voids_[f];

@@ -70,6 +70,7 @@ class Chamber {
 
   ChamberSize size_;
   double tank_volume_;
+  std::size_t feeders_;
   std::deque<Slug> pipe_;      ///< The oldest slug is in front.
   std::vector<Shares> tanks_;  ///< Shares in each tank.
   Shares voids_{};

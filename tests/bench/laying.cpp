@@ -185,7 +185,7 @@ Laying lay(const host::PreparedJob& job, const Curves& curves, const Options& op
   Laying laying;
   const gcode::Printer& printer = job.job.profile.printer;
   Judges judges(job, curves, host::intended_materials(job, encoder), laying);
-  sim::Spread spread({printer.bed[0], printer.bed[1]}, raster_pixel);
+  sim::Spread spread({printer.bed[0], printer.bed[1]}, raster_pixel, printer.feeders);
   sim::Deposit deposit({nullptr, &spread, &judges});
   sim::Nozzle nozzle(printer.filament_diameter, sim::Chamber({printer.dead_volume, printer.mixing_volume}, 3),
                      deposit);

@@ -151,7 +151,7 @@ Result lay(const host::PreparedJob& job, const std::vector<host::PlannedLayer>& 
   gcode::Encoder encoder(printer, host::print_settings(job));
   Judges judges(job, layers, host::intended_materials(job, encoder), options.pictures, result);
   Travels travels(gcode::travel_widths * job.job.bead_width, result);
-  sim::Spread spread({printer.bed[0], printer.bed[1]}, raster_pixel);
+  sim::Spread spread({printer.bed[0], printer.bed[1]}, raster_pixel, printer.feeders);
   sim::Deposit deposit({nullptr, &spread, &judges});
   sim::Nozzle nozzle(
       printer.filament_diameter,

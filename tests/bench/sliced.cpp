@@ -92,7 +92,7 @@ class Comparison : public sim::BedSink {
     if (!holds(stroke, x, y, bead.to.z)) lost += bead.volume;
     if (stroke.part) part += bead.volume;
     if (!stroke.seen) return;
-    std::array<double, 3> arrived{};
+    gcode::Shares arrived = gcode::Shares::zeros(3);
     for (std::size_t f = 0; f < 3; ++f) arrived[f] = bead.shares[f];
     const auto& want = mixtures_.at(static_cast<std::size_t>(stroke.tool));
     seen += bead.volume;
@@ -155,7 +155,7 @@ void measure(const std::string& file, std::size_t tanks, bool without_tower) {
                            Way{"ahead, and hidden", true, true}}) {
       gcode::RemixSettings settings;
       for (const gcode::SlicedTool& tool : survey.tools) {
-        std::array<double, 3> shares{};
+        gcode::Shares shares = gcode::Shares::zeros(3);
         shares[static_cast<std::size_t>(tool.number) % 3] = 1;
         settings.tools[tool.number] = settings.materials.size();
         settings.materials.push_back({fmt::format("T{}", tool.number), gcode::Mixture(shares)});

@@ -43,7 +43,7 @@ void sliced(const std::filesystem::path& folder, core::Random& random) {
   settings.hide = random.below(4) != 0;
   settings.look_ahead = random.below(4) != 0;
   for (const gcode::SlicedTool& tool : survey.tools) {
-    std::array<double, 3> shares{};
+    gcode::Shares shares = gcode::Shares::zeros(3);
     shares[settings.materials.size() % 3] = 1;
     settings.tools[tool.number] = settings.materials.size();
     settings.materials.push_back({"m", gcode::Mixture(shares)});

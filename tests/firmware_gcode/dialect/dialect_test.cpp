@@ -14,7 +14,7 @@ using namespace unicursal::gcode;
 TEST_CASE("Repetier gets shares in whole hundredths, at standstill") {
   const Dialect& repetier = dialect_named("repetier");
   CHECK(choose_extruder(repetier).empty());
-  CHECK(begin_mixture(repetier, 3, Mixture({1, 1, 0}), Printer{}) == "T3");
+  CHECK(begin_mixture(repetier, 3, Mixture({1, 1, 0})) == "T3");
   CHECK(repetier.define_tool(3, repetier.as_written(Mixture({0.5, 0.333, 0.167}))) ==
         std::vector<std::string>{"M400", "M163 S0 P50", "M163 S1 P33", "M163 S2 P17", "M164 S3"});
   CHECK(repetier.limits().tool_change_stops);
@@ -22,21 +22,18 @@ TEST_CASE("Repetier gets shares in whole hundredths, at standstill") {
   CHECK_THROWS_WITH(dialect_named("klipper"), Catch::Contains("klipper") && Catch::Contains("repetier"));
 }
 
-TEST_CASE("RepRapFirmware gets its shares at each change, those of the feeders that exist add up to one") {
+TEST_CASE("RepRapFirmware gets its shares at each change, and they add up to one") {
   const Dialect& dialect = dialect_named("reprapfirmware");
-  Printer printer;
-  const auto line = [&](const std::array<double, 3>& shares) {
-    return begin_mixture(dialect, 9, dialect.as_written(Mixture(shares)), printer);
+  const auto line = [&](const Shares& shares) {
+    return begin_mixture(dialect, 9, dialect.as_written(Mixture(shares)));
   };
   CHECK(choose_extruder(dialect) == std::vector<std::string>{"T0 P0"});
   CHECK(dialect.define_tool(9, Mixture({1, 0, 0})).empty());
   CHECK(line({2, 1, 1}) == "M567 P0 E.5:.25:.25");
   CHECK(line({1, 1, 1}) == "M567 P0 E.3334:.3333:.3333");
   CHECK(line({0, 0, 5}) == "M567 P0 E0:0:1");
-  printer.feeders = 2;
-  CHECK(line({0.49, 0.49, 0.02}) == "M567 P0 E.5:.5");
-  printer.feeders = 1;
-  CHECK(line({1, 1, 1}) == "M567 P0 E1");
+  CHECK(line({1, 2}) == "M567 P0 E.3333:.6667");
+  CHECK(line({1, 1, 1, 1, 1, 1, 0, 0}) == "M567 P0 E.1667:.1667:.1667:.1667:.1666:.1666:0:0");
   CHECK_FALSE(dialect.limits().shares_act_at_once);
   CHECK_FALSE(dialect.limits().tool_change_stops);
 }
@@ -47,10 +44,13 @@ TEST_CASE("quantised shares add up, are off by less than a unit, and do not chan
   for (int i = 0; i < 5000; ++i) {
     const int decimals = i % 2 == 0 ? 2 : 4;
     const double unit = std::pow(10, -decimals);
-    const Mixture mixture({shares(random), random() % 4 ? shares(random) : 0, 0.01 + shares(random)});
+    Shares given = Shares::zeros(least_feeders + random() % (most_feeders - 1));
+    for (double& share : given) share = random() % 4 ? shares(random) : 0;
+    given[0] += 0.01;
+    const Mixture mixture(given);
     const Mixture rounded = mixture.quantised(decimals);
     double sum = 0;
-    for (std::size_t f = 0; f < max_feeders; ++f) {
+    for (std::size_t f = 0; f < mixture.feeders(); ++f) {
       const double units = rounded.share(f) / unit;
       CHECK(std::abs(units - std::round(units)) < 1e-6);
       CHECK(std::abs(rounded.share(f) - mixture.share(f)) < unit);
@@ -65,11 +65,14 @@ TEST_CASE("calibration corrects slipping feeders one by one") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> shares(0.05, 1), factors(0.8, 1.25);
   for (int i = 0; i < 500; ++i) {
-    const Mixture wanted({shares(random), shares(random), shares(random)});
-    const std::array<double, 3> factor = {factors(random), factors(random), factors(random)};
+    Shares given = Shares::zeros(least_feeders + random() % (most_feeders - 1));
+    for (double& share : given) share = shares(random);
+    const Mixture wanted(given);
+    PerFeeder factor = given;
+    for (double& one : factor) one = factors(random);
     const CalibratedMixture tool = calibrated(wanted, factor, dialect_named("marlin"));
     double fed = 0;
-    for (std::size_t f = 0; f < max_feeders; ++f) {
+    for (std::size_t f = 0; f < wanted.feeders(); ++f) {
       // The firmware turns feeder f by E times its share; of that 1/factor arrives.
       const double arrives = tool.scale * tool.written.share(f) / factor[f];
       CHECK(arrives == Approx(wanted.share(f)).margin(2e-4));

@@ -155,7 +155,7 @@ TEST_CASE("a lead-in into the middle of a tool definition repeats the shares bef
 TEST_CASE("a lead-in undoes the whole retraction, and draws back in equal shares in every dialect") {
   struct Equal {
     std::vector<std::string> definition;
-    std::array<double, 3> flow_factors;
+    PerFeeder flow_factors;
   };
   const std::vector<Equal> dialects = {
       {{"M163 S0 P.3334", "M163 S1 P.3333", "M163 S2 P.3333", "M164 S2"}, {1, 1, 1}},

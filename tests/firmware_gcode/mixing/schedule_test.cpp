@@ -97,11 +97,11 @@ TEST_CASE("tanks respond like the closed form, however the volume is divided") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> volume(0.01, 1.2);
   Tanks tanks(chamber, {1, 0, 0});
-  const Tanks::Shares red{0, 1, 0};
+  const Shares red{0, 1, 0};
   double passed = 0, arrived = 0;
   while (passed < 8) {
     const double piece = volume(random);
-    const Tanks::Shares out = tanks.pass(red, piece);
+    const Shares out = tanks.pass(red, piece);
     CHECK(out[0] + out[1] == Approx(1));
     passed += piece;
     arrived += out[1] * piece;

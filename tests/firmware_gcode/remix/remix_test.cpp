@@ -34,7 +34,7 @@ Printer printer_of(double dead, double mixing, const std::string& firmware = "ma
 RemixSettings settings_for(const SlicedSurvey& survey) {
   RemixSettings settings;
   for (const SlicedTool& tool : survey.tools) {
-    std::array<double, 3> shares{};
+    Shares shares = Shares::zeros(3);
     shares[static_cast<std::size_t>(tool.number) % 3] = 1;
     settings.tools[tool.number] = settings.materials.size();
     settings.materials.push_back({"T" + std::to_string(tool.number), Mixture(shares)});

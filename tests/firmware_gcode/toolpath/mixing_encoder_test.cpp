@@ -54,9 +54,9 @@ std::vector<std::string> lines_of(Encoder& encoder, std::size_t layers) {
 /// Calls `seen` for every bit of plastic on the part: place, shares, volume.
 template <typename Seen>
 void play(const std::vector<std::string>& lines, const ChamberModel& chamber, Seen seen) {
-  std::map<int, Tanks::Shares> tools;
-  Tanks::Shares collector{}, mixture{1.0 / 3, 1.0 / 3, 1.0 / 3};
-  std::deque<std::pair<double, Tanks::Shares>> pipe{{chamber.dead_volume, mixture}};
+  std::map<int, Shares> tools;
+  Shares collector = Shares::zeros(3), mixture{1.0 / 3, 1.0 / 3, 1.0 / 3};
+  std::deque<std::pair<double, Shares>> pipe{{chamber.dead_volume, mixture}};
   Tanks tanks(chamber, mixture);
   core::Vec2 at(0, 0);
   bool part = false;
@@ -78,7 +78,7 @@ void play(const std::vector<std::string>& lines, const ChamberModel& chamber, Se
       pipe.push_back({volume, mixture});
       for (double left = volume; left > 1e-12;) {
         const double piece = std::min({left, pipe.front().first, 0.05});
-        const Tanks::Shares out = tanks.pass(pipe.front().second, piece);
+        const Shares out = tanks.pass(pipe.front().second, piece);
         left -= piece;
         if ((pipe.front().first -= piece) < 1e-12) pipe.pop_front();
         if (part) seen(core::Vec2(at + (to - at) * (1 - left / volume)), out, piece);
@@ -103,7 +103,7 @@ TEST_CASE("every zone gets its mixture, also across layers") {
       Encoder encoder(printer, with);
       const auto lines = lines_of(encoder, 6);
       double misplaced_volume = 0, nearer_to_other = 0, all = 0;
-      play(lines, chamber, [&](const core::Vec2& place, const Tanks::Shares& is, double volume) {
+      play(lines, chamber, [&](const core::Vec2& place, const Shares& is, double volume) {
         const std::size_t zone = place.y() >= 100 ? 0 : 1;
         const double error = misplaced(is, encoder.intended(zone).shares());
         misplaced_volume += error * volume;
@@ -130,7 +130,7 @@ TEST_CASE("a gradient's shades lie where they belong, with more mixtures than th
   const auto lines = lines_of(encoder, 4);
   double error = 0, all = 0;
   play(lines, {printer.dead_volume, printer.mixing_volume, printer.tanks},
-       [&](const core::Vec2& place, const Tanks::Shares& is, double volume) {
+       [&](const core::Vec2& place, const Shares& is, double volume) {
          const double part = settings.materials[0].gradient->part_at(place, 0);
          error += volume * misplaced(is, encoder.intended(0, part).shares());
          all += volume;
@@ -149,9 +149,9 @@ TEST_CASE("a chunk says from which line on which mixture is fed") {
     Encoder encoder(printer, settings);
     // The name of the mixture by the shares that the firmware has received, which are those of the feeders'
     // steps.
-    const auto fed = [&](const Tanks::Shares& received) -> std::string {
-      Tanks::Shares shares = received;
-      for (std::size_t f = 0; f < max_feeders; ++f) shares[f] /= printer.flow_factors[f];
+    const auto fed = [&](const Shares& received) -> std::string {
+      Shares shares = received;
+      for (std::size_t f = 0; f < shares.size(); ++f) shares[f] /= printer.flow_factors[f];
       const Mixture mixture(shares);
       for (std::size_t i = 0; i < 2; ++i) {
         if (misplaced(mixture.shares(), encoder.intended(i).shares()) < 1e-9)
@@ -159,8 +159,8 @@ TEST_CASE("a chunk says from which line on which mixture is fed") {
       }
       return shares_text(mixture);
     };
-    std::map<int, Tanks::Shares> tools;
-    Tanks::Shares collector{};
+    std::map<int, Shares> tools;
+    Shares collector = Shares::zeros(3);
     std::string expected, name;
     std::map<std::string, int> seen;
     const auto check = [&](Chunk chunk) {

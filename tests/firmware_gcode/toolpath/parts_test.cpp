@@ -45,16 +45,19 @@ TEST_CASE("mixtures are shares at any scale") {
 
 TEST_CASE("a floor raises idle feeders and keeps the proportion of the others") {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> shares(0, 1), floors(0, 1.0 / 3);
+  std::uniform_real_distribution<double> shares(0, 1), floors(0, 1);
   for (int i = 0; i < 2000; ++i) {
-    const Mixture mixture({shares(random), random() % 3 ? shares(random) : 0, 0.001 + shares(random)});
-    const double floor = floors(random);
+    Shares given = Shares::zeros(least_feeders + random() % (most_feeders - 1));
+    for (double& share : given) share = random() % 3 ? shares(random) : 0;
+    given[0] += 0.001;
+    const Mixture mixture(given);
+    const double floor = floors(random) / static_cast<double>(mixture.feeders());
     const Mixture floored = mixture.with_floor(floor);
     double sum = 0;
-    for (std::size_t a = 0; a < max_feeders; ++a) {
+    for (std::size_t a = 0; a < mixture.feeders(); ++a) {
       sum += floored.share(a);
       CHECK(floored.share(a) >= floor - 1e-12);
-      for (std::size_t b = 0; b < max_feeders; ++b) {
+      for (std::size_t b = 0; b < mixture.feeders(); ++b) {
         if (floored.share(a) < floor + 1e-9 || floored.share(b) < floor + 1e-9) continue;
         CHECK(floored.share(a) * mixture.share(b) == Approx(floored.share(b) * mixture.share(a)));
       }

@@ -139,12 +139,17 @@ TEST_CASE("doctor: the virtual tools of a printer are counted, and its settings 
   CHECK(found["steps_per_mm"][2] == 400);
 }
 
-TEST_CASE("doctor: a Repetier with too few feeders is refused") {
+TEST_CASE("doctor: a Repetier with other feeders than the profile's is refused") {
   Examination found;
   found.mixes = true;
-  found.identity = gcode::identify("FIRMWARE_NAME:Repetier_1.0.4 EXTRUDER_COUNT:2");
-  const std::vector<Finding> list = findings(found, 250000, nullptr);
-  CHECK(has_trouble(list));
+  found.identity = gcode::identify("FIRMWARE_NAME:Repetier_1.0.4 EXTRUDER_COUNT:4");
+  CHECK(has_trouble(findings(found, 250000, nullptr)));  // three are usual
+  Profile profile;
+  profile.printer.firmware = "repetier";
+  profile.printer.feeders = 4;
+  CHECK_FALSE(has_trouble(findings(found, 250000, &profile)));
+  profile.printer.feeders = 5;
+  CHECK(has_trouble(findings(found, 250000, &profile)));
 }
 
 TEST_CASE("doctor: without a printer it says so in a sentence") {

@@ -51,13 +51,13 @@ class Laid : public sim::LayerRaster {
   Function at_;
 };
 
-sim::RasterPixel plastic(double fill, std::array<double, 6> shares) {
+sim::RasterPixel plastic(double fill, std::array<double, sim::RasterPixel::feeders> shares) {
   sim::RasterPixel pixel;
   if (fill > 0) pixel.add(fill, shares);
   return pixel;
 }
 
-const std::array<double, 6> red{1}, blue{0, 1};
+const std::array<double, sim::RasterPixel::feeders> red{1}, blue{0, 1};
 constexpr sim::RasterFrame frame{0.8, 0.2, 5.03, 4.98, 0.05, 600, 400};
 
 JudgedLayer judged(const Laid::Function& at, const sim::RasterFrame& where = frame, bool draw = false) {

@@ -51,7 +51,7 @@ nlohmann::json seen(double scale) {
 
 Fed unit_steps() {
   // A filament of 1 mm² and one step for each mm.
-  return {2 / std::sqrt(std::numbers::pi), 1, 10};
+  return {2 / std::sqrt(std::numbers::pi), 1, 10, {1, 1, 1}};
 }
 
 }  // namespace

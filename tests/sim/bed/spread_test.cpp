@@ -49,7 +49,7 @@ Sums sums(const LayerRaster& raster, double x0 = -1e9, double y0 = -1e9, double 
 }  // namespace
 
 TEST_CASE("every mm³ that is laid is in the raster, with its feeder") {
-  Spread spread({60, 60}, pixel);
+  Spread spread({60, 60}, pixel, 3);
   spread.begin(height, height);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> place(0, 60), width(0.2, 2.5), share(0, 1);
@@ -71,7 +71,7 @@ TEST_CASE("every mm³ that is laid is in the raster, with its feeder") {
 
 TEST_CASE("on open ground a bead has the width of its volume, in any direction") {
   const double angle = GENERATE(0.0, 0.3, 0.785398, 1.2), width = GENERATE(0.45, 1.3);
-  Spread spread({60, 60}, pixel);
+  Spread spread({60, 60}, pixel, 3);
   spread.begin(height, height);
   const double dx = std::cos(angle), dy = std::sin(angle);
   spread.lay(bead(30 - 15 * dx, 30 - 15 * dy, 30 + 15 * dx, 30 + 15 * dy, width), width);
@@ -99,7 +99,7 @@ TEST_CASE("on open ground a bead has the width of its volume, in any direction")
 TEST_CASE("strands one bead width apart leave no gap, farther apart they do, and closer they pile up") {
   const double width = 0.5;
   const auto plate = [&](double spacing) {
-    Spread spread({60, 60}, pixel);
+    Spread spread({60, 60}, pixel, 3);
     spread.begin(height, height);
     for (int i = 0; i < 40; ++i) spread.lay(bead(10, 10 + i * spacing, 40, 10 + i * spacing, width), width);
     const Sums inner = sums(spread.raster(), 12, 12, 38, 10 + 38 * spacing);
@@ -117,7 +117,7 @@ TEST_CASE("strands one bead width apart leave no gap, farther apart they do, and
 }
 
 TEST_CASE("plastic moves aside next to an older strand, up to a limit") {
-  Spread spread({60, 60}, pixel);
+  Spread spread({60, 60}, pixel, 3);
   spread.begin(height, height);
   const double width = 0.8;
   spread.lay(bead(10, 20, 50, 20, width), width);      // covers y from 19.6 to 20.4
@@ -127,7 +127,7 @@ TEST_CASE("plastic moves aside next to an older strand, up to a limit") {
 }
 
 TEST_CASE("plastic outside the bed is counted as lost") {
-  Spread spread({50, 50}, pixel);
+  Spread spread({50, 50}, pixel, 3);
   spread.begin(height, height);
   const Bead laid = bead(-200, 10, -180, 10, 0.5);
   spread.lay(laid, 0.5);
@@ -136,7 +136,7 @@ TEST_CASE("plastic outside the bed is counted as lost") {
 }
 
 TEST_CASE("a new layer begins empty") {
-  Spread spread({50, 50}, pixel);
+  Spread spread({50, 50}, pixel, 3);
   spread.begin(height, height);
   spread.lay(bead(10, 10, 20, 10, 0.5), 0.5);
   spread.begin(2 * height, height);
@@ -146,8 +146,8 @@ TEST_CASE("a new layer begins empty") {
 }
 
 TEST_CASE("the pixels of a big bed are coarser, so that a layer's memory stays bounded") {
-  CHECK(Spread({150, 150}, 0.05).pixel() == 0.05);
-  const double coarse = Spread({1000, 1000}, 0.05).pixel();
+  CHECK(Spread({150, 150}, 0.05, 3).pixel() == 0.05);
+  const double coarse = Spread({1000, 1000}, 0.05, 3).pixel();
   CHECK(1020 * 1020 / (coarse * coarse) <= 16.1e6);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("layers are read from the stream as they were written") {
   std::vector<double> volumes;
   {
     RasterWriter writer(file);
-    Spread spread({50, 50}, 0.1);
+    Spread spread({50, 50}, 0.1, 3);
     Deposit deposit({nullptr, &spread, &writer});
     for (const double z : {0.2, 0.4, 0.7}) {
       Bead laid = bead(10, 10, 10 + 20 * z, 20, 0.5, {0.25, 0.75});
@@ -190,7 +190,7 @@ TEST_CASE("a truncated stream, or one of another format, is refused") {
   const auto file = folder.path() / "rasters";
   {
     RasterWriter writer(file);
-    Spread spread({50, 50}, 0.1);
+    Spread spread({50, 50}, 0.1, 3);
     spread.begin(height, height);
     spread.lay(bead(10, 10, 20, 10, 0.5), 0.5);
     writer.layer(spread.raster());

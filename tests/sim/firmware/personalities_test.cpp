@@ -108,6 +108,22 @@ TEST_CASE("M165 writes the current tool at once, and omitted letters are 0") {
   CHECK(fed_shares(bench)[2] == 0);
 }
 
+TEST_CASE("M165 without a letter changes nothing, and fills the collector otherwise") {
+  Bench bench;
+  bench.heat();
+  mix(bench, 0, 0, 1);
+  bench.finish("M165");
+  bench.finish("M83");
+  bench.finish("G1 X50 E10 F1200");
+  CHECK(fed_shares(bench)[2] == Approx(1));
+  bench.finish("M165 A1 B3");
+  bench.finish("M163 S0 P0");
+  bench.finish("M164 S1");
+  bench.finish("T1");
+  bench.finish("G1 X60 E30 F1200");  // 10 mm of feeder 3, 30 mm of feeder 2
+  CHECK(fed_shares(bench)[1] == Approx(0.75).epsilon(1e-3));
+}
+
 TEST_CASE("only a reset revives a killed board, tools, modes, targets and line numbers are lost") {
   Bench bench("marlin-8bit");
   bench.heat();

@@ -169,11 +169,14 @@ TEST_CASE("every step of E goes to one feeder, according to the mixture's shares
     FeederSplit split;
     CHECK(split.split(5000, {32768, 3276, 0}) == PerFeeder<std::int64_t>{4546, 454, 0});
   }
-  SECTION("in any pieces") {
+  SECTION("in any pieces, for every number of feeders") {
+    const std::size_t feeders = GENERATE(range(std::size_t{2}, max_feeders + 1));
     std::mt19937 random(11);
     std::uniform_int_distribution<std::int64_t> steps(-40, 60);
+    std::uniform_int_distribution<std::int32_t> factor(0, 32768);
     FeederSplit split;
-    const Factors factors{32768, 9000, 700};
+    Factors factors{32768, 9000, 700};
+    for (std::size_t f = 1; f < max_feeders; ++f) factors[f] = f < feeders ? factor(random) : 0;
     PerFeeder<std::int64_t> sum{};
     std::int64_t total = 0;
     for (int i = 0; i < 5000; ++i) {
