@@ -479,7 +479,9 @@ void SlicedReader::heat(const SlicedCommand& line) {
     wait = false;
   }
   if (!bed) waited_ = wait || (waited_ && target <= nozzle_);
-  (bed ? bed_ : nozzle_) = target;
+  const bool same = std::exchange(bed ? bed_ : nozzle_, target) == target;
+  // Slicers repeat it at each change of tool, which would undo what a person has set.
+  if (same && !wait && layers_ > 0) return;
   const bool only_up = line.valued('S');
   pass(fmt::format("M{} {}{}", bed ? (wait ? 190 : 140) : (wait ? 109 : 104), wait && !only_up ? 'R' : 'S',
                    short_number(target, 1)));

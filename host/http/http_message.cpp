@@ -75,6 +75,7 @@ void read_request_line(std::string_view line, RequestHead& head) {
   std::string_view rest = target;
   head.path = take(rest, "?");
   head.query = rest;
+  if (head.path.starts_with("//")) head.path.erase(0, 1);  // Home Assistant's library sets the bed's heat so
   check_path(head.path);
 }
 

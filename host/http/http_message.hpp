@@ -41,7 +41,8 @@ class HttpError : public std::runtime_error {
 
 struct RequestHead {
   std::string method;  ///< "GET"
-  std::string path;    ///< "/api/status": begins with a slash, without ".", ".." and empty segments
+  std::string path;    ///< "/api/status": begins with a slash, without ".", ".." and empty segments;
+                       ///< an empty one at the very beginning is left out
   std::string query;   ///< behind the question mark
   std::vector<std::pair<std::string, std::string>> headers;  ///< names in lower case
   std::uint64_t content_length = 0;                          ///< bytes

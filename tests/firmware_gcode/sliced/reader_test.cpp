@@ -88,6 +88,13 @@ TEST_CASE("A nozzle that waits is not this printer's", "[sliced]") {
   CHECK(file.tools == std::vector<int>{0, 1});
 }
 
+TEST_CASE("A temperature that a file repeats is not sent again, since a person may have set another",
+          "[sliced]") {
+  const Read file =
+      read(warm + "M140 S60\n" + layer + "M104 S210\nM140 S60\nM104 S205\nT1\nM104 S205\nM104 S210\n");
+  CHECK(file.passed == std::vector<std::string>{"G28", "M109 S210", "M140 S60", "M104 S205", "M104 S210"});
+}
+
 TEST_CASE("Waiting for heat over the part is left out", "[sliced]") {
   const Read file = read(warm + layer + "M109 S215\nM190 R60\n");
   CHECK(file.passed == std::vector<std::string>{"G28", "M109 S210", "M104 S215", "M140 S60"});
