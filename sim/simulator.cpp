@@ -140,7 +140,7 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   std::optional<BeadStore> pictures;
   if (options.pictures) {
     clear_pictures(*options.pictures);
-    pictures.emplace(*options.pictures);
+    pictures.emplace(*options.pictures, picture::Filaments(options.filaments));
   }
   std::optional<RasterWriter> rasters;
   std::optional<Spread> spread;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/picture/image.hpp"
+
 namespace unicursal::sim {
 
 struct SimulatorOptions {
@@ -49,6 +51,7 @@ struct SimulatorOptions {
   double feeder_acceleration = 10000;                        ///< mm/s²,
   double feeder_jerk = 5;                                    ///< mm/s.
   std::size_t feeders = 3;
+  std::vector<picture::Colour> filaments = {};  ///< Of the first feeders, in pictures; else the usual ones.
   /// How far the head reaches around the nozzle, and the height above its tip at which everything else
   /// begins, mm; nullopt: only the tip can strike what was laid.
   std::optional<std::pair<double, double>> clearance;

@@ -32,16 +32,22 @@ std::uint8_t reflected(double absorbed) {
 
 }  // namespace
 
-Colour mixed_filaments(std::span<const double> shares) {
+Filaments::Filaments(std::span<const Colour> pure) {
+  std::vector<Colour> colours(pure.begin(), pure.end());
+  for (std::size_t f = colours.size(); f < usual_filaments.size(); ++f) colours.push_back(usual_filaments[f]);
+  for (const Colour& colour : colours)
+    absorbed_.push_back({absorption(colour.r), absorption(colour.g), absorption(colour.b)});
+}
+
+Colour colour_of(std::span<const double> shares, const Filaments& filaments) {
   assert(shares.size() <= filaments.size());
-  double r = 0, g = 0, b = 0;
+  std::array<double, 3> absorbed{};
   for (std::size_t f = 0; f < shares.size(); ++f) {
     if (shares[f] <= 0) continue;
-    r += shares[f] * absorption(filaments[f].r);
-    g += shares[f] * absorption(filaments[f].g);
-    b += shares[f] * absorption(filaments[f].b);
+    for (std::size_t channel = 0; channel < absorbed.size(); ++channel)
+      absorbed[channel] += shares[f] * filaments.absorbed(f)[channel];
   }
-  return {reflected(r), reflected(g), reflected(b)};
+  return {reflected(absorbed[0]), reflected(absorbed[1]), reflected(absorbed[2])};
 }
 
 Colour lit(Colour colour, double light) {

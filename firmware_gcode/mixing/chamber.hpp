@@ -61,7 +61,7 @@ class Tanks {
 };
 
 /// The fraction of plastic that is misplaced: half the sum of the absolute differences of all shares.
-inline double misplaced(const Shares& a, const Shares& b) {
+[[gnu::always_inline]] inline double misplaced(const Shares& a, const Shares& b) {
   double sum = 0;
   for_each_feeder(a.size(), [&](std::size_t f) { sum += std::abs(a[f] - b[f]); });
   return sum / 2;

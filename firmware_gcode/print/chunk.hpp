@@ -44,7 +44,10 @@ struct Chunk {
   double volume = 0;   ///< mm³ extruded along beads and the prime line; excludes retractions
   /// The same volume, by mixture; each mixture once.
   std::vector<MixtureVolume> mixture_volumes;
-  double prime_volume = 0;            ///< mm³ of `volume` in the prime line and the skirt
+  double prime_volume = 0;  ///< mm³ of `volume` in the prime line and the skirt
+  /// Of `mixture_volumes`, what is laid beside the part: the prime volume, and of a slicer's file skirt,
+  /// brim, raft, wipe tower and the user's own lines.
+  std::vector<MixtureVolume> aside_mixtures;
   std::size_t prime_material = 0;     ///< of the prime volume: index into PrintSettings::materials
   std::vector<LayerShare> layers;     ///< of the lines, in order; empty for the start and the end of a print
   std::vector<LayerMixing> mixing;    ///< forecast for the layers that have become certain

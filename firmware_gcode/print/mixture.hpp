@@ -35,7 +35,7 @@ class Mixture {
 };
 
 /// The squared distance of two mixtures' shares. Precondition: as many feeders.
-inline double squared_distance(const Shares& a, const Shares& b) {
+[[gnu::always_inline]] inline double squared_distance(const Shares& a, const Shares& b) {
   double sum = 0;
   for_each_feeder(a.size(), [&](std::size_t f) { sum += (a[f] - b[f]) * (a[f] - b[f]); });
   return sum;

@@ -262,6 +262,7 @@ void Remix::State::write_feed(const Go& entry) {
 void Remix::State::account(const Go& entry, const Place& from, const Place& to, double volume) {
   const Mixture& mixture = palette.mixture(*shade);
   add(chunk.mixture_volumes, mixture, volume);
+  if (is_aside(entry.feature)) add(chunk.aside_mixtures, mixture, volume);
   chunk.volume += volume;
   share.volume += volume;
   highest = std::max(highest, to[2].value_or(0));

@@ -34,6 +34,10 @@ const char* name(Feature feature) {
 bool is_seen(Feature feature) {
   return traits[static_cast<std::size_t>(feature)].seen;
 }
+bool is_aside(Feature feature) {
+  return feature == Feature::aside || feature == Feature::tower || feature == Feature::custom;
+}
+
 double weight(Feature feature) {
   return traits[static_cast<std::size_t>(feature)].weight;
 }

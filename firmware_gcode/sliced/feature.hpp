@@ -27,6 +27,9 @@ const char* name(Feature feature);
 /// Whether the finished part shows it: outer walls, top and bottom surfaces, and what no comment names.
 bool is_seen(Feature feature);
 
+/// Whether it does not belong to what is printed: skirt, brim, raft, wipe tower, the user's own lines.
+bool is_aside(Feature feature);
+
 /// How much a wrong mixture matters there, 0…1.
 double weight(Feature feature);
 

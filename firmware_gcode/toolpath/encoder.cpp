@@ -367,6 +367,7 @@ void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
   append(chunk.lines, std::move(part.lines));
   append(chunk.warnings, std::move(part.warnings));
   for (const auto& [what, volume] : part.mixture_volumes) add(chunk.mixture_volumes, what, volume);
+  for (const auto& [what, volume] : part.aside_mixtures) add(chunk.aside_mixtures, what, volume);
   chunk.volume += part.volume;
   chunk.prime_volume += part.prime_volume;
   chunk.seconds += part.seconds;
@@ -463,7 +464,10 @@ void Encoder::State::write(Chunk& chunk, const Lay& bead) {
     const core::Vec2 end = cut ? core::Vec2(bead.from + way * (done / bead.volume)) : bead.to;
     writer.bead(chunk, end, volume, speed);
     add(chunk.mixture_volumes, palette.mixture(*shade), volume);
-    if (bead.prime) chunk.prime_volume += volume;
+    if (bead.prime) {
+      chunk.prime_volume += volume;
+      add(chunk.aside_mixtures, palette.mixture(*shade), volume);
+    }
     laid += volume;
     if (!cut) return;
   }

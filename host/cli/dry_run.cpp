@@ -7,6 +7,7 @@
 #include "host/cli/foreground.hpp"
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
+#include "host/report/filament_use.hpp"
 #include "host/report/summary.hpp"
 
 namespace unicursal::host {
@@ -72,8 +73,7 @@ Exit DryRun::run() {
   if (exit != Exit::success) return exit;
   if (!display_.quiet) show(messages, "{}{}", summary(result.comparison), result.laid_summary);
   for (const std::string& warning : result.warnings) show(stderr, "warning: {}\n", warning);
-  if (!display_.quiet)
-    show(messages, "{}", used_filament(result.totals, production->job().profile.printer.filament_diameter));
+  if (!display_.quiet) show(messages, "{}", used_filament(result.totals, production->job().profile));
   show(messages, "done:      the print takes {} with heating{}; the dry run took {}\n",
        rough_duration(shown.seconds),
        shown.foretold ? " (" + rough_duration(*shown.foretold) + " were foretold)" : "",

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -16,7 +15,6 @@
 #include "host/cli/typed_line.hpp"
 #include "host/engine/reconnecting.hpp"
 #include "host/engine/session_json.hpp"
-#include "host/report/curve_picture.hpp"
 
 namespace unicursal::host {
 
@@ -83,18 +81,6 @@ std::optional<gcode::Mixture> mixture_of_shares(const std::string& text) {
   }
 }
 
-/// Metres of filament that each feeder was commanded.
-gcode::PerFeeder filament_used(const RunTotals& totals, double diameter) {
-  gcode::PerFeeder metres;
-  if (!totals.fed.empty()) metres = gcode::PerFeeder::zeros(totals.fed.front().mixture.feeders());
-  const double area = std::numbers::pi * diameter * diameter / 4;
-  for (const gcode::MixtureVolume& one : totals.fed) {
-    for (std::size_t f = 0; f < metres.size(); ++f)
-      metres[f] += one.volume * one.mixture.share(f) / area / 1000;
-  }
-  return metres;
-}
-
 /// Returns whether the print can go on; otherwise the reason of its end says why.
 bool is_back(Print& print, StreamResult& result) {
   try {
@@ -110,13 +96,14 @@ bool is_back(Print& print, StreamResult& result) {
 
 StatusLook look_for(const Job& job) {
   StatusLook look;
-  look.colour_of = [materials =
-                        job.print.materials](const std::string& name) -> std::optional<picture::Colour> {
+  look.colour_of = [materials = job.print.materials, filaments = job.profile.filaments.colours()](
+                       const std::string& name) -> std::optional<picture::Colour> {
     const auto named = std::find_if(materials.begin(), materials.end(),
                                     [&](const gcode::Material& material) { return material.name == name; });
-    if (named != materials.end()) return colour_of(named->mixture);
+    if (named != materials.end()) return picture::colour_of(named->mixture.shares(), filaments);
     const auto mixture = mixture_of_shares(name);
-    return mixture ? std::optional(colour_of(*mixture)) : std::nullopt;
+    if (!mixture || mixture->feeders() > filaments.size()) return std::nullopt;
+    return picture::colour_of(mixture->shares(), filaments);
   };
   return look;
 }
@@ -147,18 +134,6 @@ void show_done(const ForegroundResult& result, const DisplayOptions& display) {
       fmt::format("done at {}, after {}", time_of_day(now, now), rough_duration(result.seconds));
   if (result.foretold) line += fmt::format("; {} had been foretold", rough_duration(*result.foretold));
   show(message_stream(display), "{}\n", line);
-}
-
-std::string used_filament(const RunTotals& totals, double diameter) {
-  std::string line = "filament:  ";
-  const gcode::PerFeeder metres = filament_used(totals, diameter);
-  const char* separator = "";
-  for (std::size_t f = 0; f < metres.size(); ++f) {
-    if (metres[f] <= 0) continue;
-    line += fmt::format("{}{:.2f} m from feeder {}", separator, metres[f], f + 1);
-    separator = ", ";
-  }
-  return *separator == 0 ? "" : line + "\n";
 }
 
 void show_how_to_resume(Spool& spool, const StreamResult& result) {

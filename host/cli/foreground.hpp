@@ -33,8 +33,6 @@ StatusLook look_for(const Job& job);
 
 /// Shows when and after how long a print was completed, and what had been foretold.
 void show_done(const ForegroundResult& result, const DisplayOptions& display);
-/// A line about the filament that each feeder was commanded; `diameter`, mm.
-std::string used_filament(const RunTotals& totals, double diameter);
 
 /// Shows how to resume a print that has not been completed, and problems of its journal.
 void show_how_to_resume(Spool& spool, const StreamResult& result);

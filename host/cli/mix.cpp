@@ -11,6 +11,7 @@
 #include "host/cli/terminal_output.hpp"
 #include "host/engine/sliced_production.hpp"
 #include "host/files/whole_file.hpp"
+#include "host/report/filament_use.hpp"
 #include "host/report/open_books.hpp"
 
 namespace unicursal::host {
@@ -105,8 +106,7 @@ Exit Mix::run() {
   books->write_report({{"ended", "completed"}});
   show_late_warnings(production->late_warnings());
   show(stdout, "{}{}written:   {}\n", job_.quiet ? "" : books->summary(std::nullopt),
-       job_.quiet ? "" : used_filament(books->totals(), production->job().profile.printer.filament_diameter),
-       output_.string());
+       job_.quiet ? "" : used_filament(books->totals(), production->job().profile), output_.string());
   return Exit::success;
 }
 

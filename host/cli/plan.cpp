@@ -8,6 +8,7 @@
 #include "host/cli/progress_line.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/files/whole_file.hpp"
+#include "host/report/filament_use.hpp"
 #include "host/report/planned_books.hpp"
 #include "host/report/print_report.hpp"
 
@@ -59,7 +60,8 @@ Exit Plan::run() {
   const Planning planning{lookahead.effort(), lookahead.threads()};
   books.write_report({{"ended", "completed"}, {"planning", planning_json(planning)}});
   show_late_warnings(maker.late_warnings());
-  show(stdout, "{}written:   {}\n", job_.quiet ? "" : books.summary(planning), output_.string());
+  show(stdout, "{}{}written:   {}\n", job_.quiet ? "" : books.summary(planning),
+       job_.quiet ? "" : used_filament(books.totals(), prepared.job.profile), output_.string());
   return Exit::success;
 }
 

@@ -7,6 +7,7 @@
 #include "host/cli/foreground.hpp"
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
+#include "host/report/filament_use.hpp"
 #include "host/report/open_books.hpp"
 #include "host/report/print_report.hpp"
 
@@ -59,10 +60,9 @@ Exit PrintCommand::run() {
   show_how_to_resume(print.spool(), result);
   show_late_warnings(print.production().late_warnings());
   if (result.ending == Ending::completed) {
-    const double diameter = print.job().profile.printer.filament_diameter;
     if (!display_.quiet)
       show(message_stream(display_), "{}{}", books->summary(print.production().planning()),
-           used_filament(books->totals(), diameter));
+           used_filament(books->totals(), print.job().profile));
     show_done(shown, display_);
   }
   return show_ending(result, display_);

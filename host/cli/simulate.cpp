@@ -33,6 +33,7 @@ void follow(const Profile& profile, sim::SimulatorOptions& options) {
   if (!options.tanks) options.tanks = printer.tanks;
   if (profile.clearance) options.clearance = {profile.clearance->radius, profile.clearance->height};
   options.feeders = printer.feeders;
+  for (const Filament& filament : profile.filaments.of_feeders) options.filaments.push_back(filament.colour);
 }
 
 class Simulate final : public Command {

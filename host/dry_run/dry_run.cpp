@@ -147,7 +147,8 @@ DryRunResult dry_run(Production& production, const DryRunOptions& options, const
   const Job& job = production.job();
   const std::unique_ptr<Books> books = open_books(production, "dry-run", outputs_of(options));
   // Declared before the simulator: it waits for the end of the stream, which comes when the simulator ends.
-  DepositCheck check(books->intended_materials(), options.outputs.pictures);
+  DepositCheck check(books->intended_materials(), options.outputs.pictures,
+                     books->job().profile.filaments.colours());
   SimulatorProcess simulator(simulator_arguments(options, job), is_virtual(options)
                                                                     ? SimulatorProcess::Time::lockstep
                                                                     : SimulatorProcess::Time::own);

@@ -94,9 +94,9 @@ ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, c
   ModelJob job;
   job.contents = core::inspect_model(files, usual_paint_depth(usual_bead_width(profile.printer)));
   std::string of_what = "the feeders";
-  if (!profile.filaments.empty()) {
+  if (profile.filaments.named) {
     std::vector<std::string> names;
-    for (const std::string& name : profile.filaments) names.push_back(toml_text(name));
+    for (const Filament& filament : profile.filaments.of_feeders) names.push_back(toml_text(filament.name));
     of_what = fmt::format("{}", fmt::join(names, ", "));
   }
   std::string zones, mixtures = fmt::format("\n[mixture]           # shares of {}\n", of_what);
@@ -122,14 +122,14 @@ ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, c
           "}}{}\n",
           from, to, drawn.along.x(), drawn.along.y(), drawn.begin, drawn.end,
           drawn.has_more ? "  # without the colours between them" : "");
-      add_mixture(from, mixture_near(drawn.from, feeders));
-      add_mixture(to, mixture_near(drawn.to, feeders));
+      add_mixture(from, mixture_near(drawn.from, profile.filaments));
+      add_mixture(to, mixture_near(drawn.to, profile.filaments));
       continue;
     }
     const std::string key = key_for(offer.select, keys);
     zones += fmt::format("mixture = \"{}\"\n", key);
-    add_mixture(
-        key, offer.colour.empty() ? one_feeder(uncoloured++, feeders) : mixture_near(offer.colour, feeders));
+    add_mixture(key, offer.colour.empty() ? one_feeder(uncoloured++, feeders)
+                                          : mixture_near(offer.colour, profile.filaments));
   }
   job.text = head(files, profile, folder, job.contents) + zones + mixtures;
   return job;

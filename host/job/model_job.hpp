@@ -17,9 +17,8 @@ struct ModelJob {
 
 /// `folder`: where the job is to lie; files are named relative to it if they are below it. The layers are
 /// half as high as the nozzle is wide, at most 0.3 mm; beads are 1.25 nozzles wide. Each colour gets the
-/// mixture that comes nearest to it if the feeders hold the filaments that pictures show
-/// (core/picture/filaments.hpp); bodies without colours get one feeder each, in turn. Throws core::FileError
-/// or core::ModelError if the model cannot be read.
+/// mixture of the profile's filaments that comes nearest to it; bodies without colours get one feeder each,
+/// in turn. Throws core::FileError or core::ModelError if the model cannot be read.
 ModelJob model_job(const std::vector<std::filesystem::path>& files, const Profile& profile,
                    const std::filesystem::path& folder);
 

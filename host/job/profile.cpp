@@ -108,7 +108,7 @@ std::string read_script(const Section& section, const char* key) {
   return text;
 }
 
-/// The firmware has been read before.
+/// The firmware has been read before; as many feeders as there are filaments are usual.
 void read_feeders(const Section& section, gcode::Printer& printer) {
   const std::size_t most = gcode::dialect_named(printer.firmware).limits().feeders;
   const std::string remedy = fmt::format("write how many feeders meet in the nozzle, {} to {} with {}",
@@ -116,6 +116,8 @@ void read_feeders(const Section& section, gcode::Printer& printer) {
   const double feeders =
       section.number_or("feeders", static_cast<double>(printer.feeders),
                         between(gcode::least_feeders, static_cast<double>(most), ""), remedy);
+  if (!section.has("feeders") && (printer.feeders < gcode::least_feeders || printer.feeders > most))
+    section.fail("feeders", fmt::format("would be {}, the number of [[filament]]", printer.feeders), remedy);
   if (feeders != std::floor(feeders)) section.fail("feeders", "is not a whole number", remedy);
   printer.feeders = static_cast<std::size_t>(feeders);
 }
@@ -162,25 +164,6 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
   read_extruder_motion(section, printer.motion);
 }
 
-std::vector<std::string> read_filaments(const Section& section, std::size_t feeders) {
-  const toml::node* node = section.find("filaments");
-  if (!node) return {};
-  const char* const remedy = "write one name for each feeder, for example [\"red\", \"white\", \"blue\"]";
-  const toml::array* list = node->as_array();
-  if (!list) section.fail("filaments", "is not a list", remedy);
-  std::vector<std::string> names;
-  for (const toml::node& item : *list) {
-    const std::optional<std::string> name = item.value<std::string>();
-    if (!name) section.fail("filaments", "holds something that is not a text", remedy);
-    names.push_back(*name);
-  }
-  if (names.size() != feeders) {
-    section.fail("filaments", fmt::format("has {} names, but there are {} feeders", names.size(), feeders),
-                 remedy);
-  }
-  return names;
-}
-
 void read_temperature(const Section& section, gcode::Printer& printer) {
   printer.nozzle_temperature = section.number_or("nozzle", printer.nozzle_temperature,
                                                  between(150, 450, "°C"), "write for example nozzle = 210");
@@ -216,8 +199,9 @@ Profile read_profile(const SettingsFile& file, const std::filesystem::path& path
                             "a profile describes the machine below [printer]; is this file a profile?"),
                profile);
   const Section extruder = root.section_or_empty("extruder", keys::extruder);
+  profile.printer.feeders = filament_count(root).value_or(profile.printer.feeders);
   read_extruder(extruder, profile.printer);
-  profile.filaments = read_filaments(extruder, profile.printer.feeders);
+  profile.filaments = read_filaments(root, extruder, profile.printer);
   read_temperature(root.section_or_empty("temperature", keys::temperature), profile.printer);
   read_transition(root.section_or_empty("transition", keys::transition), profile.printer);
   const Section gcode = root.section_or_empty("gcode", keys::gcode);

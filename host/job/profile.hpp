@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "firmware_gcode/print/printer.hpp"
+#include "host/job/filament.hpp"
 
 namespace unicursal::host {
 
@@ -23,9 +23,9 @@ struct Profile {
   std::string port = "auto";  ///< "auto": the only serial port there is
   unsigned baud = 250000;
   std::optional<HeadClearance> clearance;  ///< absent: not measured
-  std::vector<std::string> filaments;      ///< their names, one for each feeder; empty: unknown
-  unsigned receive_buffer = 128;           ///< bytes, of the firmware
-  bool display = true;                     ///< the printer's own display shows how far a print is
+  Filaments filaments = usual_filaments(gcode::Printer());
+  unsigned receive_buffer = 128;  ///< bytes, of the firmware
+  bool display = true;            ///< the printer's own display shows how far a print is
 };
 
 /// Throws core::FileError or JobError.

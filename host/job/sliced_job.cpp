@@ -52,10 +52,10 @@ std::string named(int tool) {
 }
 
 /// The mixture that a tool gets without a person's choice.
-gcode::Shares usual_mixture(const gcode::SlicedTool& tool, std::size_t feeders) {
+gcode::Shares usual_mixture(const gcode::SlicedTool& tool, const Profile& profile) {
   if (tool.mixture) return tool.mixture->shares();
-  if (!tool.colour.empty()) return mixture_near(tool.colour, feeders);
-  return one_feeder(static_cast<std::size_t>(std::max(tool.number, 0)), feeders);
+  if (!tool.colour.empty()) return mixture_near(tool.colour, profile.filaments);
+  return one_feeder(static_cast<std::size_t>(std::max(tool.number, 0)), profile.printer.feeders);
 }
 
 std::string head(const std::filesystem::path& file, const std::string& profile,
@@ -113,7 +113,7 @@ void choose_mixtures(Job& job, const gcode::SlicedSurvey& survey) {
   std::vector<gcode::Material>& materials = job.print.materials;
   for (const gcode::SlicedTool& tool : survey.tools) {
     if (job.sliced->tools.contains(tool.number)) continue;
-    const gcode::Mixture mixture(usual_mixture(tool, job.profile.printer.feeders));
+    const gcode::Mixture mixture(usual_mixture(tool, job.profile));
     auto same = std::find_if(materials.begin(), materials.end(),
                              [&](const gcode::Material& material) { return material.mixture == mixture; });
     if (same == materials.end())
@@ -136,8 +136,7 @@ std::string sliced_job(const std::filesystem::path& file, const gcode::SlicedSur
   for (const gcode::SlicedTool& tool : survey.tools) {
     text += fmt::format("\n[[zone]]\nselect = \"T{0}\"  # {1:.4g} mm³{2}\nmixture = \"tool{0}\"\n",
                         tool.number, tool.volume, tool.colour.empty() ? "" : ", " + tool.colour);
-    mixtures += fmt::format("tool{} = {}\n", tool.number,
-                            shares_in_toml(usual_mixture(tool, profile.printer.feeders)));
+    mixtures += fmt::format("tool{} = {}\n", tool.number, shares_in_toml(usual_mixture(tool, profile)));
   }
   return text + mixtures;
 }

@@ -5,8 +5,6 @@
 
 #include <vector>
 
-#include "core/picture/filaments.hpp"
-
 namespace unicursal::host {
 namespace {
 
@@ -40,12 +38,13 @@ std::string name_in_job(const fs::path& file, fs::path folder) {
   return (below ? relative : fs::absolute(file).lexically_normal()).string();
 }
 
-Shares mixture_near(const std::string& colour, std::size_t feeders) {
+Shares mixture_near(const std::string& colour, const Filaments& filaments) {
   const unsigned long rgb = std::stoul(colour.substr(1), nullptr, 16);
-  Shares best, shares = Shares::zeros(feeders);
+  Shares best, shares = Shares::zeros(filaments.of_feeders.size());
+  const picture::Filaments colours = filaments.colours();
   double least = 1e300;
   for_each_mixture(0, most_mixed, share_steps, shares, [&](const Shares& tried) {
-    const picture::Colour made = picture::mixed_filaments(tried);
+    const picture::Colour made = picture::colour_of(tried, colours);
     const double r = made.r - double(rgb >> 16), g = made.g - double(rgb >> 8 & 255),
                  b = made.b - double(rgb & 255);
     const double distance = r * r + g * g + b * b;

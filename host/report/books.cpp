@@ -1,5 +1,6 @@
 #include "host/report/books.hpp"
 
+#include "host/report/filament_use.hpp"
 #include "host/report/peak_memory.hpp"
 #include "host/report/summary.hpp"
 
@@ -54,6 +55,7 @@ void Books::count(const gcode::Chunk& chunk) {
   totals_.materials.at(chunk.prime_material).prime += chunk.prime_volume;
   for (const std::string& line : chunk.lines) totals_.lines += gcode::is_command(line) ? 1 : 0;
   for (const auto& [mixture, volume] : chunk.mixture_volumes) gcode::add(totals_.fed, mixture, volume);
+  for (const auto& [mixture, volume] : chunk.aside_mixtures) gcode::add(totals_.aside, mixture, volume);
   for (const gcode::LayerMixing& mixing : chunk.mixing) totals_.mixing += mixing;
   if (log_) count_layers(chunk);
 }
@@ -93,6 +95,7 @@ void Books::write_report(const nlohmann::json& extra) {
       {"mixtures", to_json(totals_.materials)},
       {"mixing", to_json(totals_.mixing)},
       {"feeder_volumes_mm3", feeder_volumes(fed())},
+      {"filament", used_filament_json(totals_, job_.profile)},
       {"extruded_mm3", totals_.volume},
       {"estimated_print_seconds", totals_.print_seconds},
       {"lines", totals_.lines},

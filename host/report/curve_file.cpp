@@ -5,16 +5,13 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "core/picture/hex_colour.hpp"
 #include "host/files/whole_file.hpp"
 
 namespace unicursal::host {
 namespace {
 
 using Text = std::back_insert_iterator<std::string>;
-
-std::string hex(const picture::Colour& colour) {
-  return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
-}
 
 /// Transforms from the part's frame to a drawing whose viewBox begins at 0 0.
 struct SvgFrame {
@@ -51,7 +48,7 @@ void append_curve(Text out, const SvgFrame& frame, const core::BeadPath& path, c
     fmt::format_to(out,
                    "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3f}\" stroke-linejoin=\"round\" "
                    "d=\"M{:.4f} {:.4f}",
-                   hex(style.zone_colours.at(zone)), style.bead_width * 0.55, p.x(), p.y());
+                   picture::hex_of(style.zone_colours.at(zone)), style.bead_width * 0.55, p.x(), p.y());
     for (; i < path.size() && path.beads[i].zone == zone; ++i) {
       p = frame(path.end(i));
       fmt::format_to(out, " L{:.4f} {:.4f}", p.x(), p.y());

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/picture/filaments.hpp"
-
 namespace unicursal::host {
 namespace {
 
@@ -16,10 +14,6 @@ constexpr picture::Colour inside{238, 238, 234};
 constexpr picture::Colour border{120, 120, 120};
 
 }  // namespace
-
-picture::Colour colour_of(const gcode::Mixture& mixture) {
-  return picture::mixed_filaments(mixture.shares());
-}
 
 void draw_path(Canvas& canvas, const core::BeadPath& path, const CurveStyle& style) {
   const double thickness = std::max(1.0, line_share * style.bead_width * canvas.scale());

@@ -10,9 +10,6 @@
 
 namespace unicursal::host {
 
-/// The colour of a mixture on a screen, with filaments in blue, red and white as in the simulator.
-picture::Colour colour_of(const gcode::Mixture& mixture);
-
 /// What a picture needs to know besides the layer.
 struct CurveStyle {
   core::Box extent;                           ///< shown, mm in the part's frame

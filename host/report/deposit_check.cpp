@@ -34,8 +34,8 @@ double laid_at_all(const sim::RasterFrame& frame, const RowSource& rows) {
 }  // namespace
 
 DepositCheck::DepositCheck(std::vector<IntendedMaterial> materials,
-                           std::optional<std::filesystem::path> pictures)
-    : materials_(std::move(materials)), pictures_(std::move(pictures)) {
+                           std::optional<std::filesystem::path> pictures, const picture::Filaments& filaments)
+    : materials_(std::move(materials)), pictures_(std::move(pictures)), filaments_(filaments) {
   if (pictures_) remove_old_pictures(*pictures_);
 }
 
@@ -73,7 +73,7 @@ void DepositCheck::take(const sim::RasterFrame& frame, sim::RasterReader& reader
     total_.outside += laid_at_all(frame, rows);
     return;
   }
-  JudgedLayer layer = judge(*target, frame, rows, materials_, pictures_.has_value());
+  JudgedLayer layer = judge(*target, frame, rows, materials_, pictures_.has_value(), filaments_);
   if (pictures_) write_pictures(target->index, layer);
   layers_[target->index] += layer.findings;
   total_ += layer.findings;

@@ -2,7 +2,7 @@
 // from the other, as a stream. Memory holds the layers that have been planned and not yet laid, and one
 // raster.
 //
-//   DepositCheck check(materials, pictures);
+//   DepositCheck check(materials, pictures, filaments);
 //   check.watch(descriptor);        // reads in a thread of its own
 //   check.expect(target);           // before the layer's first line is sent
 //   check.finish();                 // when the simulator has ended
@@ -25,7 +25,8 @@ class DepositCheck {
  public:
   /// `materials`: as the printer is to mix them. `pictures`: an existing folder for gaps-NNNN.png and
   /// mixtures-NNNN.png; older ones in it are removed.
-  DepositCheck(std::vector<IntendedMaterial> materials, std::optional<std::filesystem::path> pictures);
+  DepositCheck(std::vector<IntendedMaterial> materials, std::optional<std::filesystem::path> pictures,
+               const picture::Filaments& filaments);
   /// Waits for the end of the stream.
   ~DepositCheck();
   DepositCheck(const DepositCheck&) = delete;
@@ -52,6 +53,7 @@ class DepositCheck {
 
   std::vector<IntendedMaterial> materials_;
   std::optional<std::filesystem::path> pictures_;
+  picture::Filaments filaments_;
   std::mutex mutex_;  ///< guards expected_
   std::vector<TargetLayer> expected_;
   std::map<std::size_t, DepositFindings> layers_;

@@ -232,7 +232,8 @@ Shares IntendedMaterial::at(const core::Vec2& place, double z) const {
 }
 
 JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, const RowSource& rows,
-                  const std::vector<IntendedMaterial>& materials, bool draw) {
+                  const std::vector<IntendedMaterial>& materials, bool draw,
+                  const picture::Filaments& filaments) {
   const PixelGrid grid = grid_around(target, frame);
   Outside outside(target, frame);
   const std::vector<sim::RasterPixel> pixels = read(frame, rows, grid, outside);
@@ -240,7 +241,7 @@ JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, cons
   JudgedLayer result;
   result.findings = judge.findings(pixels, outside);
   if (draw) {
-    const DepositView view{grid, judge.labels(), pixels, judge.wrong()};
+    const DepositView view{grid, judge.labels(), pixels, judge.wrong(), filaments};
     result.gaps = draw_gaps(view);
     result.mixtures = draw_mixtures(view);
   }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/picture/filaments.hpp"
 #include "core/picture/image.hpp"
 #include "firmware_gcode/mixing/palette.hpp"
 #include "host/report/deposit_findings.hpp"
@@ -57,6 +58,7 @@ struct JudgedLayer {
 /// more is misplaced; any other place is wrong if its mixture is nearer to another material of the layer.
 /// Reads every row.
 JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, const RowSource& rows,
-                  const std::vector<IntendedMaterial>& materials, bool draw);
+                  const std::vector<IntendedMaterial>& materials, bool draw,
+                  const picture::Filaments& filaments = {});
 
 }  // namespace unicursal::host

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <functional>
 
-#include "core/picture/filaments.hpp"
-
 namespace unicursal::host {
 namespace {
 
@@ -63,7 +61,7 @@ bool at_border(const DepositView& view, std::size_t i) {
 Colour arrived(const DepositView& view, std::size_t i) {
   std::array<double, sim::RasterPixel::feeders> shares{};
   for (std::size_t f = 0; f < shares.size(); ++f) shares[f] = view.pixels[i].share(f);
-  return mix(paper, picture::mixed_filaments(shares), view.pixels[i].fill);
+  return mix(paper, picture::colour_of(shares, view.filaments), view.pixels[i].fill);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/picture/filaments.hpp"
 #include "core/picture/image.hpp"
 #include "host/report/scan.hpp"
 #include "sim/bed/raster.hpp"
@@ -17,6 +18,7 @@ struct DepositView {
   const std::vector<RegionLabel>& labels;  ///< by material
   const std::vector<sim::RasterPixel>& pixels;
   const std::vector<bool>& wrong;
+  const picture::Filaments& filaments;
 };
 
 picture::Image draw_gaps(const DepositView& view);

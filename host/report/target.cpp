@@ -67,8 +67,10 @@ std::vector<IntendedMaterial> intended_materials(const PreparedJob& prepared, co
 CurveStyle curve_style(const PreparedJob& prepared) {
   CurveStyle style;
   style.extent = prepared.part->extent();
+  const picture::Filaments filaments = prepared.job.profile.filaments.colours();
   for (const core::Zone& zone : prepared.part->zones()) {
-    style.zone_colours.push_back(colour_of(prepared.job.print.materials.at(zone.material).mixture));
+    const gcode::Mixture& mixture = prepared.job.print.materials.at(zone.material).mixture;
+    style.zone_colours.push_back(picture::colour_of(mixture.shares(), filaments));
   }
   style.bead_width = prepared.job.bead_width;
   return style;

@@ -21,8 +21,9 @@ struct RunTotals {
   std::size_t hurried_layers = 0;  ///< planned with less effort, so that the nozzle did not have to wait
   double least_effort = 1;         ///< the smallest fraction of the full effort
   std::vector<MaterialVolume> materials;
-  std::vector<gcode::MixtureVolume> fed;  ///< by mixture, as the feeders were commanded
-  gcode::LayerMixing mixing;              ///< forecast of the schedule for all layers together
+  std::vector<gcode::MixtureVolume> fed;    ///< by mixture, as the feeders were commanded
+  std::vector<gcode::MixtureVolume> aside;  ///< of them, beside the part (Chunk::aside_mixtures)
+  gcode::LayerMixing mixing;                ///< forecast of the schedule for all layers together
 };
 
 }  // namespace unicursal::host

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <system_error>
 
-#include "core/picture/filaments.hpp"
-
 namespace unicursal::sim {
 
 namespace {
@@ -24,7 +22,8 @@ double StoredBead::length() const {
   return std::hypot(x1 - x0, y1 - y0);
 }
 
-BeadStore::BeadStore(const std::filesystem::path& folder) : path_(folder / ".deposit.beads") {
+BeadStore::BeadStore(const std::filesystem::path& folder, const picture::Filaments& filaments)
+    : path_(folder / ".deposit.beads"), filaments_(filaments) {
   file_.reset(std::fopen(path_.c_str(), "w+b"));
   if (!file_) fail(path_);
 }
@@ -43,8 +42,9 @@ void BeadStore::bead(std::size_t layer, const DepositedLayer& about, const Bead&
   widest_ = std::max(widest_, drawn);
   note_place(layer, bead);
   const auto narrow = [](double mm) { return static_cast<float>(mm); };
-  const StoredBead stored{narrow(bead.from.x), narrow(bead.from.y), narrow(bead.to.x),
-                          narrow(bead.to.y),   narrow(drawn),       picture::mixed_filaments(bead.shares)};
+  const StoredBead stored{narrow(bead.from.x), narrow(bead.from.y),
+                          narrow(bead.to.x),   narrow(bead.to.y),
+                          narrow(drawn),       picture::colour_of(bead.shares, filaments_)};
   if (std::fwrite(&stored, sizeof stored, 1, file_.get()) != 1) fail(path_);
 }
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/picture/filaments.hpp"
 #include "core/picture/image.hpp"
 #include "sim/bed/deposit.hpp"
 
@@ -30,7 +31,7 @@ struct StoredLayer {
 class BeadStore : public BeadSink {
  public:
   /// Throws std::system_error if the file cannot be made; bead() does if the disk is full.
-  explicit BeadStore(const std::filesystem::path& folder);
+  explicit BeadStore(const std::filesystem::path& folder, const picture::Filaments& filaments = {});
   ~BeadStore() override;
   BeadStore(const BeadStore&) = delete;
   BeadStore& operator=(const BeadStore&) = delete;
@@ -53,6 +54,7 @@ class BeadStore : public BeadSink {
   };
 
   std::filesystem::path path_;
+  picture::Filaments filaments_;
   std::unique_ptr<std::FILE, Close> file_;
   std::vector<StoredLayer> layers_;
   Extents first_, rest_;  ///< Extents of the first strand, and of everything after it.

@@ -59,7 +59,9 @@ TEST_CASE("setup asks a printer and a person, and its profile is the default fro
   CHECK(profile.printer.bead_width_range[0] == Approx(0.36));
   CHECK(profile.printer.max_speed == std::array{150.0, 150.0, 3.0});
   CHECK(profile.printer.feeders == 2);
-  CHECK(profile.filaments == std::vector<std::string>{"red \"PLA\"", "filament 2"});
+  REQUIRE(profile.filaments.of_feeders.size() == 2);
+  CHECK(profile.filaments.of_feeders[0].name == "red \"PLA\"");
+  CHECK(profile.filaments.of_feeders[1].name == "filament 2");
 
   folder.write("plate.svg", test::sample_drawing);
   Terminal inspect({"inspect", path("plate.svg")}, folder.path().string());

@@ -103,7 +103,7 @@ TEST_CASE("a print says when and after how long it was done, what had been foret
   CHECK(terminal.wait() == 0);
   const std::string done = terminal.screen().last_row("done at ");
   CHECK_THAT(done, Contains(", after ") && Contains(" had been foretold"));
-  CHECK_THAT(terminal.screen().last_row("filament: "), Contains(" m from feeder 1, "));
+  CHECK_THAT(terminal.screen().last_row("filament: "), Contains(" feeder 1: ") && Contains(" m, "));
   CHECK_THAT(terminal.screen().last_row("material: "), Contains("sea"));
 }
 

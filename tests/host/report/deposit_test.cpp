@@ -254,7 +254,7 @@ TEST_CASE("Layers are judged as they come out of the stream, each against its ow
   }
   folder.write("gaps-0007.png", "of a longer print");
   folder.write("gaps-notes.txt", "of the user");
-  DepositCheck check(red_and_blue, folder / "");
+  DepositCheck check(red_and_blue, folder / "", {});
   CHECK_FALSE(std::filesystem::exists(folder / "gaps-0007.png"));
   CHECK(std::filesystem::exists(folder / "gaps-notes.txt"));
   for (const std::size_t index : {0u, 1u, 2u, 3u}) {
@@ -289,7 +289,7 @@ TEST_CASE("An interrupted stream is reported, and the layers before are kept") {
     writer.layer(Laid(next, perfect));
   }
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1000);
-  DepositCheck check(red_and_blue, std::nullopt);
+  DepositCheck check(red_and_blue, std::nullopt, {});
   TargetLayer second = two_zones();
   second.index = 4;
   second.top = 1.0;

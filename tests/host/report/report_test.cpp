@@ -217,13 +217,4 @@ TEST_CASE("Durations are written as people say them") {
   CHECK(duration_words(7500) == "2 h 05 min");
 }
 
-TEST_CASE("Mixtures look like their filaments") {
-  const picture::Colour blue = colour_of(Mixture({1, 0, 0})), red = colour_of(Mixture({0, 1, 0}));
-  CHECK(blue.b > blue.r);
-  CHECK(red.r > red.b);
-  const picture::Colour both = colour_of(Mixture({1, 1, 0}));
-  CHECK(both.r > blue.r);
-  CHECK(both.b > red.b);
-}
-
 }  // namespace unicursal::host

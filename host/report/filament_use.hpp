@@ -1,0 +1,40 @@
+// How much filament of each feeder a print takes: metres, grams and money, what lies beside the part apart.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/job/profile.hpp"
+#include "host/report/totals.hpp"
+
+namespace unicursal::host {
+
+struct FilamentAmount {
+  double metres = 0;           ///< m
+  double grams = 0;            ///< g
+  std::optional<double> cost;  ///< in Filaments::currency; absent: the price is not known
+};
+
+/// Of one feeder, or of all together.
+struct FilamentUse {
+  FilamentAmount all;
+  FilamentAmount aside;  ///< of `all`: beside the part, as prime line and skirt
+};
+
+struct FilamentUses {
+  std::vector<FilamentUse> of_feeders;
+  FilamentUse total;  ///< without a cost unless the prices of all filaments that were fed are known
+};
+
+/// What the feeders were commanded for these totals.
+FilamentUses filament_uses(const RunTotals& totals, const Profile& profile);
+
+/// The same for a report.
+nlohmann::json used_filament_json(const RunTotals& totals, const Profile& profile);
+
+/// A line for each filament that was fed, and one for all; empty if none was.
+std::string used_filament(const RunTotals& totals, const Profile& profile);
+
+}  // namespace unicursal::host

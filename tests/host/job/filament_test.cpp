@@ -1,0 +1,130 @@
+#include "host/job/filament.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/picture/hex_colour.hpp"
+#include "host/job/profile.hpp"
+#include "host/job/written_job.hpp"
+#include "tests/host/support/sample_job.hpp"
+
+namespace unicursal::host {
+namespace {
+
+const std::string blue = R"(
+[[filament]]
+name = "sea blue"
+colour = "#2050C0"
+material = "PETG"
+diameter = 1.71
+price = 29.5
+currency = "CHF"
+see_through = 3.5
+)";
+const std::string yellow = "\n[[filament]]\ncolour = \"#f0be28\"\nmaterial = \"PLA silk\"\nprice = 20\n";
+const std::string wood = "\n[[filament]]\nmaterial = \"wood\"\ndensity = 1.15\n";
+
+/// The sample profile without its number of feeders.
+std::string without_number() {
+  std::string text = test::sample_profile;
+  text.erase(text.find("feeders = 3\n"), 12);
+  return text;
+}
+
+Profile profile_with(const std::string& filaments) {
+  return profile_in(without_number() + filaments, "bench.toml");
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    profile_in(text, "bench.toml");
+  } catch (const core::DataError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("A profile names the filaments of its feeders, and their number is that of the feeders") {
+  const Profile profile = profile_with(blue + yellow + wood + wood);
+  CHECK(profile.printer.feeders == 4);
+  const auto& filaments = profile.filaments.of_feeders;
+  REQUIRE(filaments.size() == 4);
+  CHECK(profile.filaments.currency == "CHF");
+  CHECK(filaments[0].name == "sea blue");
+  CHECK(picture::hex_of(filaments[0].colour) == "#2050c0");
+  CHECK(filaments[0].density == 1.27);
+  CHECK(filaments[0].price == 29.5);
+  CHECK(filaments[0].see_through == 3.5);
+  CHECK(filaments[1].name == "feeder 2");
+  CHECK(filaments[1].density == 1.24);  // silk is PLA
+  CHECK(filaments[1].diameter == 1.75);
+  CHECK(filaments[2].density == 1.15);
+  CHECK_FALSE(filaments[2].price);
+}
+
+TEST_CASE("A thinner filament is fed farther, in proportion to its section") {
+  const Profile profile = profile_with(blue + yellow);
+  CHECK(profile.printer.flow_factors[0] == Approx(std::pow(1.75 / 1.71, 2)));
+  CHECK(profile.printer.flow_factors[1] == 1);
+}
+
+TEST_CASE("A profile without filaments has the usual colours, and may name them in a list") {
+  const Profile plain = profile_with("");
+  CHECK(plain.printer.feeders == 3);
+  CHECK_FALSE(plain.filaments.named);
+  CHECK(plain.filaments.of_feeders.at(1).name == "feeder 2");
+  CHECK(plain.filaments.of_feeders.at(1).colour == picture::usual_filaments[1]);
+  std::string text = test::sample_profile;
+  text.insert(text.find("max_flow"), "filaments = [\"a\", \"b\", \"c\"]\n");
+  const Profile named = profile_in(text, "bench.toml");
+  CHECK(named.filaments.named);
+  CHECK(named.filaments.of_feeders.at(2).name == "c");
+}
+
+TEST_CASE("A mistake in a filament is reported with file, line, key and remedy") {
+  struct Case {
+    std::string filaments;
+    std::vector<std::string> parts;
+  };
+  const std::string sound = "\n[[filament]]\nname = \"x\"\n";
+  for (const Case& one : std::vector<Case>{
+           {sound, {"extruder.feeders", "would be 1", "2 to 8"}},
+           {blue + sound + "colour = \"blue\"\n", {"line 23", "filament[1].colour", "#2660c4"}},
+           {blue + sound + "color = \"#000000\"\n", {"filament[1].color", "did you mean \"colour\"?"}},
+           {blue + sound + "material = \"wood\"\n", {"filament[1].density", "\"wood\"", "density = 1.24"}},
+           {blue + sound + "density = 0\n", {"filament[1].density", "0.1 to 20"}},
+           {blue + sound + "price = -1\n", {"filament[1].price", "-1"}},
+           {blue + sound + "diameter = 2.85\n", {"filament[1].diameter", "2.85 mm", "1.75 mm"}},
+           {blue + sound + "currency = \"EUR\"\n",
+            {"filament[1].currency", "\"EUR\"", "\"CHF\"", "one currency"}},
+           {blue + sound + "currency = \"\"\n", {"filament[1].currency", "1 to 8"}},
+           {blue + sound + "see_through = 0\n", {"filament[1].see_through", "mm"}},
+           {"\n[filament]\nname = \"x\"\n", {"filament", "list of filaments", "[[filament]]"}}}) {
+    const std::string sentence = complaint(without_number() + one.filaments);
+    INFO(sentence);
+    CHECK(sentence.find("bench.toml") != std::string::npos);
+    for (const std::string& part : one.parts) {
+      INFO(part);
+      CHECK(sentence.find(part) != std::string::npos);
+    }
+  }
+  const std::string two = complaint(test::sample_profile + blue + sound);
+  INFO(two);
+  CHECK(two.find("2 times, but extruder.feeders is 3") != std::string::npos);
+}
+
+TEST_CASE("The mixture for a colour is that of the filaments that the feeders hold") {
+  const Profile profile = profile_with(yellow + "\n[[filament]]\ncolour = \"#ffffff\"\n" + blue);
+  const gcode::Shares yellow_alone = mixture_near("#f0be28", profile.filaments);
+  CHECK(yellow_alone == gcode::Shares{1, 0, 0});
+  const gcode::Shares green = mixture_near("#5a8a5a", profile.filaments);
+  CHECK(green[0] > 0.2);
+  CHECK(green[2] > 0.2);
+  CHECK(green[1] < 0.3);
+}
+
+}  // namespace unicursal::host
