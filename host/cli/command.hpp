@@ -42,6 +42,7 @@ std::unique_ptr<Command> make_doctor();
 std::unique_ptr<Command> make_tune();
 std::unique_ptr<Command> make_print();
 std::unique_ptr<Command> make_resume();
+std::unique_ptr<Command> make_history();
 
 std::unique_ptr<Command> make_serve();
 std::unique_ptr<Command> make_queue();

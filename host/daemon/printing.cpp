@@ -19,6 +19,7 @@
 #include "host/engine/session_json.hpp"
 #include "host/job/load_job.hpp"
 #include "host/loop/sentence.hpp"
+#include "host/report/history.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -195,8 +196,10 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
   if (current_->print) {
     last_ = current_->print->session() || !current_->last_status.is_null() ? job_and_print() : json();
     current_->print->end();
-    asio::post(ending_,
-               [gone = std::shared_ptr<Print>(std::move(current_->print))]() mutable { gone.reset(); });
+    asio::post(ending_, [gone = std::shared_ptr<Print>(std::move(current_->print))]() mutable {
+      if (gone->has_spool()) note_in_history(gone->spool(), gone->job().profile);
+      gone.reset();
+    });
   }
   current_.reset();
   notify_service("STATUS=idle");

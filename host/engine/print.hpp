@@ -65,6 +65,8 @@ class Print {
   const Production& production() const { return *production_; }
   Production& production() { return *production_; }
   const Job& job() const { return production_->job(); }
+  /// Whether connect() has come so far; a print that continues has one from the beginning.
+  bool has_spool() const { return spool_.has_value(); }
   Spool& spool() { return *spool_; }
   /// The name that `unicursal resume` takes.
   std::string kept_as() const { return spool_->folder().filename().string(); }

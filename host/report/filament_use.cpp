@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::size_t widest_name = 24;  ///< characters on a terminal
 
-FilamentAmount amount(double volume, const Filament& filament) {
-  const double area = std::numbers::pi / 4 * filament.diameter * filament.diameter;
-  FilamentAmount amount;
-  amount.metres = volume / area / 1000;
-  amount.grams = volume * filament.density / 1000;
-  if (filament.price) amount.cost = *filament.price * amount.grams / 1000;
-  return amount;
-}
-
 /// mm³
 gcode::PerFeeder by_feeder(const std::vector<gcode::MixtureVolume>& volumes, std::size_t feeders) {
   gcode::PerFeeder sum = gcode::PerFeeder::zeros(feeders);
@@ -30,13 +21,6 @@ gcode::PerFeeder by_feeder(const std::vector<gcode::MixtureVolume>& volumes, std
     for (std::size_t f = 0; f < feeders; ++f) sum[f] += one.volume * one.mixture.share(f);
   }
   return sum;
-}
-
-void add(FilamentAmount& sum, const FilamentAmount& more) {
-  sum.metres += more.metres;
-  sum.grams += more.grams;
-  if (more.grams > 0 && !more.cost) sum.cost.reset();
-  if (sum.cost) *sum.cost += more.cost.value_or(0);
 }
 
 nlohmann::json amount_json(const FilamentAmount& amount) {
@@ -60,6 +44,22 @@ std::string words_of(const FilamentUse& use, const std::string& currency) {
 
 }  // namespace
 
+FilamentAmount amount_of(double volume, const Filament& filament) {
+  const double area = std::numbers::pi / 4 * filament.diameter * filament.diameter;
+  FilamentAmount amount;
+  amount.metres = volume / area / 1000;
+  amount.grams = volume * filament.density / 1000;
+  if (filament.price) amount.cost = *filament.price * amount.grams / 1000;
+  return amount;
+}
+
+void add(FilamentAmount& sum, const FilamentAmount& more) {
+  sum.metres += more.metres;
+  sum.grams += more.grams;
+  if (more.grams > 0 && !more.cost) sum.cost.reset();
+  if (sum.cost) *sum.cost += more.cost.value_or(0);
+}
+
 FilamentUses filament_uses(const RunTotals& totals, const Profile& profile) {
   const std::vector<Filament>& filaments = profile.filaments.of_feeders;
   const gcode::PerFeeder all = by_feeder(totals.fed, filaments.size());
@@ -67,7 +67,7 @@ FilamentUses filament_uses(const RunTotals& totals, const Profile& profile) {
   FilamentUses uses;
   uses.total.all.cost = uses.total.aside.cost = 0.0;
   for (std::size_t f = 0; f < filaments.size(); ++f) {
-    uses.of_feeders.push_back({amount(all[f], filaments[f]), amount(aside[f], filaments[f])});
+    uses.of_feeders.push_back({amount_of(all[f], filaments[f]), amount_of(aside[f], filaments[f])});
     add(uses.total.all, uses.of_feeders.back().all);
     add(uses.total.aside, uses.of_feeders.back().aside);
   }

@@ -17,6 +17,11 @@ struct FilamentAmount {
   std::optional<double> cost;  ///< in Filaments::currency; absent: the price is not known
 };
 
+/// mm³ of a filament.
+FilamentAmount amount_of(double volume, const Filament& filament);
+/// A sum has a cost as long as all its parts have one.
+void add(FilamentAmount& sum, const FilamentAmount& more);
+
 /// Of one feeder, or of all together.
 struct FilamentUse {
   FilamentAmount all;

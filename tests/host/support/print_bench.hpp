@@ -62,7 +62,10 @@ class PrintBench {
     return false;
   }
   std::filesystem::path print_folder() const {
-    return std::filesystem::directory_iterator(path("spool"))->path();
+    for (const auto& entry : std::filesystem::directory_iterator(path("spool"))) {
+      if (entry.is_directory()) return entry.path();
+    }
+    throw std::logic_error("no print was kept");
   }
 
   const Child& printer() const { return *printer_; }
