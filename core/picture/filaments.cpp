@@ -6,28 +6,14 @@
 #include <cstdint>
 
 namespace unicursal::picture {
-
 namespace {
 
-constexpr double darkest = 0.002;  // reflectance: no filament is perfectly black
+constexpr double darkest = 0.0015;         // no filament is perfectly black
+constexpr double darkest_strength = 0.01;  // luminance below which a filament colours no more strongly
+constexpr double strength_exponent = 0.22, loss = 0.12;
 
-double to_light(std::uint8_t value) {
-  const double v = value / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
-std::uint8_t from_light(double light) {
-  const double v = std::clamp(light, 0.0, 1.0);
-  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * encoded));
-}
-
-double absorption(std::uint8_t value) {
-  return -std::log(std::max(darkest, to_light(value)));
-}
-
-std::uint8_t reflected(double absorbed) {
-  return from_light(std::exp(-absorbed));
+double luminance(const Light& light) {
+  return 0.2126729 * light[0] + 0.7151522 * light[1] + 0.0721750 * light[2];
 }
 
 }  // namespace
@@ -35,24 +21,45 @@ std::uint8_t reflected(double absorbed) {
 Filaments::Filaments(std::span<const Colour> pure) {
   std::vector<Colour> colours(pure.begin(), pure.end());
   for (std::size_t f = colours.size(); f < usual_filaments.size(); ++f) colours.push_back(usual_filaments[f]);
-  for (const Colour& colour : colours)
-    absorbed_.push_back({absorption(colour.r), absorption(colour.g), absorption(colour.b)});
+  std::vector<Light> lights;
+  for (const Colour& colour : colours) lights.push_back(light_of(colour));
+  *this = Filaments(std::span<const Light>(lights));
+}
+
+Filaments::Filaments(std::span<const Light> lights) {
+  for (const Light& light : lights) {
+    Filament filament;
+    for (std::size_t channel = 0; channel < light.size(); ++channel)
+      filament.logarithms[channel] = std::log(std::max(darkest, light[channel]));
+    filament.strength = std::pow(std::max(darkest_strength, luminance(light)), -strength_exponent);
+    of_.push_back(filament);
+  }
+}
+
+Light mixed_light(std::span<const double> shares, const Filaments& filaments) {
+  assert(shares.size() <= filaments.size());
+  Light sum{};
+  double weights = 0, squares = 0;
+  for (std::size_t f = 0; f < shares.size(); ++f) {
+    if (shares[f] <= 0) continue;
+    const double weight = shares[f] * filaments.strength(f);
+    weights += weight;
+    squares += shares[f] * shares[f];
+    for (std::size_t channel = 0; channel < sum.size(); ++channel)
+      sum[channel] += weight * filaments.logarithms(f)[channel];
+  }
+  for (double& channel : sum) channel = std::exp(channel / weights - loss * (1 - squares));
+  return sum;
 }
 
 Colour colour_of(std::span<const double> shares, const Filaments& filaments) {
-  assert(shares.size() <= filaments.size());
-  std::array<double, 3> absorbed{};
-  for (std::size_t f = 0; f < shares.size(); ++f) {
-    if (shares[f] <= 0) continue;
-    for (std::size_t channel = 0; channel < absorbed.size(); ++channel)
-      absorbed[channel] += shares[f] * filaments.absorbed(f)[channel];
-  }
-  return {reflected(absorbed[0]), reflected(absorbed[1]), reflected(absorbed[2])};
+  return colour_of(mixed_light(shares, filaments));
 }
 
 Colour lit(Colour colour, double light) {
-  const auto changed = [light](std::uint8_t value) { return from_light(light * to_light(value)); };
-  return {changed(colour.r), changed(colour.g), changed(colour.b)};
+  Light linear = light_of(colour);
+  for (double& channel : linear) channel *= light;
+  return colour_of(linear);
 }
 
 }  // namespace unicursal::picture

@@ -35,6 +35,7 @@ void FedFilament::feed(double e) {
 
 void FedFilament::run(std::string_view line) {
   const SlicedCommand command = parse_command(split_comment(line).command);
+  if (command.damaged && !command.is('M', 567)) return;  // M567 has lists, which are not words
   const auto tool = [](double number) { return number >= 0 && number <= most_tools; };
   if (command.letter == 'T' && tools_.contains(command.code)) choose(tools_.at(command.code));
   if (command.letter == 'G' && command.code <= 3 && command.valued('E')) feed(command.value('E'));

@@ -22,7 +22,7 @@ namespace {
 
 /// All commands, in the order of the help.
 constexpr std::unique_ptr<Command> (*makers[])() = {
-    make_inspect, make_new,                                                    // a model
+    make_inspect, make_new,        make_colours,                               // a model
     make_dry_run, make_plan,       make_mix,      make_curve,  make_simulate,  // without a printer
     make_setup,   make_ports,      make_doctor,   make_tune,   make_print,
     make_resume,  make_history,                                             // with a printer

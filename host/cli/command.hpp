@@ -34,6 +34,7 @@ std::unique_ptr<Command> make_curve();
 std::unique_ptr<Command> make_simulate();
 
 std::unique_ptr<Command> make_inspect();
+std::unique_ptr<Command> make_colours();
 std::unique_ptr<Command> make_new();
 
 std::unique_ptr<Command> make_setup();

@@ -121,6 +121,7 @@ const std::map<std::string, Values>& placeholders() {
       {"TICK", free_value},
       {"PERCENT", free_value},
       {"CELSIUS", free_value},
+      {"COLOUR", free_value},
       {"URL", free_value},
       {"TEXT", free_value},
       {"ADDRESS", free_value},

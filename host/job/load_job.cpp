@@ -314,7 +314,7 @@ Job read_job(const SettingsFile& file, const std::filesystem::path& path,
   job.print.change_before_border =
       part.number_or("change_before_border", 0.5, between(0.05, 0.95, ""),
                      "write the share of a change that may fall before its border");
-  ZonesAndMaterials zones = read_zones(root, job.profile.printer.feeders);
+  ZonesAndMaterials zones = read_zones(root, job.profile, job.warnings);
   job.source.zones = std::move(zones.zones);
   job.print.materials = std::move(zones.materials);
   read_more_parts(parts, job);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "host/job/colour_mixture.hpp"
 #include "host/job/profile_draft.hpp"
 #include "host/job/written_job.hpp"
 
@@ -122,14 +123,14 @@ ModelJob model_job(const std::vector<fs::path>& files, const Profile& profile, c
           "}}{}\n",
           from, to, drawn.along.x(), drawn.along.y(), drawn.begin, drawn.end,
           drawn.has_more ? "  # without the colours between them" : "");
-      add_mixture(from, mixture_near(drawn.from, profile.filaments));
-      add_mixture(to, mixture_near(drawn.to, profile.filaments));
+      add_mixture(from, shares_near(drawn.from, profile));
+      add_mixture(to, shares_near(drawn.to, profile));
       continue;
     }
     const std::string key = key_for(offer.select, keys);
     zones += fmt::format("mixture = \"{}\"\n", key);
-    add_mixture(key, offer.colour.empty() ? one_feeder(uncoloured++, feeders)
-                                          : mixture_near(offer.colour, profile.filaments));
+    add_mixture(
+        key, offer.colour.empty() ? one_feeder(uncoloured++, feeders) : shares_near(offer.colour, profile));
   }
   job.text = head(files, profile, folder, job.contents) + zones + mixtures;
   return job;

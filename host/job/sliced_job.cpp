@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "host/job/colour_mixture.hpp"
 #include "host/job/keys.hpp"
 #include "host/job/profile_draft.hpp"
 #include "host/job/written_job.hpp"
@@ -54,7 +55,7 @@ std::string named(int tool) {
 /// The mixture that a tool gets without a person's choice.
 gcode::Shares usual_mixture(const gcode::SlicedTool& tool, const Profile& profile) {
   if (tool.mixture) return tool.mixture->shares();
-  if (!tool.colour.empty()) return mixture_near(tool.colour, profile.filaments);
+  if (!tool.colour.empty()) return shares_near(tool.colour, profile);
   return one_feeder(static_cast<std::size_t>(std::max(tool.number, 0)), profile.printer.feeders);
 }
 
@@ -95,7 +96,7 @@ void read_sliced(const Section& root, const Section& part, Job& job) {
       if (std::count(tools.begin(), tools.end(), tools.back()) > 1)
         zone.fail("select", "names " + named(tools.back()) + " a second time", "keep one of the zones");
     }
-    ZonesAndMaterials read = read_zones(root, job.profile.printer.feeders);
+    ZonesAndMaterials read = read_zones(root, job.profile, job.warnings);
     for (std::size_t i = 0; i < tools.size(); ++i) choices.tools[tools[i]] = read.zones.at(i).material;
     job.print.materials = std::move(read.materials);
   }

@@ -6,16 +6,11 @@
 #include <string>
 
 #include "firmware_gcode/print/mixture.hpp"
-#include "host/job/filament.hpp"
 
 namespace unicursal::host {
 
 /// A file as a job in `folder` names it: relative if it lies below the folder, else absolute.
 std::string name_in_job(const std::filesystem::path& file, std::filesystem::path folder);
-
-/// Shares of the filaments that come nearest to a colour, "#rrggbb", in steps of 1/20, at most four of them
-/// at a time.
-gcode::Shares mixture_near(const std::string& colour, const Filaments& filaments);
 
 /// Feeder number `which` alone, counted from 0 and from the beginning again behind the last.
 gcode::Shares one_feeder(std::size_t which, std::size_t feeders);

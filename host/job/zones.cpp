@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/picture/hex_colour.hpp"
+#include "host/job/colour_mixture.hpp"
 #include "host/job/job.hpp"
 #include "host/job/keys.hpp"
 #include "host/job/nearest.hpp"
@@ -37,12 +39,28 @@ gcode::Mixture read_mixture(const Section& section, std::string_view name, std::
   }
 }
 
-Palette read_palette(const Section& root, std::size_t feeders) {
+/// The mixture that comes nearest to a colour.
+gcode::Mixture mixture_of_colour(const Section& section, std::string_view name, const Profile& profile,
+                                 std::vector<std::string>& notes) {
+  const char* const remedy =
+      "write six hexadecimal digits, such as \"#e0604a\", or one share for each feeder";
+  const auto wanted = picture::colour_in(section.text(name, remedy));
+  if (!wanted) section.fail(name, "is neither a list of numbers nor a colour", remedy);
+  const ColourMixture found = mixture_near(*wanted, profile);
+  notes.push_back(fmt::format("mixture \"{}\": {}", name, in_words(found, *wanted)));
+  return gcode::Mixture(found.shares);
+}
+
+Palette read_palette(const Section& root, const Profile& profile, std::vector<std::string>& notes) {
   const Section section =
       root.section("mixture", {}, "write [mixture] and below it for example white = [0.34, 0.33, 0.33]");
   Palette palette;
   for (auto&& [key, node] : section.table()) {
-    palette.push_back({std::string(key.str()), read_mixture(section, key.str(), feeders), {}, false});
+    palette.push_back({std::string(key.str()),
+                       node.is_string() ? mixture_of_colour(section, key.str(), profile, notes)
+                                        : read_mixture(section, key.str(), profile.printer.feeders),
+                       {},
+                       false});
   }
   return palette;
 }
@@ -181,7 +199,7 @@ core::Zone read_zone(const Section& section, const Palette& palette, std::vector
 
 }  // namespace
 
-ZonesAndMaterials read_zones(const Section& root, std::size_t feeders) {
+ZonesAndMaterials read_zones(const Section& root, const Profile& profile, std::vector<std::string>& notes) {
   const char* const remedy = "write [[zone]] and below it select, pattern and mixture";
   const toml::node* node = root.find("zone");
   if (!node) root.fail("zone", "is missing", remedy);
@@ -189,7 +207,7 @@ ZonesAndMaterials read_zones(const Section& root, std::size_t feeders) {
   if (!list || list->empty() || !list->is_homogeneous<toml::table>()) {
     root.fail("zone", "is not a list of zones", remedy);
   }
-  const Palette palette = read_palette(root, feeders);
+  const Palette palette = read_palette(root, profile, notes);
   ZonesAndMaterials result;
   for (const toml::node& item : *list) {
     const Section section(root.file(), *item.as_table(), fmt::format("zone[{}]", result.zones.size()),

@@ -6,6 +6,7 @@
 
 #include "core/model/part.hpp"
 #include "firmware_gcode/print/print_settings.hpp"
+#include "host/job/profile.hpp"
 #include "host/job/settings_file.hpp"
 
 namespace unicursal::host {
@@ -15,9 +16,10 @@ struct ZonesAndMaterials {
   std::vector<gcode::Material> materials;
 };
 
-/// Reads [[zone]] and [mixture] of a job's root. `feeders`: number of shares of a mixture. A gradient without
+/// Reads [[zone]] and [mixture] of a job's root, for the feeders and filaments of the profile. `notes` gets a
+/// sentence for each mixture that is given by its colour. A gradient without
 /// `over` begins and ends at 0; prepare() (host/engine/prepared_job.hpp) then computes its ends. Throws
 /// JobError.
-ZonesAndMaterials read_zones(const Section& root, std::size_t feeders);
+ZonesAndMaterials read_zones(const Section& root, const Profile& profile, std::vector<std::string>& notes);
 
 }  // namespace unicursal::host

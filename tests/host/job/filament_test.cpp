@@ -1,14 +1,18 @@
 #include "host/job/filament.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 
 #include "core/error.hpp"
 #include "core/picture/hex_colour.hpp"
+#include "host/job/colour_mixture.hpp"
+#include "host/job/load_job.hpp"
 #include "host/job/profile.hpp"
 #include "host/job/written_job.hpp"
 #include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -119,12 +123,42 @@ TEST_CASE("A mistake in a filament is reported with file, line, key and remedy")
 
 TEST_CASE("The mixture for a colour is that of the filaments that the feeders hold") {
   const Profile profile = profile_with(yellow + "\n[[filament]]\ncolour = \"#ffffff\"\n" + blue);
-  const gcode::Shares yellow_alone = mixture_near("#f0be28", profile.filaments);
+  const gcode::Shares yellow_alone = shares_near("#f0be28", profile);
   CHECK(yellow_alone == gcode::Shares{1, 0, 0});
-  const gcode::Shares green = mixture_near("#5a8a5a", profile.filaments);
+  const gcode::Shares green = shares_near("#5a8a5a", profile);
   CHECK(green[0] > 0.2);
   CHECK(green[2] > 0.2);
   CHECK(green[1] < 0.3);
 }
 
 }  // namespace unicursal::host
+
+TEST_CASE("a mixture is asked for by its colour, and a note says how near it comes") {
+  const test::TempFolder folder;
+  folder.write("bench.toml", test::sample_profile + std::string("\n[[filament]]\ncolour = \"#f0be28\"\n"
+                                                                "\n[[filament]]\ncolour = \"#2660c4\"\n"
+                                                                "\n[[filament]]\ncolour = \"#f6f0e2\"\n"));
+  folder.write("plate.svg", test::sample_drawing);
+  const auto job_with = [&](const std::string& mixture) {
+    folder.write("job.toml", test::replaced(test::sample_job, "sea = [0.6, 0.0, 0.2]", "sea = " + mixture));
+    return load_job(folder / "job.toml");
+  };
+  const auto mixture_named = [](const Job& job, const std::string& name) {
+    const auto& all = job.print.materials;
+    return std::find_if(all.begin(), all.end(), [&](const gcode::Material& one) { return one.name == name; })
+        ->mixture;
+  };
+  const Job green = job_with("\"#3c8c50\"");
+  const gcode::Mixture made = mixture_named(green, "sea");
+  CHECK(made.share(0) > 0.2);  // yellow and blue
+  CHECK(made.share(1) > 0.2);
+  for (std::size_t f = 0; f < 3; ++f) CHECK(made.share(f) >= green.profile.printer.floor_share - 1e-9);
+  CHECK(made.with_floor(green.profile.printer.floor_share) == made);
+  REQUIRE(green.warnings.size() == 1);
+  CHECK_THAT(green.warnings[0],
+             Catch::Contains("mixture \"sea\": ") && Catch::Contains("#3c8c50") && Catch::Contains("ΔE"));
+  // Red cannot be made of these.
+  CHECK_THAT(job_with("\"#ff0000\"").warnings.at(0),
+             Catch::Contains("these filaments cannot make #ff0000; the nearest that they make is #"));
+  CHECK_THROWS_WITH(job_with("\"green\""), Catch::Contains("is neither a list of numbers nor a colour; write six hexadecimal digits"));
+}
