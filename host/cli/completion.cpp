@@ -24,10 +24,9 @@ class CompletionCommand final : public Command {
   }
 
   Exit run() override {
-    show(stdout, "{}",
-         shell_ == "bash"  ? bash_completion
-         : shell_ == "zsh" ? zsh_completion
-                           : fish_completion);
+    show_as_it_is(stdout, shell_ == "bash"  ? bash_completion
+                          : shell_ == "zsh" ? zsh_completion
+                                            : fish_completion);
     return Exit::success;
   }
 

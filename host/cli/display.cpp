@@ -12,6 +12,7 @@
 
 #include "host/cli/columns.hpp"
 #include "host/cli/for_terminal.hpp"
+#include "host/cli/wrapped.hpp"
 #include "host/engine/session_json.hpp"
 
 namespace unicursal::host {
@@ -143,7 +144,9 @@ void Display::time_dry_run(double percent) {
 void Display::say(const std::string& sentence) {
   const bool shown = drawn_;
   clear();
-  messages_.write(for_terminal(sentence) + "\n");
+  std::string text = for_terminal(sentence);
+  if (isatty(STDERR_FILENO) == 1) text = wrapped(text, terminal_width(STDERR_FILENO));
+  messages_.write(text + "\n");
   if (shown && keyboard_ && keyboard_->held()) draw_again();
 }
 

@@ -76,7 +76,7 @@ class Serve final : public Command {
 
  private:
   void show_for_others(const std::string& address) const {
-    if (look_of(STDOUT_FILENO).rewrites) show(stdout, "{}", qr_code("http://" + address + "/"));
+    if (look_of(STDOUT_FILENO).rewrites) show_as_it_is(stdout, qr_code("http://" + address + "/"));
     show(stdout, "on another computer: unicursal status --daemon http://{} --token TOKEN\n", address);
   }
 
