@@ -28,7 +28,7 @@ constexpr int byte_patience = 30000;
 /// Number of printer events (a fraction of a second's work) between two checks that the host still waits.
 constexpr std::uint64_t steps_between_looks = 100'000;
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void refuse(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
@@ -55,7 +55,7 @@ void Lockstep::listen() {
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof address.sun_path) {
     errno = ENAMETOOLONG;
-    fail("cannot make the control socket " + path);
+    refuse("cannot make the control socket " + path);
   }
   std::memcpy(address.sun_path, path.data(), path.size());
   if (std::filesystem::is_socket(std::filesystem::symlink_status(path))) std::filesystem::remove(path);
@@ -63,7 +63,7 @@ void Lockstep::listen() {
   if (listener_.get() < 0 ||
       ::bind(listener_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::listen(listener_.get(), 1) != 0) {
-    fail("cannot make the control socket " + path);
+    refuse("cannot make the control socket " + path);
   }
 }
 

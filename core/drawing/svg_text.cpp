@@ -16,7 +16,7 @@ FontRequest request(const FontStyle& font) {
   return {font.families, font.weight, font.italic};
 }
 
-bool is_space(char c) {
+bool is_white_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
@@ -151,7 +151,7 @@ void SvgText::add_text(const char* text, std::size_t run) {
     Letter letter;
     letter.bytes = all.substr(at, size);
     at += size;
-    if (is_space(letter.bytes.front())) {
+    if (is_white_space(letter.bytes.front())) {
       letter.bytes = " ";
       if (after_space_ && !keep) continue;
     }

@@ -15,7 +15,7 @@ constexpr std::size_t most_replacements = 100000;  ///< an empty entity adds non
 
 using Entities = std::map<std::string, std::string, std::less<>>;
 
-bool is_space(char c) {
+bool is_xml_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
@@ -36,9 +36,9 @@ std::size_t end_of_declaration(std::string_view text, std::size_t from) {
 }
 
 std::string_view word(std::string_view text, std::size_t& at) {
-  while (at < text.size() && is_space(text[at])) ++at;
+  while (at < text.size() && is_xml_space(text[at])) ++at;
   const std::size_t from = at;
-  while (at < text.size() && !is_space(text[at]) && text[at] != '>') ++at;
+  while (at < text.size() && !is_xml_space(text[at]) && text[at] != '>') ++at;
   return text.substr(from, at - from);
 }
 
@@ -46,7 +46,7 @@ std::string_view word(std::string_view text, std::size_t& at) {
 void read_entity(std::string_view text, Entities& entities) {
   std::size_t at = 0;
   const std::string_view name = word(text, at);
-  while (at < text.size() && is_space(text[at])) ++at;
+  while (at < text.size() && is_xml_space(text[at])) ++at;
   if (name.empty() || name == "%" || at >= text.size() || (text[at] != '"' && text[at] != '\'')) return;
   const std::size_t end = text.find(text[at], at + 1);
   if (end == std::string_view::npos) return;

@@ -13,24 +13,25 @@
 namespace unicursal::core {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_2<CellIndex, Kernel>;
-using Face = CGAL::Triangulation_face_base_with_info_2<VoronoiVertexIndex, Kernel>;
-using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+using PlaneKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<CellIndex, PlaneKernel>;
+using Face = CGAL::Triangulation_face_base_with_info_2<VoronoiVertexIndex, PlaneKernel>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_2<PlaneKernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
 
 constexpr int far_sites = 16;
-constexpr double far_away = 5;  ///< box diagonals from the centre
+constexpr double far_radius = 5;  ///< box diagonals from the centre
 
 }  // namespace
 
 Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
-  std::vector<std::pair<Kernel::Point_2, CellIndex>> points;
+  std::vector<std::pair<PlaneKernel::Point_2, CellIndex>> points;
   points.reserve(sites.size() + far_sites);
   const auto add = [&](double x, double y) {
-    points.emplace_back(Kernel::Point_2(x, y), CellIndex(points.size()));
+    points.emplace_back(PlaneKernel::Point_2(x, y), CellIndex(points.size()));
   };
   for (const Vec2& site : sites) add(site.x(), site.y());
-  const double radius = far_away * (box.size().norm() + 1);
+  const double radius = far_radius * (box.size().norm() + 1);
   for (int k = 0; k < far_sites; ++k) {
     const double turn = 2 * std::numbers::pi * (k + 0.3) / far_sites;
     add(box.center().x() + radius * std::cos(turn), box.center().y() + radius * std::sin(turn));
@@ -42,7 +43,7 @@ Voronoi voronoi(const std::vector<Vec2>& sites, const Box& box) {
   Voronoi result;
   for (const auto face : triangulation.all_face_handles()) face->info() = {};
   for (const auto face : triangulation.finite_face_handles()) {
-    const Kernel::Point_2 c = triangulation.circumcenter(face);
+    const PlaneKernel::Point_2 c = triangulation.circumcenter(face);
     face->info() = result.vertices.push_back({Vec2(c.x(), c.y()), {}});
   }
   for (const auto face : triangulation.finite_face_handles()) {

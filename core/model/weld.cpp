@@ -12,8 +12,8 @@
 namespace unicursal::core {
 namespace {
 
-using Index = std::uint32_t;
-using Facet = std::array<Index, 3>;
+using VertexNumber = std::uint32_t;
+using Facet = std::array<VertexNumber, 3>;
 
 bool lexicographic(const Vec3& a, const Vec3& b) {
   return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
@@ -29,12 +29,12 @@ class WeldGrid {
   }
 
   /// Returns `v` itself if no earlier vertex is near; later calls can then find `v`.
-  Index find_or_add(Index v) {
+  VertexNumber find_or_add(VertexNumber v) {
     const Cell low = cell(vertices_[v].array() - distance_), high = cell(vertices_[v].array() + distance_);
     for (std::int64_t x = low[0]; x <= high[0]; ++x) {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-          if (const Index found = find_in({x, y, z}, v); found != none) return found;
+          if (const VertexNumber found = find_in({x, y, z}, v); found != none) return found;
         }
       }
     }
@@ -45,7 +45,7 @@ class WeldGrid {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
-  static constexpr Index none = std::numeric_limits<Index>::max();
+  static constexpr VertexNumber none = std::numeric_limits<VertexNumber>::max();
   static constexpr double cell_size = 16;  // in weld distances
 
   Cell cell(const Vec3& p) const {
@@ -59,10 +59,10 @@ class WeldGrid {
     return std::uint64_t(c[0]) * 0x9e3779b97f4a7c15u ^ std::uint64_t(c[1]) * 0xc2b2ae3d27d4eb4fu ^
            std::uint64_t(c[2]) * 0x165667b19e3779f9u;
   }
-  Index find_in(const Cell& cell, Index v) const {
+  VertexNumber find_in(const Cell& cell, VertexNumber v) const {
     const auto found = first_.find(key(cell));
     if (found == first_.end()) return none;
-    for (Index other = found->second; other != none; other = next_[other]) {
+    for (VertexNumber other = found->second; other != none; other = next_[other]) {
       if ((vertices_[other] - vertices_[v]).norm() <= distance_) return other;
     }
     return none;
@@ -70,8 +70,8 @@ class WeldGrid {
 
   const std::vector<Vec3>& vertices_;
   double distance_;
-  std::unordered_map<std::uint64_t, Index> first_;  ///< per cell: the vertex that came last
-  std::vector<Index> next_;                         ///< the one that came before it in the same cell
+  std::unordered_map<std::uint64_t, VertexNumber> first_;  ///< per cell: the vertex that came last
+  std::vector<VertexNumber> next_;                         ///< the one that came before it in the same cell
 };
 
 template <class Predicate>
@@ -101,18 +101,18 @@ ClosedMesh indexed(const std::vector<Triangle>& triangles) {
   std::vector<Vec3> corners;
   corners.reserve(3 * triangles.size());
   for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
-  std::vector<Index> order(corners.size());
-  std::iota(order.begin(), order.end(), Index{0});
+  std::vector<VertexNumber> order(corners.size());
+  std::iota(order.begin(), order.end(), VertexNumber{0});
   std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return lexicographic(corners[a], corners[b]); });
+            [&](VertexNumber a, VertexNumber b) { return lexicographic(corners[a], corners[b]); });
   mesh.facets.resize(triangles.size());
-  for (const Index corner : order) {
+  for (const VertexNumber corner : order) {
     if (mesh.vertices.empty() || mesh.vertices.back() != corners[corner])
       mesh.vertices.push_back(corners[corner]);
-    mesh.facets[corner / 3][corner % 3] = Index(mesh.vertices.size() - 1);
+    mesh.facets[corner / 3][corner % 3] = VertexNumber(mesh.vertices.size() - 1);
   }
   mesh.sources.resize(triangles.size());
-  std::iota(mesh.sources.begin(), mesh.sources.end(), Index{0});
+  std::iota(mesh.sources.begin(), mesh.sources.end(), VertexNumber{0});
   return mesh;
 }
 
@@ -125,14 +125,14 @@ double weld_distance(const ClosedMesh& mesh) {
 
 std::size_t weld(ClosedMesh& mesh, double distance) {
   WeldGrid grid(mesh.vertices, distance);
-  std::vector<Index> target(mesh.vertices.size());
+  std::vector<VertexNumber> target(mesh.vertices.size());
   std::size_t moved = 0;
-  for (Index v = 0; v < target.size(); ++v) {
+  for (VertexNumber v = 0; v < target.size(); ++v) {
     target[v] = grid.find_or_add(v);
     if (target[v] != v) ++moved;
   }
   for (Facet& facet : mesh.facets) {
-    for (Index& v : facet) v = target[v];
+    for (VertexNumber& v : facet) v = target[v];
   }
   return moved;
 }
@@ -145,7 +145,7 @@ std::size_t drop_collapsed(ClosedMesh& mesh) {
 }
 
 std::size_t drop_copies(ClosedMesh& mesh, const std::vector<MeshEdge>& borders) {
-  std::map<std::pair<Index, Index>, std::size_t> surplus;  // by the half-edge's ends
+  std::map<std::pair<VertexNumber, VertexNumber>, std::size_t> surplus;  // by the half-edge's ends
   for (const MeshEdge h : borders) ++surplus[{mesh.from(h), mesh.to(h)}];
   std::map<Facet, std::size_t> seen;
   std::vector<bool> unwanted(mesh.facets.size(), false);

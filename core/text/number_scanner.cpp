@@ -11,7 +11,7 @@
 namespace unicursal::core {
 namespace {
 
-bool is_space(char c) {
+bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
 }
 bool is_digit(char c) {
@@ -24,7 +24,7 @@ bool is_letter(char c) {
 }  // namespace
 
 void NumberScanner::skip_spaces() {
-  while (!at_end() && is_space(peek())) ++at_;
+  while (!at_end() && is_blank(peek())) ++at_;
 }
 
 void NumberScanner::skip_separator() {

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t node_size = 64, attribute_size = 40;
 constexpr std::size_t most_memory = std::size_t{1536} << 20;  ///< bytes of one document
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_xml_space(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
@@ -75,7 +75,7 @@ std::string name_in(std::string_view text) {
 }
 
 double xml_number(std::string_view text) {
-  std::string_view word = trimmed(text);
+  std::string_view word = without_xml_space(text);
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -87,7 +87,7 @@ double xml_number(std::string_view text) {
 }
 
 std::size_t xml_index(std::string_view text) {
-  const std::string_view word = trimmed(text);
+  const std::string_view word = without_xml_space(text);
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) {

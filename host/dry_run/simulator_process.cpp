@@ -117,7 +117,7 @@ void SimulatorProcess::read_port() {
     const int polled = poll(&ready, 1, start_deadline);
     if (polled < 0 && errno == EINTR) continue;
     std::array<char, 256> buffer{};
-    const ssize_t n = polled > 0 ? read(output_, buffer.data(), buffer.size()) : 0;
+    const ssize_t n = polled > 0 ? ::read(output_, buffer.data(), buffer.size()) : 0;
     if (n <= 0) throw SimulatorError("the simulator did not start");
     text.append(buffer.data(), static_cast<std::size_t>(n));
   }

@@ -12,7 +12,7 @@ using namespace unicursal::core::test;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 
 /// Unsigned difference of the directions of two doubled vectors, 0…π/2.
 double difference(const Vec2& a, const Vec2& b) {
@@ -39,7 +39,7 @@ TEST_CASE("in a disc, directions run around the centre") {
   each_inside(grid, disc, extended_tangents(grid, {disc}), [&](const Vec2& p, const Vec2& v) {
     if ((p - center).norm() < 1) return;  // the singular point and its few squares
     REQUIRE(v.norm() == Approx(1));
-    REQUIRE(difference(v, doubled(perpendicular(p - center))) < 5 * degree);
+    REQUIRE(difference(v, doubled(perpendicular(p - center))) < 5 * one_degree);
   });
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("in a ring, directions run around the hole") {
   Polygon annulus{circle({0, 0}, 10, 160), {circle({0, 0}, 3, 60, false)}};
   const Grid grid = grid_around(bounds(annulus), 0.2);
   each_inside(grid, annulus, extended_tangents(grid, {annulus}), [&](const Vec2& p, const Vec2& v) {
-    REQUIRE(difference(v, doubled(perpendicular(p))) < 5 * degree);
+    REQUIRE(difference(v, doubled(perpendicular(p))) < 5 * one_degree);
   });
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("in a slanted strip, directions follow the strip, except at its ends")
   const Grid grid = grid_around(bounds(strip), 0.2);
   each_inside(grid, strip, extended_tangents(grid, {strip}), [&](const Vec2& p, const Vec2& v) {
     if (p.dot(along) < 4 || p.dot(along) > 36) return;
-    REQUIRE(difference(v, doubled(angle)) < 1 * degree);
+    REQUIRE(difference(v, doubled(angle)) < 1 * one_degree);
   });
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("a border with teeth finer than the grid counts by its general directi
   const Grid grid = grid_around(bounds(comb), 0.25);
   each_inside(grid, comb, extended_tangents(grid, {comb}), [&](const Vec2& p, const Vec2& v) {
     // A square holds five flanks of 22°, three of one kind and two of the other.
-    if (p.x() > 6 && p.x() < 14) REQUIRE(difference(v, doubled(0.0)) < (p.y() < 0.5 ? 6 : 2) * degree);
+    if (p.x() > 6 && p.x() < 14) REQUIRE(difference(v, doubled(0.0)) < (p.y() < 0.5 ? 6 : 2) * one_degree);
   });
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("multigrid agrees with plain relaxation") {
   PlainRelaxation plain(grid, polygon);
   for (int k = 0; k < 3000; ++k) plain.sweep();
   for (const std::size_t k : plain.free) {
-    if (plain.v[k].norm() > 0.02) REQUIRE(difference(found[k], plain.v[k]) < 0.5 * degree);
+    if (plain.v[k].norm() > 0.02) REQUIRE(difference(found[k], plain.v[k]) < 0.5 * one_degree);
   }
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 
 /// A file that is removed at the end of its scope.
 class TextFile {
@@ -68,7 +68,7 @@ TEST_CASE("a file of directions is read with header, comments, spaces and either
   REQUIRE(samples.size() == 2);
   CHECK(samples[0].position == Vec2(1, 2.5));
   CHECK(samples[1].position == Vec2(-30, 4));
-  CHECK(direction(samples[0].v) == Approx(30 * degree));
+  CHECK(direction(samples[0].v) == Approx(30 * one_degree));
   CHECK((samples[0].v - samples[1].v).norm() < 1e-12);  // 210° is 30°
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("the third of four columns is z") {
   const auto samples = samples_in("1,2,0.3,45\n");
   REQUIRE(samples.size() == 1);
   CHECK(samples[0].z == 0.3);
-  CHECK(direction(samples[0].v) == Approx(45 * degree));
+  CHECK(direction(samples[0].v) == Approx(45 * one_degree));
 }
 
 TEST_CASE("a file that is not a list of directions is refused with the line and a remedy") {
@@ -135,8 +135,8 @@ TEST_CASE("a raster of directions is reproduced by the field") {
   Random random(42);
   for (int k = 0; k < 500; ++k) {
     const Vec2 p(random.uniform(0.5, 19.5), random.uniform(0.5, 9.5));
-    const double turn = direction(field.at(p)) - degree * angle(p.x(), p.y());
-    REQUIRE(std::abs(std::sin(turn)) < 3 * degree);
+    const double turn = direction(field.at(p)) - one_degree * angle(p.x(), p.y());
+    REQUIRE(std::abs(std::sin(turn)) < 3 * one_degree);
   }
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("the spacing of samples depends on where they are, not on their box") 
 TEST_CASE("no direction is asked for farther than two spacings from every sample") {
   const TextFile file(raster(5, 10, 0.5, [](double, double) { return 20.0; }));
   const DirectionField field = field_of(rectangle(20, 10), file.path());
-  CHECK(direction(field.at({4.6, 5})) == Approx(20 * degree));
+  CHECK(direction(field.at({4.6, 5})) == Approx(20 * one_degree));
   CHECK(field.at({5.4, 5}).norm() == Approx(1));
   CHECK(field.at({7.1, 5}).norm() == 0);
   CHECK(field.aligned_area() == Approx(57).margin(4));
@@ -167,7 +167,7 @@ TEST_CASE("a single sample, samples in one place and samples on a line do no har
                                     "0,1,30\n0.5,1,30\n1,1,30\n1.5,1,30\n2,1,30\n2.5,1,30\n");
   const TextFile file(text);
   const DirectionField field = field_of(rectangle(5, 5), file.path());
-  CHECK(direction(field.at({1, 1})) == Approx(30 * degree));
+  CHECK(direction(field.at({1, 1})) == Approx(30 * one_degree));
   CHECK(field.at({4.5, 4.5}).norm() == 0);
 }
 
@@ -189,11 +189,11 @@ TEST_CASE("samples in space count near the height of the cut") {
   const TextFile file(text);
   for (const double z : {1.0, 4.2, 8.6}) {
     const DirectionField field = field_of(rectangle(6, 6), file.path(), z);
-    CHECK(direction(field.at({3, 3})) == Approx(10 * z * degree).margin(2 * degree));
+    CHECK(direction(field.at({3, 3})) == Approx(10 * z * one_degree).margin(2 * one_degree));
   }
   CHECK(field_of(rectangle(6, 6), file.path(), 15).empty());
   const TextFile flat("1,1,7,25\n1.5,1,7,25\n");  // one z: applies at every height
-  CHECK(direction(field_of(rectangle(2, 2), flat.path(), 3).at({1, 1})) == Approx(25 * degree));
+  CHECK(direction(field_of(rectangle(2, 2), flat.path(), 3).at({1, 1})) == Approx(25 * one_degree));
 }
 
 TEST_CASE("a hundred thousand samples in one spot and a few far away are read in time") {
@@ -206,5 +206,5 @@ TEST_CASE("a hundred thousand samples in one spot and a few far away are read in
     text += std::to_string(random.uniform(0, 50)) + "," + std::to_string(random.uniform(0, 50)) + ",40\n";
   }
   const TextFile file(text);
-  CHECK(direction(field_of(rectangle(50, 50), file.path()).at({5, 5})) == Approx(40 * degree));
+  CHECK(direction(field_of(rectangle(50, 50), file.path()).at({5, 5})) == Approx(40 * one_degree));
 }

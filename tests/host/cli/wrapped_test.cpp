@@ -35,7 +35,7 @@ TEST_CASE("sentences of errors, notes and lists fit narrow windows") {
   const test::TempFolder folder;
   folder.write("bench.toml", test::sample_profile);
   folder.write("plate.svg", test::sample_drawing);
-  folder.write("job.toml", std::string(test::sample_job) + "\nlayer_hight = 0.2\n");
+  folder.write("job.toml", std::string(test::sample_job) + "\norange = 5\n");
   const auto check = [&](std::vector<std::string> words, const std::string& sentence) {
     test::Terminal terminal(std::move(words), "/nonexistent", {static_cast<unsigned short>(width)});
     terminal.wait();
@@ -45,7 +45,7 @@ TEST_CASE("sentences of errors, notes and lists fit narrow windows") {
     CHECK_THAT(text, Catch::Matchers::Contains(sentence));
   };
   const auto path = [&](const char* name) { return (folder / name).string(); };
-  check({"dry-run", path("job.toml")}, "\"layer_height\"");
+  check({"dry-run", path("job.toml")}, "write one share of 0 or more for each of the 3 feeders");
   check({"simulate", "--profile", path("bench.toml"), "--fault", "nonsense"}, "bitflip");
   check({"status", "--state", path("nowhere")},
         "no daemon runs with this state folder; start one with `unicursal serve`");
