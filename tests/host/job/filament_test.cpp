@@ -160,5 +160,7 @@ TEST_CASE("a mixture is asked for by its colour, and a note says how near it com
   // Red cannot be made of these.
   CHECK_THAT(job_with("\"#ff0000\"").warnings.at(0),
              Catch::Contains("these filaments cannot make #ff0000; the nearest that they make is #"));
-  CHECK_THROWS_WITH(job_with("\"green\""), Catch::Contains("is neither a list of numbers nor a colour; write six hexadecimal digits"));
+  CHECK_THROWS_WITH(
+      job_with("\"green\""),
+      Catch::Contains("is neither a list of numbers nor a colour; write six hexadecimal digits"));
 }
