@@ -16,7 +16,7 @@ using picture::Colour;
 
 constexpr Colour paper{255, 255, 255}, ink{60, 60, 60};
 constexpr double side = 220, border = 30;  ///< pixels
-constexpr std::size_t dot = 3, columns = 4;
+constexpr std::size_t dot = 3, triangles_across = 4;
 
 struct Corner {
   double x = 0, y = 0;
@@ -83,7 +83,8 @@ picture::Image gamut_picture(const picture::Filaments& filaments, std::size_t fe
       for (std::size_t c = b + 1; c < feeders; ++c) triples.push_back({a, b, c});
     }
   }
-  const std::size_t across = std::min(columns, triples.size()), down = (triples.size() + across - 1) / across;
+  const std::size_t across = std::min(triangles_across, triples.size()),
+                    down = (triples.size() + across - 1) / across;
   const double cell = side + 2 * border, height = side * std::sqrt(3.0) / 2 + 2 * border;
   picture::Image image(static_cast<std::size_t>(cell * double(across)),
                        static_cast<std::size_t>(std::ceil(height * double(down))), paper);

@@ -207,7 +207,8 @@ TEST_CASE("the newest print is the one that was begun last, whatever the clock s
   const fs::path first = print.bench.print_folder(), root = first.parent_path();
   REQUIRE(test::run(print.bench.print()).code == 1);
   for (const auto& entry : fs::directory_iterator(root)) {
-    if (entry.is_directory() && entry.path() != first) fs::rename(entry.path(), root / "1970-01-02-000000-job");
+    if (entry.is_directory() && entry.path() != first)
+      fs::rename(entry.path(), root / "1970-01-02-000000-job");
   }
   Words older = print.bench.resume();
   older.insert(older.end(), {first.filename().string(), "--yes"});
