@@ -88,9 +88,11 @@ picture::Image gamut_picture(const picture::Filaments& filaments, std::size_t fe
   const double cell = side + 2 * border, height = side * std::sqrt(3.0) / 2 + 2 * border;
   picture::Image image(static_cast<std::size_t>(cell * double(across)),
                        static_cast<std::size_t>(std::ceil(height * double(down))), paper);
-  for (std::size_t i = 0; i < triples.size(); ++i)
-    draw_triangle(image, cell * double(i % across) + border, height * double(i / across) + border, triples[i],
+  for (std::size_t i = 0; i < triples.size(); ++i) {
+    const std::size_t row = i / across, column = i % across;
+    draw_triangle(image, cell * double(column) + border, height * double(row) + border, triples[i],
                   filaments);
+  }
   return image;
 }
 
