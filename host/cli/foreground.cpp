@@ -139,7 +139,7 @@ void show_done(const ForegroundResult& result, const DisplayOptions& display) {
 void show_how_to_resume(Spool& spool, const StreamResult& result) {
   if (const auto problem = spool.journal().problem()) show(stderr, "warning: {}\n", *problem);
   if (result.ending == Ending::completed || !result.begun) return;
-  show(stderr, "to resume this print: unicursal resume {}\n", spool.folder().filename().string());
+  show(stderr, "to resume this print: `unicursal resume {}`\n", spool.folder().filename().string());
 }
 
 Exit show_ending(const StreamResult& result, const DisplayOptions& display) {

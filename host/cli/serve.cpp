@@ -77,7 +77,7 @@ class Serve final : public Command {
  private:
   void show_for_others(const std::string& address) const {
     if (look_of(STDOUT_FILENO).rewrites) show_as_it_is(stdout, qr_code("http://" + address + "/"));
-    show(stdout, "on another computer: unicursal status --daemon http://{} --token TOKEN\n", address);
+    show(stdout, "on another computer: `unicursal status --daemon http://{} --token TOKEN`\n", address);
   }
 
   static constexpr std::uint64_t most_megabytes = 1 << 24;
