@@ -38,18 +38,14 @@ class Colours final : public Command {
 
   Exit run() override {
     const Profile profile = load_profile(file_);
+    const std::vector<picture::Colour> wanted = colours_in(wanted_);
     const std::size_t feeders = profile.printer.feeders;
     for (std::size_t f = 0; f < feeders; ++f) {
       const Filament& filament = profile.filaments.of_feeders.at(f);
       show(stdout, "feeder {}: {} {}\n", f + 1, picture::hex_of(filament.colour), filament.name);
     }
-    for (const std::string& text : wanted_) {
-      const auto colour = picture::colour_in(text);
-      if (!colour)
-        throw core::DataError("", "COLOUR", "\"" + text.substr(0, 40) + "\" is not a colour",
-                              "write six hexadecimal digits, such as \"#e0604a\"");
-      show(stdout, "{}\n", in_words(mixture_near(*colour, profile), *colour));
-    }
+    for (const picture::Colour colour : wanted)
+      show(stdout, "{}\n", in_words(mixture_near(colour, profile), colour));
     if (wanted_.empty()) list(profile);
     if (picture_) {
       picture::write_png(*picture_, gamut_picture(profile.filaments.colours(), feeders));
@@ -59,6 +55,18 @@ class Colours final : public Command {
   }
 
  private:
+  static std::vector<picture::Colour> colours_in(const std::vector<std::string>& texts) {
+    std::vector<picture::Colour> colours;
+    for (const std::string& text : texts) {
+      const auto colour = picture::colour_in(text);
+      if (!colour)
+        throw core::DataError("", "COLOUR", "\"" + text.substr(0, 40) + "\" is not a colour",
+                              "write six hexadecimal digits, such as \"#e0604a\"");
+      colours.push_back(*colour);
+    }
+    return colours;
+  }
+
   static void list(const Profile& profile) {
     const std::size_t feeders = profile.printer.feeders;
     const picture::Filaments colours = profile.filaments.colours();

@@ -1,6 +1,7 @@
 // Whole runs of the program with a profile that describes its filaments.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -109,6 +110,28 @@ TEST_CASE("Green of yellow and blue filament is drawn green, as the optical mode
   CHECK(green.g > green.r);
   CHECK(green.g > green.b);
   CHECK(test::read_text(folder / "curve.svg").find(picture::hex_of(green)) != std::string::npos);
+}
+
+TEST_CASE("the colours of a printer's filaments are listed, drawn, and found for a wanted colour") {
+  const test::TempFolder folder;
+  folder.write("bench.toml", profile());
+  const std::string file = folder / "bench.toml", drawn = folder / "all.png";
+  const test::Outcome list = test::run({"colours", file, "--picture", drawn});
+  INFO(list.err);
+  REQUIRE(list.code == 0);
+  CHECK(list.out.find("feeder 1: #f0be28 spool 1\n") != std::string::npos);
+  // Three steps between each of three pairs, one even mixture of all three; each has a name.
+  CHECK(std::count(list.out.begin(), list.out.end(), '\n') == 3 + 9 + 1 + 1);
+  CHECK(list.out.find("green") != std::string::npos);
+  CHECK(test::read_text(drawn).starts_with("\x89PNG"));
+  const test::Outcome white = test::run({"colours", file, "#ffffff", "#ff00ff"});
+  REQUIRE(white.code == 0);
+  CHECK(white.out.find("#ffffff becomes #") != std::string::npos);
+  CHECK(white.out.find("these filaments cannot make #ff00ff") != std::string::npos);
+  const test::Outcome wrong = test::run({"colours", file, "#ffffff", "white"});
+  CHECK(wrong.code == 2);
+  CHECK(wrong.out.empty());
+  CHECK(wrong.err.find("\"white\" is not a colour; write six hexadecimal digits") != std::string::npos);
 }
 
 }  // namespace unicursal
