@@ -55,7 +55,7 @@ json report_of(const std::string& firmware, std::size_t feeders) {
 
 }  // namespace
 
-TEST_CASE("Two to eight feeders leave the same deposit, up to the shares' rounding") {
+TEST_CASE("Two to eight feeders leave the same deposit, up to the shares' rounding", "[optimised]") {
   struct Case {
     const char* firmware;
     std::size_t feeders;

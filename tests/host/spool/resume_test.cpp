@@ -332,7 +332,7 @@ TEST_CASE("if the disk is full, the print waits until there is room") {
   check_equal(bench.seen(), expected);
 }
 
-TEST_CASE("if the disk stays full, the nozzle does not stay on the part") {
+TEST_CASE("if the disk stays full, the nozzle does not stay on the part", "[optimised]") {
   const std::string tall = test::replaced(test::sample_job, "height = 0.4", "height = 2.0");
   const std::vector<std::string> whole = undisturbed(0, tall).seen.lines;
   Bench bench(0);

@@ -74,7 +74,8 @@ bool is_in_the_middle(const std::string& events) {
 
 }  // namespace
 
-TEST_CASE("A slicer's G-code whose host is killed is resumed with the next line, from its copy") {
+TEST_CASE("A slicer's G-code whose host is killed is resumed with the next line, from its copy",
+          "[optimised]") {
   const Seen whole = undisturbed();
   CHECK(std::count_if(whole.lines.begin(), whole.lines.end(), [](const std::string& line) {
           return line.starts_with("G1 ") || line.starts_with("G0 ");
@@ -142,7 +143,7 @@ TEST_CASE(
   CHECK(parked - seen.lines.rbegin() < 10);
 }
 
-TEST_CASE("A cable that is pulled while a slicer's G-code is printed costs nothing") {
+TEST_CASE("A cable that is pulled while a slicer's G-code is printed costs nothing", "[optimised]") {
   const Seen whole = undisturbed();
   SlicedBench bench(100, {"--fault", "disconnect:100@line=250"});
   const Outcome outcome = test::run(bench.print());
