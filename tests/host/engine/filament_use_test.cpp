@@ -122,7 +122,7 @@ TEST_CASE("the colours of a printer's filaments are listed, drawn, and found for
   CHECK(list.out.find("feeder 1: #f0be28 spool 1\n") != std::string::npos);
   // Three steps between each of three pairs, one even mixture of all three; each has a name.
   CHECK(std::count(list.out.begin(), list.out.end(), '\n') == 3 + 9 + 1 + 1);
-  CHECK(list.out.find("green") != std::string::npos);
+  CHECK(list.out.find("  olive\n") != std::string::npos);
   CHECK(test::read_text(drawn).starts_with("\x89PNG"));
   const test::Outcome white = test::run({"colours", file, "#ffffff", "#ff00ff"});
   REQUIRE(white.code == 0);
