@@ -1,15 +1,15 @@
 // The colour of a mixture of filaments. Pigments do not mix like light: dark ones dominate light ones, and a
 // mixture is darker than its parts. After the law of Beer and Lambert, for red, green and blue alike, the
 // logarithm of the linear light is the mean over the parts, weighted by their shares and by how strongly they
-// colour, luminance^-0.22. A mixture then loses e^-0.12 × (1 − Σ share²) of its light.
+// colour, luminance^-0.22. A mixture then keeps e^(−0.12 (1 − Σ share²)) of its light.
 //
 // The model and its two numbers were chosen by measurement: of 218 mixtures of two and three filaments that
 // Prusa Research has printed and measured (prusa-fdm-mixer, its fitting-set.jsonl and holdout-set.jsonl), the
 // median of ΔE2000 is 7.0; without the two numbers it is 8.2, with the law of Kubelka and Munk 10.1, with the
 // mean of linear light 14.3. `tests/bench/run --colours FILE...` repeats this. Departure: the mean of cube
-// roots (Yule and Nielsen, n = 3) comes to 6.1 there, but those prints alternate layers, which lie side by
-// side like the dots of a halftone; it would draw half yellow and half blue as grey, where plastic that is
-// mixed through is green.
+// roots (Yule and Nielsen, n = 3), with numbers fitted in the same way, comes to 6.1 there, but those prints
+// alternate layers, which lie side by side like the dots of a halftone; it would draw half yellow and half
+// blue as grey, where plastic that is mixed through is green.
 #pragma once
 
 #include <array>

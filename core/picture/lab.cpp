@@ -113,7 +113,7 @@ std::string in_words(double difference) {
   if (difference <= 1) return "the same to the eye";
   if (difference <= 3) return "very near";
   if (difference <= 6) return "near";
-  return difference <= 12 ? "similar" : "another";
+  return difference <= 12 ? "a similar colour" : "another colour";
 }
 
 }  // namespace unicursal::picture

@@ -27,7 +27,8 @@ Light light_of(const Lab& lab);
 
 /// 1 is about the least difference that a trained eye sees.
 double difference(const Lab& one, const Lab& other);
-/// What that means, after "the colour is": "the same to the eye", "very near", "near", "similar", "another".
+/// What that means, after "which is": "the same to the eye", "very near", "near", "a similar colour",
+/// "another colour".
 std::string in_words(double difference);
 
 }  // namespace unicursal::picture

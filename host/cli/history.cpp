@@ -19,12 +19,6 @@ std::string shown(const std::string& text) {
   return core::printable(text, widest_name);
 }
 
-std::string words_of(const FilamentAmount& amount, const std::string& currency) {
-  std::string text = fmt::format("{:.2f} m, {:.1f} g", amount.metres, amount.grams);
-  if (amount.cost) text += fmt::format(", {:.2f} {}", *amount.cost, shown(currency));
-  return text;
-}
-
 /// A filament of all prints, with its currency: spools of one name, plastic and colour are one.
 struct Spent {
   PastFilament filament;
@@ -52,12 +46,10 @@ std::vector<Spent> spent(const std::vector<PastPrint>& prints) {
 }
 
 nlohmann::json json_of(const PastFilament& filament) {
-  nlohmann::json json = {{"name", filament.name},
-                         {"material", filament.material},
-                         {"colour", filament.colour},
-                         {"metres", filament.amount.metres},
-                         {"grams", filament.amount.grams}};
-  if (filament.amount.cost) json["cost"] = *filament.amount.cost;
+  nlohmann::json json = to_json(filament.amount);
+  json["name"] = filament.name;
+  json["material"] = filament.material;
+  json["colour"] = filament.colour;
   return json;
 }
 
@@ -102,12 +94,12 @@ class History final : public Command {
     for (const PastPrint& print : prints) {
       show(stdout, "{}  {}\n", shown(print.name), shown(print.ended));
       for (const PastFilament& one : print.filaments)
-        show(stdout, "    {}: {}\n", shown(one.name), words_of(one.amount, print.currency));
+        show(stdout, "    {}: {}\n", shown(one.name), in_words(one.amount, print.currency));
     }
     if (!prints.empty()) show(stdout, "filaments:\n");
     for (const Spent& one : spent(prints))
       show(stdout, "    {} ({}, {}): {} in {} {}\n", shown(one.filament.name), shown(one.filament.material),
-           shown(one.filament.colour), words_of(one.filament.amount, one.currency), one.prints,
+           shown(one.filament.colour), in_words(one.filament.amount, one.currency), one.prints,
            one.prints == 1 ? "print" : "prints");
     return Exit::success;
   }

@@ -29,12 +29,11 @@ gcode::Shares shares_near(const std::string& colour, const Profile& profile) {
 std::string in_words(const ColourMixture& mixture, picture::Colour wanted) {
   const std::string shares = gcode::shares_text(gcode::Mixture(mixture.shares));
   const std::string made = picture::hex_of(mixture.made), asked = picture::hex_of(wanted);
-  if (mixture.difference > too_far)
-    return fmt::format(
-        "these filaments cannot make {}; the nearest that they make is {} with {}, which is {} colour (ΔE "
-        "{:.1f})",
-        asked, made, shares, mixture.difference > 12 ? "another" : "a similar", mixture.difference);
-  return fmt::format("{} becomes {} with {}, which is {} (ΔE {:.1f})", asked, made, shares,
+  const std::string found =
+      mixture.difference > too_far
+          ? fmt::format("these filaments cannot make {}; the nearest that they make is {}", asked, made)
+          : fmt::format("{} becomes {}", asked, made);
+  return fmt::format("{} with {}, which is {} (ΔE {:.1f})", found, shares,
                      picture::in_words(mixture.difference), mixture.difference);
 }
 

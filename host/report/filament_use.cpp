@@ -23,21 +23,14 @@ gcode::PerFeeder by_feeder(const std::vector<gcode::MixtureVolume>& volumes, std
   return sum;
 }
 
-nlohmann::json amount_json(const FilamentAmount& amount) {
-  nlohmann::json json = {{"metres", amount.metres}, {"grams", amount.grams}};
-  if (amount.cost) json["cost"] = *amount.cost;
-  return json;
-}
-
 nlohmann::json use_json(const FilamentUse& use) {
-  nlohmann::json json = amount_json(use.all);
-  json["beside_part"] = amount_json(use.aside);
+  nlohmann::json json = to_json(use.all);
+  json["beside_part"] = to_json(use.aside);
   return json;
 }
 
 std::string words_of(const FilamentUse& use, const std::string& currency) {
-  std::string text = fmt::format("{:.2f} m, {:.1f} g", use.all.metres, use.all.grams);
-  if (use.all.cost) text += fmt::format(", {:.2f} {}", *use.all.cost, core::printable(currency, 8));
+  std::string text = in_words(use.all, currency);
   if (use.aside.grams > 0) text += fmt::format(" ({:.1f} g of it beside the part)", use.aside.grams);
   return text;
 }
@@ -51,6 +44,20 @@ FilamentAmount amount_of(double volume, const Filament& filament) {
   amount.grams = volume * filament.density / 1000;
   if (filament.price) amount.cost = *filament.price * amount.grams / 1000;
   return amount;
+}
+
+std::string in_words(const FilamentAmount& amount, const std::string& currency) {
+  constexpr std::size_t widest_currency = 8;
+  std::string text = fmt::format("{:.2f} m, {:.1f} g", amount.metres, amount.grams);
+  if (amount.cost)
+    text += fmt::format(", {:.2f} {}", *amount.cost, core::printable(currency, widest_currency));
+  return text;
+}
+
+nlohmann::json to_json(const FilamentAmount& amount) {
+  nlohmann::json json = {{"metres", amount.metres}, {"grams", amount.grams}};
+  if (amount.cost) json["cost"] = *amount.cost;
+  return json;
 }
 
 void add(FilamentAmount& sum, const FilamentAmount& more) {

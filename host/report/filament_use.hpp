@@ -19,6 +19,10 @@ struct FilamentAmount {
 
 /// mm³ of a filament.
 FilamentAmount amount_of(double volume, const Filament& filament);
+/// "1.20 m, 3.6 g, 0.09 EUR"
+std::string in_words(const FilamentAmount& amount, const std::string& currency);
+/// `metres`, `grams`, and `cost` if it is known.
+nlohmann::json to_json(const FilamentAmount& amount);
 /// A sum has a cost as long as all its parts have one.
 void add(FilamentAmount& sum, const FilamentAmount& more);
 

@@ -46,12 +46,10 @@ gcode::PerFeeder turned(const fs::path& chunks, std::uint64_t end, std::size_t f
 }
 
 json filament_json(const Filament& filament, const FilamentAmount& amount) {
-  json one = {{"name", filament.name},
-              {"material", filament.material},
-              {"colour", picture::hex_of(filament.colour)},
-              {"metres", amount.metres},
-              {"grams", amount.grams}};
-  if (amount.cost) one["cost"] = *amount.cost;
+  json one = to_json(amount);
+  one["name"] = filament.name;
+  one["material"] = filament.material;
+  one["colour"] = picture::hex_of(filament.colour);
   return one;
 }
 
