@@ -1,5 +1,8 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
 #include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -32,6 +35,7 @@ struct TuneOptions {
   std::optional<std::filesystem::path> machine;   ///< profile with the true volumes of the simulated printer
   std::optional<std::size_t> tanks;               ///< of the simulated nozzle
   std::optional<std::filesystem::path> pictures;  ///< folder
+  std::optional<std::filesystem::path> rasters;   ///< the simulated strip as it was laid
   bool read_simulated = false;                    ///< read the raster instead of asking
   std::optional<double> began, half, stopped;     ///< ticks
   bool yes = false;                               ///< write without asking
@@ -120,6 +124,22 @@ std::optional<std::filesystem::path> pictures_of(const TuneOptions& command) {
   return usual_pictures;
 }
 
+/// Keeps the stream in a file if `kept` is given. Returns a descriptor to read the stream from.
+int kept_stream(int stream, const std::optional<std::filesystem::path>& kept) {
+  if (!kept) return stream;
+  {
+    WholeFile file(*kept);
+    std::array<char, 65536> bytes;
+    ssize_t count = 0;
+    while ((count = read(stream, bytes.data(), bytes.size())) > 0) file.stream().write(bytes.data(), count);
+    close(stream);
+    file.publish();
+  }
+  const int again = open(kept->c_str(), O_RDONLY | O_CLOEXEC);
+  if (again < 0) throw core::FileError(kept->string(), "", "cannot be read", "check the permissions");
+  return again;
+}
+
 /// The simulator ends when the last copy of this clock is gone.
 StreamSettings in_lockstep(const SimulatorProcess& simulator, const Profile& profile) {
   StreamSettings settings;
@@ -136,8 +156,8 @@ std::unique_ptr<StripOnRaster> print_simulated(const TuneOptions& command, const
   std::future<void> watching;  // outlives the simulator, whose end is that of the stream it waits for
   SimulatorProcess simulator(simulator_arguments(command, profile, pictures),
                              SimulatorProcess::Time::lockstep);
-  watching = std::async(std::launch::async, [&seen, rasters = simulator.take_rasters()] {
-    sim::RasterReader reader(rasters);
+  watching = std::async(std::launch::async, [&seen, &command, rasters = simulator.take_rasters()] {
+    sim::RasterReader reader(kept_stream(rasters, command.rasters));
     while (const auto frame = reader.next()) seen->take(*frame, reader);
   });
   FinishedSource source(print, profile.printer);
@@ -264,10 +284,10 @@ void Tune::declare_strip(CLI::App& app) {
   add_value(app, "PROFILE", options_.profile, " ", "The printer's profile: see unicursal-profile(5).")
       .required();
   add_value(app, "--from", options_.from, "FEEDER", "Feeder of the first colour, counted from 1. Default: 1.")
-      .check(integer_between(1, 3))
+      .check(integer_between(1, 8))
       ->group(group);
   add_value(app, "--to", options_.to, "FEEDER", "Feeder of the second colour. Default: 2.")
-      .check(integer_between(1, 3))
+      .check(integer_between(1, 8))
       ->group(group);
   add_value(app, "--range", options_.range, "MM3",
             "Volume of transition that the strip has room for, mm³. Default: 60, or less on a small bed.")
@@ -294,6 +314,10 @@ void Tune::declare_printing(CLI::App& app) {
   add_value(app, "--picture", options_.pictures, "DIR",
             "Folder for the picture of the simulated strip. Default: transition-strip, and no picture with "
             "--read-simulated or --began. Needs --simulate.")
+      .needs(simulate)
+      ->group("Simulated printer");
+  add_value(app, "--rasters", options_.rasters, "FILE",
+            "Keep what the simulated printer has laid in this file (sim/bed/raster.hpp). Needs --simulate.")
       .needs(simulate)
       ->group("Simulated printer");
 }
