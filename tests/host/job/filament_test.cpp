@@ -131,8 +131,6 @@ TEST_CASE("The mixture for a colour is that of the filaments that the feeders ho
   CHECK(green[1] < 0.3);
 }
 
-}  // namespace unicursal::host
-
 TEST_CASE("a mixture is asked for by its colour, and a note says how near it comes") {
   const test::TempFolder folder;
   folder.write("bench.toml", test::sample_profile + std::string("\n[[filament]]\ncolour = \"#f0be28\"\n"
@@ -164,3 +162,5 @@ TEST_CASE("a mixture is asked for by its colour, and a note says how near it com
       job_with("\"green\""),
       Catch::Contains("is neither a list of numbers nor a colour; write six hexadecimal digits"));
 }
+
+}  // namespace unicursal::host
