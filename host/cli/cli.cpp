@@ -24,9 +24,9 @@ namespace {
 constexpr std::unique_ptr<Command> (*makers[])() = {
     make_inspect, make_new,        make_colours,                               // a model
     make_dry_run, make_plan,       make_mix,      make_curve,  make_simulate,  // without a printer
-    make_setup,   make_ports,      make_doctor,   make_tune,   make_print,
-    make_resume,  make_history,                                             // with a printer
-    make_serve,   make_queue,      make_start,    make_status, make_pause,  // with a daemon
+    make_setup,   make_ports,      make_doctor,   make_tune,   make_load,
+    make_purge,   make_unload,     make_print,    make_resume, make_history,  // with a printer
+    make_serve,   make_queue,      make_start,    make_status, make_pause,    // with a daemon
     make_answer,  make_cancel,     make_stop,     make_set,    make_token,
     make_keys,    make_completion, make_check_job};  // of the daemon's own
 

@@ -90,6 +90,7 @@ std::vector<std::string> heat_forms(const char* what, double actual, const std::
 std::string state_words(const SessionStatus& s, const StatusLook& look) {
   const bool under_way = s.state == SessionState::printing || s.state == SessionState::heating ||
                          s.state == SessionState::connecting;
+  if (look.feeds && s.state == SessionState::printing) return "feeding";
   if (!look.dry || !under_way) return name(s.state);
   return s.layer > 0 ? "dry run" : "dry run, planning";
 }
@@ -123,8 +124,9 @@ std::string status_line(const SessionStatus& s, const StatusLook& look, std::siz
   Line line;
   line.add(state, {state_words(s, look)});
   if (s.layer > 0) {
-    line.add(layer, {fmt::format(" layer {} of {}", s.layer, s.layers),
-                     fmt::format(" layer {}/{}", s.layer, s.layers)});
+    if (!look.feeds)
+      line.add(layer, {fmt::format(" layer {} of {}", s.layer, s.layers),
+                       fmt::format(" layer {}/{}", s.layer, s.layers)});
     line.add(percent, {fmt::format(", {:.0f} %", s.percent)});
   }
   const std::optional<double> seconds = look.dry ? look.dry_left : s.left;
@@ -146,7 +148,7 @@ std::string status_line(const SessionStatus& s, const StatusLook& look, std::siz
     const std::string patch = colour ? swatch(*colour, look.colours) : "";
     line.add(mixture, patch.empty() ? ", " + s.mixture : ",  " + s.mixture, patch);
   }
-  if (s.lookahead_layers > 0) {
+  if (s.lookahead_layers > 0 && !look.feeds) {
     const std::string time = rough_duration(s.lookahead);
     line.add(ahead, {fmt::format(", {} planned ahead", time), fmt::format(", {} ahead", time)});
   }

@@ -19,7 +19,8 @@ struct StatusLook {
   std::function<std::optional<picture::Colour>(const std::string&)> colour_of;
   /// s that a dry run will still take; it has a pace of its own. Absent while unknown.
   std::optional<double> dry_left;
-  bool dry = false;  ///< it is a dry run
+  bool dry = false;    ///< it is a dry run
+  bool feeds = false;  ///< only filament moves: there are no layers
 };
 
 /// Returns the line, at most `width` columns wide unless its first word is wider. Apart from swatches, it is

@@ -121,7 +121,7 @@ struct FinishedPrint {
 };
 
 /// The chunks of such a print, each of which counts as a layer. What it refers to must outlive it.
-class FinishedSource final : public Source {
+class FinishedSource : public Source {
  public:
   FinishedSource(const FinishedPrint& print, const gcode::Printer& printer)
       : print_(print), printer_(printer) {}

@@ -18,6 +18,7 @@
 namespace unicursal::host {
 namespace {
 
+constexpr double longest_tube = 1900;  ///< mm; filament through it and out of the nozzle stays below 2 m
 constexpr double most_of_equal_share = 0.9;  ///< that a floor share may be; mixtures then still differ
 
 Range within(const gcode::Bounds& bounds, const char* unit) {
@@ -201,6 +202,10 @@ Profile read_profile(const SettingsFile& file, const std::filesystem::path& path
   const Section extruder = root.section_or_empty("extruder", keys::extruder);
   profile.printer.feeders = filament_count(root).value_or(profile.printer.feeders);
   read_extruder(extruder, profile.printer);
+  if (extruder.has("tube_length"))
+    profile.tube_length =
+        extruder.number("tube_length", between(1, longest_tube, "mm"),
+                        "measure from the feeder to the hot end, for example tube_length = 450");
   profile.filaments = read_filaments(root, extruder, profile.printer);
   read_temperature(root.section_or_empty("temperature", keys::temperature), profile.printer);
   read_transition(root.section_or_empty("transition", keys::transition), profile.printer);

@@ -23,6 +23,7 @@ struct Profile {
   std::string port = "auto";  ///< "auto": the only serial port there is
   unsigned baud = 250000;
   std::optional<HeadClearance> clearance;  ///< absent: not measured
+  std::optional<double> tube_length;       ///< mm from a feeder to the hot end; absent: not measured
   Filaments filaments = usual_filaments(gcode::Printer());
   unsigned receive_buffer = 128;  ///< bytes, of the firmware
   bool display = true;            ///< the printer's own display shows how far a print is

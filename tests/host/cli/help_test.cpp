@@ -16,9 +16,9 @@ using test::Terminal;
 namespace {
 
 const std::vector<std::string> commands{
-    "inspect", "new",    "colours", "dry-run", "plan",    "curve", "simulate", "setup",     "ports",
-    "doctor",  "tune",   "print",   "resume",  "history", "serve", "queue",    "start",     "status",
-    "pause",   "answer", "cancel",  "stop",    "set",     "token", "keys",     "completion"};
+    "inspect", "new",   "colours", "dry-run", "plan",  "curve",  "simulate", "setup", "ports",     "doctor",
+    "tune",    "load",  "purge",   "unload",  "print", "resume", "history",  "serve", "queue",     "start",
+    "status",  "pause", "answer",  "cancel",  "stop",  "set",    "token",    "keys",  "completion"};
 
 /// What a command shows in a window of this many columns. Only its example, which people copy, may be wider.
 std::string shown(const std::vector<std::string>& words, int columns) {

@@ -153,6 +153,7 @@ const std::vector<Case> spoilt_profiles = {
     {"feeders = 3", "feeders = 1", {"line 10", "extruder.feeders", "2 to 8 with marlin"}},
     {"feeders = 3", "flow_factors = [1, 1]", {"line 10", "extruder.flow_factors", "2 numbers", "3 feeders"}},
     {"feeders = 3", "feeders = 2.5", {"line 10", "extruder.feeders", "whole"}},
+    {"max_flow = 5.0", "tube_length = 0", {"line 11", "extruder.tube_length", "1 to 1900 mm"}},
     {"feeders = 3", "floor_share = 0.5", {"line 10", "extruder.floor_share", "0.5"}},
     {"max_flow = 5.0", "maxflow = 5.0", {"line 11", "extruder.maxflow", "did you mean \"max_flow\"?"}},
 };

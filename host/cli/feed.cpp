@@ -1,0 +1,173 @@
+// `unicursal load`, `unicursal purge` and `unicursal unload`.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "host/cli/arguments.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/foreground.hpp"
+#include "host/cli/preparation.hpp"
+#include "host/cli/terminal_output.hpp"
+#include "host/engine/reconnecting.hpp"
+#include "host/feeding/cool_when_back.hpp"
+#include "host/feeding/feeding.hpp"
+#include "host/tune/terminal_reader.hpp"
+
+namespace unicursal::host {
+namespace {
+
+/// What one of the three commands says.
+struct FeedWords {
+  const char* name;
+  const char* summary;
+  const char* example;
+  const char* feeder_help;
+  const char* length_help;
+  const char* note;
+  const char* question;  ///< `{}`: the feeder
+  const char* done;      ///< `{0}`: the feeder, `{1}`: mm
+};
+
+constexpr FeedWords load_words{
+    "load",
+    "Feed filament into the hot end until it leaves the nozzle.",
+    "unicursal load diamond.toml --feeder 2 --port auto",
+    "Feeder to load, counted from 1.",
+    "How far its filament moves, 1 to 2000 mm. Default: 60, and the length of the tube if the profile has "
+    "it.",
+    "Push the filament into the feeder until its gear holds it. The other feeders turn a little as well, so "
+    "that "
+    "their inlets do not clog.",
+    "Is filament in the gear of {}? The axes home, and the nozzle drips: is the bed clear?",
+    "{} has fed {:g} mm"};
+constexpr FeedWords purge_words{
+    "purge",
+    "Push out what is left of former colours.",
+    "unicursal purge diamond.toml --port auto",
+    "Feeder to purge, counted from 1. Default: one after the other, then all together.",
+    "How far the filament of each feeder moves, 1 to 2000 mm. Default: 20.",
+    "A Diamond hot end clogs at an inlet whose filament stands still. Purge all feeders after loading, and "
+    "before a "
+    "print if the printer has stood for days.",
+    "Are all feeders loaded? The axes home, and the nozzle drips: is the bed clear?",
+    "{} has fed {:g} mm"};
+constexpr FeedWords unload_words{
+    "unload",
+    "Pull filament out of the hot end.",
+    "unicursal unload diamond.toml --feeder 2 --port auto",
+    "Feeder to unload, counted from 1.",
+    "How far its filament is pulled back, 1 to 2000 mm. Default: 100, or the length of the tube and 80 if "
+    "the "
+    "profile has it.",
+    "All feeders push 5 mm together first; then only this one moves. Load its inlet again before the next "
+    "print.",
+    "May {} let its filament go? The axes home, and the nozzle drips: is the bed clear?",
+    "{} has pulled {:g} mm back"};
+
+const FeedWords& words_for(FeedingKind kind) {
+  if (kind == FeedingKind::load) return load_words;
+  return kind == FeedingKind::purge ? purge_words : unload_words;
+}
+
+class Feed final : public Command {
+ public:
+  explicit Feed(FeedingKind kind) : kind_(kind), words_(words_for(kind)) {}
+
+  CLI::App& declare(CLI::App& program) override;
+  Exit run() override;
+
+ private:
+  std::string who() const { return feeder_ ? fmt::format("feeder {}", *feeder_) : "each feeder"; }
+  bool ready() const;
+  Exit feed(const Feeding& feeding, const Profile& profile) const;
+
+  const FeedingKind kind_;
+  const FeedWords& words_;
+  std::filesystem::path profile_;
+  std::optional<std::size_t> feeder_;  ///< counted from 1
+  std::optional<double> length_;
+  std::optional<std::string> port_;
+  std::optional<std::filesystem::path> log_;
+  bool yes_ = false;
+};
+
+CLI::App& Feed::declare(CLI::App& program) {
+  CLI::App& app = add_command(program, words_.name, "Print", words_.summary, words_.example);
+  add_value(app, "PROFILE", profile_, " ", "The printer's profile: see unicursal-profile(5).").required();
+  CLI::Option* feeder =
+      add_value(app, "--feeder", feeder_, "FEEDER", words_.feeder_help).check(integer_between(1, 8));
+  if (kind_ != FeedingKind::purge) feeder->required();
+  add_value(app, "--length", length_, "MM", words_.length_help).check(number_between(1, 2000));
+  declare_port(app, port_, "the profile's port, or auto");
+  app.add_flag("--yes", yes_, "Do not ask whether the printer is ready.");
+  declare_log(app, log_);
+  add_note(app, words_.note);
+  add_note(
+      app,
+      "The axes are homed, and the nozzle is heated to the profile's temperature above the front edge of the "
+      "bed. It is switched off afterwards, also after Ctrl-C or an error. The bed stays as warm as it is.");
+  return app;
+}
+
+Exit Feed::run() {
+  check_outputs({profile_}, present({log_}));
+  const Profile profile = load_profile(profile_);
+  FeedingOrder order{kind_, {}, length_};
+  if (feeder_) order.feeder = *feeder_ - 1;
+  const Feeding made = feeding(order, profile);
+  show(stdout, "heats to {:g} °C, then moves {:g} mm of filament in {}, in about {}\n",
+       profile.printer.nozzle_temperature, made.length, who(), rough_duration(made.seconds));
+  if (yes_ || ready()) return feed(made, profile);
+  show(stdout, "nothing has moved or heated\n");
+  return Exit::stopped;
+}
+
+bool Feed::ready() const {
+  try {
+    return confirmed(std::cin, std::cout, fmt::format(fmt::runtime(words_.question), who()));
+  } catch (const TuningCancelled&) {  // the input has ended
+    return false;
+  }
+}
+
+Exit Feed::feed(const Feeding& made, const Profile& profile) const {
+  FeedingSource source(made, profile.printer);
+  StreamSettings settings;
+  settings.profile = profile.file;
+  settings.link = link_options(profile, log_);
+  StatusLook look;
+  look.feeds = true;
+  const std::string port = port_.value_or(profile.port);
+  const int descriptor = open_port(port, profile.baud, settings.link);
+  const std::string device = device_of(descriptor);
+  const StreamResult result = stream_with_progress(descriptor, source, {}, settings, look).stream;
+  if (result.unfit) throw PrinterUnfit(result.reason);
+  if (may_reconnect(result)) {
+    show(stderr, "{}; plug it in again: its nozzle is switched off when it is back, for up to {} minutes\n",
+         result.reason, reconnecting_patience.count());
+    const bool cooled = cool_when_back(port == "auto" ? device : port, profile.baud, settings.link);
+    throw PrintError(cooled ? "the printer is back, and its nozzle cools; begin again"
+                            : "the printer did not come back: switch it off by its own switch");
+  }
+  if (result.ending == Ending::failed) throw PrintError(result.reason);
+  if (result.ending == Ending::stopped) {
+    show(stdout, "stopped; the nozzle cools\n");
+    return Exit::stopped;
+  }
+  show(stdout, "{}; the nozzle cools\n", fmt::format(fmt::runtime(words_.done), who(), made.length));
+  return Exit::success;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_load() {
+  return std::make_unique<Feed>(FeedingKind::load);
+}
+std::unique_ptr<Command> make_purge() {
+  return std::make_unique<Feed>(FeedingKind::purge);
+}
+std::unique_ptr<Command> make_unload() {
+  return std::make_unique<Feed>(FeedingKind::unload);
+}
+
+}  // namespace unicursal::host

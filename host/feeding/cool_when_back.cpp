@@ -1,0 +1,70 @@
+#include "host/feeding/cool_when_back.hpp"
+
+#include <asio/co_spawn.hpp>
+#include <asio/io_context.hpp>
+#include <asio/signal_set.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/use_awaitable.hpp>
+#include <chrono>
+#include <exception>
+#include <vector>
+
+#include "host/engine/reconnecting.hpp"
+#include "host/loop/print_signals.hpp"
+
+namespace unicursal::host {
+namespace {
+
+using Time = std::chrono::steady_clock;
+
+constexpr auto look_again_for_port = std::chrono::milliseconds(300);
+
+/// Returns false while the port or the printer is not there.
+asio::awaitable<bool> try_to_cool(asio::any_io_executor executor, const std::string& port, unsigned baud,
+                                  LinkOptions options) {
+  try {
+    const int descriptor = open_port(port, baud, options);
+    Link link(executor, descriptor, options);
+    co_await link.connect();
+    std::vector<std::string> lines(1, "M104 S0");
+    co_await link.send(std::move(lines));
+    co_await link.drain();
+  } catch (const LinkError&) {
+    co_return false;
+  }
+  co_return true;
+}
+
+asio::awaitable<bool> cool_in_time(asio::any_io_executor executor, const std::string& port, unsigned baud,
+                                   const LinkOptions& options) {
+  asio::steady_timer timer(executor);
+  const auto end = Time::now() + reconnecting_patience;
+  while (Time::now() < end) {
+    if (co_await try_to_cool(executor, port, baud, options)) co_return true;
+    timer.expires_after(look_again_for_port);
+    co_await timer.async_wait(asio::use_awaitable);
+  }
+  co_return false;
+}
+
+}  // namespace
+
+bool cool_when_back(const std::string& port, unsigned baud, LinkOptions options) {
+  options.temperatures = {};
+  asio::io_context loop{1};
+  asio::signal_set signals(loop);
+  const PrintSignals rules(signals);
+  signals.async_wait([&loop](const asio::error_code& error, int) {
+    if (!error) loop.stop();
+  });
+  bool cooled = false;
+  asio::co_spawn(loop, cool_in_time(loop.get_executor(), port, baud, options),
+                 [&](const std::exception_ptr& error, bool back) {
+                   cooled = !error && back;
+                   loop.stop();
+                 });
+  loop.run();
+  return cooled;
+}
+
+}  // namespace unicursal::host
