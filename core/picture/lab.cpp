@@ -48,21 +48,23 @@ double chroma_part(double chroma) {
 
 }  // namespace
 
+double decoded(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double encoded(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
 Light light_of(Colour colour) {
-  const auto linear = [](std::uint8_t value) {
-    const double v = value / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
-  return {linear(colour.r), linear(colour.g), linear(colour.b)};
+  return {decoded(colour.r / 255.0), decoded(colour.g / 255.0), decoded(colour.b / 255.0)};
 }
 
 Colour colour_of(const Light& light) {
-  const auto encoded = [](double linear) {
-    const double v = std::clamp(linear, 0.0, 1.0);
-    const double value = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * value));
+  const auto byte = [](double linear) {
+    return static_cast<std::uint8_t>(std::lround(255 * encoded(std::clamp(linear, 0.0, 1.0))));
   };
-  return {encoded(light[0]), encoded(light[1]), encoded(light[2])};
+  return {byte(light[0]), byte(light[1]), byte(light[2])};
 }
 
 Lab lab_of(const Light& light) {

@@ -13,6 +13,9 @@ namespace unicursal::picture {
 using Light = std::array<double, 3>;
 
 Light light_of(Colour colour);
+/// One channel, 0…1, from and to the values in which bytes hold it.
+double decoded(double encoded);
+double encoded(double linear);
 /// The nearest colour that bytes can hold.
 Colour colour_of(const Light& light);
 

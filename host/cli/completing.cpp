@@ -117,6 +117,7 @@ const std::map<std::string, Values>& placeholders() {
       {"MB", free_value},
       {"MM", free_value},
       {"MM3", free_value},
+      {"NUMBERS", free_value},
       {"FEEDER", free_value},
       {"TICK", free_value},
       {"PERCENT", free_value},

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "host/cli/arguments.hpp"
@@ -17,7 +20,10 @@
 #include "host/files/whole_file.hpp"
 #include "host/job/profile_edit.hpp"
 #include "host/report/summary.hpp"
+#include "host/tune/curve_fit.hpp"
+#include "host/tune/fit_picture.hpp"
 #include "host/tune/raster_reader.hpp"
+#include "host/tune/strip_photo.hpp"
 #include "host/tune/terminal_reader.hpp"
 
 namespace unicursal::host {
@@ -38,7 +44,9 @@ struct TuneOptions {
   std::optional<std::filesystem::path> rasters;   ///< the simulated strip as it was laid
   bool read_simulated = false;                    ///< read the raster instead of asking
   std::optional<double> began, half, stopped;     ///< ticks
-  bool yes = false;                               ///< write without asking
+  std::optional<std::filesystem::path> photo;
+  std::optional<std::string> corners;  ///< of the photo, pixels
+  bool yes = false;                    ///< write without asking
 
   StripFeeders feeders() const { return {from - 1, to - 1}; }
 };
@@ -205,16 +213,65 @@ void report(const Transition& found, const gcode::Printer& printer) {
   }
 }
 
+void report(const CurveFit& found, const gcode::Printer& printer) {
+  const auto line = [](const char* name, const Estimate& estimate, const char* unit, double before) {
+    show(stdout, "{}{:.2f}{}, give or take {:.2f} (the profile says {:g})\n", name, estimate.value, unit,
+         estimate.uncertainty, before);
+  };
+  line("dead:      ", found.dead, " mm³", printer.dead_volume);
+  line("mixing:    ", found.mixing, " mm³", printer.mixing_volume);
+  line("tanks:     ", found.tanks, "", static_cast<double>(printer.tanks));
+}
+
+std::optional<GivenCorners> corners_in(const std::optional<std::string>& text) {
+  if (!text) return std::nullopt;
+  std::string spaced = *text;
+  std::replace(spaced.begin(), spaced.end(), ',', ' ');
+  std::istringstream numbers(spaced);
+  GivenCorners corners;
+  for (core::Vec2& corner : corners) numbers >> corner.x() >> corner.y();
+  std::string rest;
+  if (numbers && !(numbers >> rest)) return corners;
+  throw core::DataError("", "--corners", "are not eight numbers",
+                        "write x and y of the four corner marks in pixels, as in "
+                        "--corners 310,2050,3650,2100,3500,720,420,700");
+}
+
+void confirm(const TuneOptions& command, const char* what) {
+  const std::string question = fmt::format("Write {} into {}?", what, command.profile.string());
+  if (!command.yes && !confirmed(std::cin, std::cout, question))
+    throw TuningCancelled("the result was not accepted");
+}
+
+void settle_from_photo(const TuneOptions& command, const ProfileText& text, const Profile& profile,
+                       const Strip& strip) {
+  const std::filesystem::path& file = *command.photo;
+  const std::optional<GivenCorners> corners = corners_in(command.corners);
+  const Photo photo = read_photo(file);
+  const Sheet sheet(photo, sheet_plan(strip), corners, file);
+  const StripCurve curve = read_curve(sheet, strip, file);
+  const CurveFit found = fit_curve(curve.points, curve.anchors);
+  report(found, profile.printer);
+  if (command.pictures) {
+    std::filesystem::create_directories(*command.pictures);
+    const std::filesystem::path picture = *command.pictures / "fit.png";
+    picture::write_png(picture, fit_picture(photo, sheet, strip, curve, found));
+    show(stdout, "picture:   {}\n", picture.string());
+  }
+  confirm(command, "them");
+  text.set_transition(
+      {found.dead.value, found.mixing.value, static_cast<std::size_t>(std::lround(found.tanks.value))});
+  show(stdout, "written:   {}\n", command.profile.string());
+}
+
 void settle(const TuneOptions& command, const ProfileText& text, const Profile& profile, const Strip& strip,
             StripReader& reader) {
   const StripReading reading = reader.read(strip);
   report(strip, reading);
   const Transition found = fit_transition(volumes_of(strip, reading));
   report(found, profile.printer);
-  const std::string question = fmt::format("Write both into {}?", command.profile.string());
-  if (!command.yes && !confirmed(std::cin, std::cout, question))
-    throw TuningCancelled("the result was not accepted");
-  text.set_transition(found.dead.value, found.mixing.value);
+  confirm(command, "both");
+  text.set_transition({found.dead.value, found.mixing.value, {}});
   show(stdout, "written:   {}\n", command.profile.string());
 }
 
@@ -236,7 +293,11 @@ Exit tune_transition(const TuneOptions& command) {
       show(stdout, "Print this file, then run the command again without -o to enter what the strip shows.\n");
       return Exit::success;
     }
-    settle(command, text, profile, strip, *reader_for(command, std::move(simulated)));
+    if (command.photo) {
+      settle_from_photo(command, text, profile, strip);
+    } else {
+      settle(command, text, profile, strip, *reader_for(command, std::move(simulated)));
+    }
     return Exit::success;
   } catch (const TuningCancelled& cancelled) {
     show(stdout, "{}; the profile was not changed\n", cancelled.what());
@@ -312,10 +373,9 @@ void Tune::declare_printing(CLI::App& app) {
       ->group("Simulated printer");
   declare_tanks(app, options_.tanks);
   add_value(app, "--picture", options_.pictures, "DIR",
-            "Folder for the picture of the simulated strip. Default: transition-strip, and no picture with "
-            "--read-simulated or --began. Needs --simulate.")
-      .needs(simulate)
-      ->group("Simulated printer");
+            "Folder for pictures: of the simulated strip, and of the photo with the fit. Default: "
+            "transition-strip for the former, unless it is read with --read-simulated or --began.")
+      .group("Pictures");
   add_value(app, "--rasters", options_.rasters, "FILE",
             "Keep what the simulated printer has laid in this file (sim/bed/raster.hpp). Needs --simulate.")
       .needs(simulate)
@@ -336,6 +396,17 @@ void Tune::declare_reading(CLI::App& app) {
       ->needs(began);
   began->needs(stopped);
   stopped->needs(began);
+  CLI::Option* photo = add_value(app, "--photo", options_.photo, "FILE",
+                                 "Read the strip from this photo, JPEG or PNG. It shows all six round marks, "
+                                 "sharp and in even light.")
+                           .group(group);
+  photo->excludes(began);
+  add_value(
+      app, "--corners", options_.corners, "NUMBERS",
+      "Where the four corner marks are in the photo, if they are not found: x,y of the front left, front "
+      "right, back right and back left one, in pixels. Needs --photo.")
+      .needs(photo)
+      ->group(group);
   app.add_flag("--read-simulated", options_.read_simulated,
                "Measure the simulated strip instead of asking. Needs --simulate.")
       ->needs(app.get_option("--simulate"))

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 #include "core/error.hpp"
 #include "host/files/whole_file.hpp"
@@ -16,7 +17,7 @@ namespace unicursal::host {
 namespace {
 
 constexpr const char* section = "transition";
-constexpr const char* transition_keys[] = {"dead_volume", "mixing_volume"};
+constexpr const char* transition_keys[] = {"dead_volume", "mixing_volume", "tanks"};
 
 std::string read(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -110,10 +111,10 @@ void set(std::string& text, const char* key, const char* sister, const std::stri
   }
 }
 
-void erase_keys(toml::table& root) {
+void erase_keys(toml::table& root, std::size_t count) {
   toml::table* table = root[section].as_table();
   if (table == nullptr) return;
-  for (const char* key : transition_keys) table->erase(key);
+  for (std::size_t i = 0; i < count; ++i) table->erase(transition_keys[i]);
   if (table->empty()) root.erase(section);
 }
 
@@ -123,45 +124,53 @@ bool holds(const toml::table& root, const char* key, const std::string& value) {
 }
 
 /// Whether the edit changed exactly what it should.
-bool differs_only_there(const std::string& before, const std::string& after, const std::string& dead,
-                        const std::string& mixing, const std::filesystem::path& file) {
+bool differs_only_there(const std::string& before, const std::string& after,
+                        const std::vector<std::string>& values, const std::filesystem::path& file) {
   try {
     toml::table old_table = parse_toml(before, file), new_table = parse_toml(after, file);
-    if (!holds(new_table, transition_keys[0], dead) || !holds(new_table, transition_keys[1], mixing))
-      return false;
-    erase_keys(old_table);
-    erase_keys(new_table);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!holds(new_table, transition_keys[i], values[i])) return false;
+    }
+    erase_keys(old_table, values.size());
+    erase_keys(new_table, values.size());
     return old_table == new_table;
   } catch (const JobError&) {
     return false;
   }
 }
 
+/// What a person can do instead, as the beginning of a sentence.
+std::string by_hand(const MeasuredTransition& found) {
+  const std::string volumes = fmt::format("dead_volume = {:.2f}{} mixing_volume = {:.2f}", found.dead_volume,
+                                          found.tanks ? "," : " and", found.mixing_volume);
+  return "write " + volumes + (found.tanks ? fmt::format(" and tanks = {}", *found.tanks) : "");
+}
+
 }  // namespace
 
-std::string with_transition(const std::string& text, double dead_volume, double mixing_volume,
+std::string with_transition(const std::string& text, const MeasuredTransition& found,
                             const std::filesystem::path& file) {
-  const std::string dead = fmt::format("{:.2f}", dead_volume), mixing = fmt::format("{:.2f}", mixing_volume);
+  std::vector<std::string> values = {fmt::format("{:.2f}", found.dead_volume),
+                                     fmt::format("{:.2f}", found.mixing_volume)};
+  if (found.tanks) values.push_back(fmt::format("{}", *found.tanks));
   parse_toml(text, file);
   std::string changed = text;
-  set(changed, transition_keys[0], transition_keys[1], dead, file);
-  set(changed, transition_keys[1], transition_keys[0], mixing, file);
-  if (!differs_only_there(text, changed, dead, mixing, file)) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    set(changed, transition_keys[i], transition_keys[i == 0 ? 1 : 0], values[i], file);
+  if (!differs_only_there(text, changed, values, file)) {
     throw JobError(file.string(), section, "is written in a way that cannot be changed here",
-                   fmt::format("write dead_volume = {} and mixing_volume = {} yourself", dead, mixing));
+                   by_hand(found) + " yourself");
   }
   return changed;
 }
 
 ProfileText::ProfileText(std::filesystem::path file) : file_(std::move(file)), text_(read(file_)) {}
 
-void ProfileText::set_transition(double dead_volume, double mixing_volume) const {
-  const std::string changed = with_transition(text_, dead_volume, mixing_volume, file_);
+void ProfileText::set_transition(const MeasuredTransition& found) const {
+  const std::string changed = with_transition(text_, found, file_);
   if (read(file_) != text_) {
-    throw core::FileError(
-        file_.string(), "", "has been changed by another program meanwhile",
-        fmt::format("write dead_volume = {:.2f} and mixing_volume = {:.2f} into it yourself", dead_volume,
-                    mixing_volume));
+    throw core::FileError(file_.string(), "", "has been changed by another program meanwhile",
+                          by_hand(found) + " into it yourself");
   }
   write_whole_file(file_, changed, WholeFile::Access::as_before);
 }

@@ -1,16 +1,23 @@
-// Changes the transition's two numbers in the text of a profile and leaves every other character as it is:
+// Changes the numbers of the transition in the text of a profile and leaves every other character as it is:
 // comments, order, spaces, line ends. A comment behind a number keeps its column if there is room.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace unicursal::host {
 
-/// `text` with transition.dead_volume and transition.mixing_volume set to these values (mm³, two decimals),
-/// added where they are missing. Throws JobError if `text` is not TOML, or is written in a form that this
-/// cannot edit; `file` is for messages.
-std::string with_transition(const std::string& text, double dead_volume, double mixing_volume,
+struct MeasuredTransition {
+  double dead_volume = 0, mixing_volume = 0;  ///< mm³
+  std::optional<std::size_t> tanks;           ///< absent: the profile keeps its own
+};
+
+/// `text` with transition.dead_volume, transition.mixing_volume (two decimals) and, if given,
+/// transition.tanks set to these values, added where they are missing. Throws JobError if `text` is not TOML,
+/// or is written in a form that this cannot edit; `file` is for messages.
+std::string with_transition(const std::string& text, const MeasuredTransition& found,
                             const std::filesystem::path& file);
 
 /// The text of a profile as it was when this was made.
@@ -21,7 +28,7 @@ class ProfileText {
 
   /// Replaces the file by the changed text. Throws core::FileError, also if the file has been changed
   /// meanwhile, and JobError; the file is untouched then.
-  void set_transition(double dead_volume, double mixing_volume) const;
+  void set_transition(const MeasuredTransition& found) const;
 
  private:
   std::filesystem::path file_;

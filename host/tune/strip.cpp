@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "host/tune/digits.hpp"
@@ -48,8 +49,13 @@ class Layout {
     strip_.tick = s_.tick;
     strip_.line_width = s_.line;
     strip_.start = here_;
-    const std::array<std::size_t, 3> percent = {percent_of(perception.began), percent_of(perception.half),
-                                                percent_of(perception.stopped)};
+    strip_.purge_start = here_;
+    fill(Shade::from);
+    strip_.purge = std::exchange(strip_.bead, {});
+    const double front_marks = here_.y() + s_.gap + s_.mark_radius();
+    here_ = strip_.start = {s_.left, front_marks + s_.mark_radius() + s_.gap};
+    const std::array<std::size_t, 4> percent = {percent_of(perception.began), percent_of(perception.half),
+                                                percent_of(perception.stopped), 100};
     for (std::size_t i = 0; i < percent.size(); ++i) {
       fill(static_cast<Shade>(static_cast<std::size_t>(Shade::began) + i));
       reference(i, percent[i]);
@@ -57,7 +63,7 @@ class Layout {
     fill(Shade::from);
     rise(s_.gap + s_.in_front(), Shade::from);
     if (!lay_strip()) return std::nullopt;
-    return std::move(strip_);
+    return surround(front_marks) ? std::optional(std::move(strip_)) : std::nullopt;
   }
 
  private:
@@ -76,15 +82,42 @@ class Layout {
     const double end = s_.left + length / (2 * pairs);
     for (double pair = 0; pair < pairs; ++pair) {
       if (pair > 0) rise(s_.fill_pitch(), shade);
-      go({end, here_.y()}, s_.fat, shade);
+      lay_straight({end, here_.y()}, shade, false);
       rise(s_.fill_pitch(), shade);
-      go({s_.left, here_.y()}, s_.fat, shade);
+      lay_straight({s_.left, here_.y()}, shade, pair + 1 == pairs);
     }
+  }
+
+  /// The last lane that fills the nozzle is pure at its end.
+  void lay_straight(const core::Vec2& to, Shade shade, bool last) {
+    const core::Vec2 pure = to + core::Vec2(std::min(pure_length, std::abs(to.x() - here_.x()) / 2), 0);
+    if (last) {
+      strip_.straight.push_back({here_, pure, s_.fat_width, shade, false});
+      strip_.straight.push_back({pure, to, s_.fat_width, shade, true});
+    } else {
+      strip_.straight.push_back({here_, to, s_.fat_width, shade, false});
+    }
+    go(to, s_.fat, shade);
+  }
+
+  /// Puts the round marks around everything. Returns false if the bed is too short.
+  bool surround(double front) {
+    const double radius = s_.mark_radius();
+    const double back = here_.y() + s_.behind() + s_.gap + radius;
+    if (back + radius > s_.back) return false;
+    strip_.round_marks = mark_places({{s_.left + radius, front}, {s_.right - radius, back}});
+    std::vector<std::vector<core::Vec2>> all;
+    for (const core::Vec2& place : strip_.round_marks) {
+      for (auto& stroke : mark_strokes(place, s_.line)) all.push_back(std::move(stroke));
+    }
+    for (auto& stroke : strip_.marks) all.push_back(std::move(stroke));
+    strip_.marks = std::move(all);
+    return true;
   }
 
   /// Marks the lane that ends here as a reference line, and goes to where the next lanes begin.
   void reference(std::size_t which, std::size_t percent) {
-    strip_.references[which] = here_ + core::Vec2(s_.gap, 0);
+    if (which < strip_.references.size()) strip_.references[which] = here_ + core::Vec2(s_.gap, 0);
     write_number(percent, here_ + core::Vec2(s_.gap, s_.gap));
     rise(s_.reference_pitch(), strip_.bead.back().shade);
   }
@@ -94,6 +127,8 @@ class Layout {
   }
 
   bool lay_strip() {
+    strip_.straight.push_back(
+        {here_, here_ + core::Vec2(lead, 0), s_.thin / s_.layer_height, Shade::from, true});
     go(here_ + core::Vec2(lead, 0), s_.thin, Shade::from);
     strip_.points.push_back({here_, 0});
     double direction = 1;
@@ -164,6 +199,7 @@ class Layout {
     const bool outwards = strip_.marked.size() % 2 == 0;
     strip_.marks.push_back(outwards ? std::vector{inner, outer} : std::vector{outer, inner});
     strip_.marked.push_back(tick);
+    strip_.ticks.push_back({inner, outer, s_.line, Shade::from, true});
   }
 
   double length_of(std::size_t tick) const {
@@ -192,9 +228,9 @@ std::optional<Strip> strip_of(const gcode::Printer& printer, double range) {
 
 Strip::Point Strip::at(double along) const {
   assert(along >= 0);
-  const double ticks = along / tick;
-  const auto before = std::min(static_cast<std::size_t>(ticks), points.size() - 2);
-  const double part = ticks - static_cast<double>(before);
+  const double in_ticks = along / tick;
+  const auto before = std::min(static_cast<std::size_t>(in_ticks), points.size() - 2);
+  const double part = in_ticks - static_cast<double>(before);
   const Point &a = points[before], &b = points[before + 1];
   return {a.place + part * (b.place - a.place), a.passed + part * (b.passed - a.passed)};
 }

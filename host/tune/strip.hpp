@@ -1,7 +1,8 @@
-// The geometry of the strip from which a transition is read: one unbroken bead and, printed before it, the
-// ticks and numbers beside it. From the front of the bed to the back, the bead consists of
+// The geometry of the strip from which a transition is read: lanes that fill the nozzle with the first
+// mixture; the round marks by which a photo is read, the ticks and the numbers; then one unbroken bead. From
+// the front of the bed to the back, the bead consists of
 //
-//   three reference lines, of 5, 50 and 95 % of the change (transition_fit.hpp) and marked with these
+//   four reference lines, of 5, 50, 95 and 100 % of the change (transition_fit.hpp) and marked with these
 //   numbers, each after lanes that fill the nozzle with its mixture; lanes that fill the nozzle with the
 //   first mixture again; the strip itself: some of the first mixture, then the switch at tick 0, and ticks up
 //   to the end.
@@ -21,6 +22,7 @@
 
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/print/printer.hpp"
+#include "host/photo/marks.hpp"
 
 namespace unicursal::host {
 
@@ -40,16 +42,28 @@ struct Strip {
     double passed = 0;  ///< volume since the switch, mm³
   };
 
+  /// A straight piece of the bead, and what is printed there. Where it is pure, the nozzle was full of its
+  /// mixture.
+  struct Lane {
+    core::Vec2 from{0, 0}, to{0, 0};
+    double width = 0;
+    Shade shade = Shade::from;
+    bool pure = false;
+  };
+
   double layer_height = 0;
   double tick = 0;                             ///< distance of ticks along the bead
   double line_width = 0;                       ///< of ticks and numbers
   std::size_t lanes = 0;                       ///< number of lanes of the strip itself
   std::vector<Point> points;                   ///< one per tick, from the switch at tick 0
   std::vector<std::size_t> marked;             ///< ticks that are printed, ascending
-  std::vector<std::vector<core::Vec2>> marks;  ///< ticks and numbers as open lines, in the order of printing
-  core::Vec2 start{0, 0};                      ///< start of the bead
-  std::vector<StripMove> bead;                 ///< the whole bead
-  std::array<core::Vec2, 3> references;        ///< where the reference lines have their pure mixture
+  MarkPlaces round_marks{};                    ///< middles of the round marks around everything else
+  std::vector<std::vector<core::Vec2>> marks;  ///< all marks as open lines, in the order of printing
+  core::Vec2 purge_start{0, 0}, start{0, 0};   ///< of the lanes before the marks, and of the bead
+  std::vector<StripMove> purge, bead;
+  /// The bead and the lanes before the marks, up to the switch; and the ticks, in the first mixture.
+  std::vector<Lane> straight, ticks;
+  std::array<core::Vec2, 3> references;  ///< where the lines of 5, 50 and 95 % have their pure mixture
 
   /// Length from the switch to the end of the strip, mm.
   double length() const { return tick * static_cast<double>(points.size() - 1); }

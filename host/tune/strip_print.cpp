@@ -99,6 +99,8 @@ class StripWriter {
     Chunk chunk;
     append(chunk, {";LAYER_CHANGE", gcode::comment(fmt::format("Z:{:g}", strip_.layer_height)),
                    gcode::comment(fmt::format("HEIGHT:{:g}", strip_.layer_height)), ";TYPE:Skirt"});
+    approach(chunk, strip_.purge_start);
+    for (const StripMove& move : strip_.purge) lay(chunk, move);
     for (const auto& line : strip_.marks) draw(chunk, line);
     approach(chunk, strip_.start);
     chunk.lines.emplace_back(";TYPE:Solid infill");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware_gcode/print/printer.hpp"
+#include "host/photo/marks.hpp"
 
 namespace unicursal::host {
 
@@ -22,6 +23,7 @@ struct StripSizes {
   /// The room that a lane of the strip needs behind its middle, and in front of it.
   double behind() const { return gap + tenth_tick + number_gap + digit_height + line / 2; }
   double in_front() const { return gap + fifth_tick + line / 2; }
+  double mark_radius() const { return MarkSizes(line).ring_outer; }
   /// The distance of lanes that fill the nozzle, and from a reference line to the next such lanes.
   double fill_pitch() const { return fat_width + line; }
   double reference_pitch() const { return 2 * gap + digit_height; }

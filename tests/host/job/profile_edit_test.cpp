@@ -12,7 +12,7 @@ namespace unicursal::host {
 namespace {
 
 std::string edited(const std::string& text) {
-  return with_transition(text, 3.456, 12, "profile.toml");
+  return with_transition(text, {3.456, 12, {}}, "profile.toml");
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ TEST_CASE("A profile is replaced in one step, and only if it is still as it was 
   std::filesystem::create_symlink(file, link);
   chmod(file.c_str(), 0640);
   const ProfileText text(link);
-  text.set_transition(1.25, 6);
+  text.set_transition({1.25, 6, {}});
   CHECK(load_profile(file).printer.dead_volume == 1.25);
   CHECK(load_profile(file).printer.mixing_volume == 6);
   CHECK(std::filesystem::is_symlink(link));
@@ -83,7 +83,7 @@ TEST_CASE("A profile is replaced in one step, and only if it is still as it was 
   CHECK((status.st_mode & 0777) == 0640);
 
   const std::string present = test::read_text(file);
-  CHECK_THROWS_AS(text.set_transition(2, 7), core::FileError);  // it has been changed meanwhile
+  CHECK_THROWS_AS(text.set_transition({2, 7, {}}), core::FileError);  // it has been changed meanwhile
   CHECK(test::read_text(file) == present);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
