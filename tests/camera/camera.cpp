@@ -215,15 +215,26 @@ std::vector<std::uint8_t> tone_curve(double contrast) {
   return curve;
 }
 
+/// Exaggerates the difference from the pixels two further on, as phones do: edges get halos.
+float sharpened(const Exposure& seen, std::size_t i, float strength) {
+  constexpr std::size_t reach = 2;
+  const std::size_t aside = 3 * reach, beyond = 3 * reach * seen.width;
+  if (strength <= 0 || i < beyond || i + beyond >= seen.light.size()) return seen.light[i];
+  const float mean =
+      (seen.light[i - aside] + seen.light[i + aside] + seen.light[i - beyond] + seen.light[i + beyond]) / 4;
+  return seen.light[i] + strength * (seen.light[i] - mean);
+}
+
 Photo developed(const Exposure& seen, const Conditions& conditions) {
   Photo photo{seen.width, seen.height, std::vector<std::uint8_t>(seen.light.size())};
   const std::vector<std::uint8_t> curve = tone_curve(conditions.sensor.contrast);
   NormalChance chance(conditions.seed);
   const auto exposure = static_cast<float>(conditions.light.exposure);
+  const auto sharpening = static_cast<float>(conditions.sensor.sharpening);
   const auto shot = static_cast<float>(1 / conditions.sensor.electrons);
   const auto read = static_cast<float>(conditions.sensor.read_noise * conditions.sensor.read_noise);
   for (std::size_t i = 0; i < seen.light.size(); ++i) {
-    const float light = seen.light[i] * exposure;
+    const float light = std::max(0.0F, sharpened(seen, i, sharpening)) * exposure;
     const float noisy = light + chance() * std::sqrt(light * shot + read);
     const float balanced = std::clamp(noisy * conditions.light.gains[i % 3], 0.0F, 1.0F);
     photo.bytes[i] = curve[static_cast<std::size_t>(balanced * static_cast<float>(tones - 1) + 0.5F)];

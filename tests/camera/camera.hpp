@@ -47,6 +47,7 @@ struct Light {
 struct Sensor {
   double electrons = 6000;  ///< of white; fewer give more shot noise
   double read_noise = 0.001;
+  double sharpening = 0;  ///< overshoot at edges, 0 to 1
   double contrast = 0.3;  ///< of the S-curve after that of sRGB, 0 to 1
 };
 
@@ -78,6 +79,8 @@ std::vector<Conditions> conditions();
 
 /// Some that cannot be read.
 std::vector<Conditions> unreadable_conditions();
+/// Some that a reader may read or refuse.
+std::vector<Conditions> doubtful_conditions();
 
 /// Easily told apart.
 std::vector<FilamentPair> filament_pairs();

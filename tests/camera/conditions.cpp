@@ -18,7 +18,7 @@ Conditions named(const std::string& name, std::uint32_t seed) {
 Conditions from_above() {
   Conditions c = named("from above", 1);
   c.view.framing = 0.85;
-  c.sensor = {20000, 0.0005, 0};
+  c.sensor = {20000, 0.0005, 0, 0};
   c.quality = 92;
   return c;
 }
@@ -52,7 +52,7 @@ Conditions lamp_light() {
   c.light.falloff = 0.75;
   c.light.spot = {0.7, 0.3};
   c.light.gains = {1.2F, 1, 0.75F};
-  c.sensor = {4000, 0.001, 0.4};
+  c.sensor = {4000, 0.001, 0.4, 0.4};
   c.quality = 85;
   return c;
 }
@@ -80,7 +80,7 @@ Conditions beside_a_window() {
   c.light.slope_towards = 3.1;
   c.light.gains = {0.9F, 1, 1.12F};
   c.light.glares = {{0.1, 0.9, 7, 0.35}, {1.02, 0.5, 9, 0.5}};
-  c.sensor = {5000, 0.001, 0.5};
+  c.sensor = {5000, 0.001, 0.6, 0.5};
   return c;
 }
 
@@ -92,7 +92,7 @@ Conditions dim() {
   c.light.falloff = 0.7;
   c.light.gains = {0.8F, 1, 1.2F};
   c.light.exposure = 0.45;
-  c.sensor = {900, 0.003, 0.4};
+  c.sensor = {900, 0.003, 0.3, 0.4};
   c.orientation = 8;
   c.quality = 80;
   return c;
@@ -107,7 +107,7 @@ Conditions slanted() {
   c.light.falloff = 0.7;
   c.light.spot = {0.5, 0.9};
   c.light.gains = {1.1F, 1, 0.85F};
-  c.sensor = {2500, 0.0015, 0.5};
+  c.sensor = {2500, 0.0015, 0.5, 0.5};
   c.quality = 80;
   return c;
 }
@@ -124,7 +124,7 @@ Conditions glaring() {
   c.light.exposure = 0.95;
   c.light.glares = {
       {0.25, 0.62, 3, 0.5}, {0.62, 0.5, 4, 0.8}, {0.9, 0.15, 6, 0.9}, {0.4, 0.2, 3, 0.4}, {0.5, 1.1, 8, 1}};
-  c.sensor = {2500, 0.0015, 0.6};
+  c.sensor = {2500, 0.0015, 0.5, 0.6};
   c.quality = 78;
   return c;
 }
@@ -142,7 +142,7 @@ Conditions everything_at_once() {
   c.light.gains = {1.25F, 1, 0.7F};
   c.light.exposure = 0.85;
   c.light.glares = {{0.15, 0.5, 4, 0.4}, {0.75, 0.1, 5, 0.6}, {0.55, 0.95, 3, 0.5}};
-  c.sensor = {800, 0.003, 0.6};
+  c.sensor = {800, 0.003, 0.7, 0.6};
   c.orientation = 5;
   c.quality = 70;
   return c;
@@ -171,6 +171,18 @@ std::vector<Conditions> unreadable_conditions() {
       spoilt("overexposed", [](Conditions& c) { c.light.exposure = 40; }),
       spoilt("only the bed", [](Conditions& c) { c.bare = true; }),
       spoilt("tiny", [](Conditions& c) { c.width = 320, c.height = 240; }),
+  };
+}
+
+std::vector<Conditions> doubtful_conditions() {
+  return {
+      spoilt("clipped light", [](Conditions& c) { c.light.exposure = 3.5; }),
+      spoilt("dark and noisy", [](Conditions& c) { c.light.exposure = 0.04, c.sensor.electrons = 1500; }),
+      spoilt("soft", [](Conditions& c) { c.blur.defocus = 6; }),
+      spoilt("shaken", [](Conditions& c) { c.blur.motion = 12; }),
+      spoilt("small", [](Conditions& c) { c.width = 1000, c.height = 750; }),
+      spoilt("far away", [](Conditions& c) { c.view.framing = 0.2; }),
+      spoilt("very slanted", [](Conditions& c) { c.view.slant = 55 * degree, c.view.slant_towards = 1; }),
   };
 }
 

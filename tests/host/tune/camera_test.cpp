@@ -40,7 +40,7 @@ Conditions plain_photo() {
   plain.width = 640, plain.height = 480;
   plain.bed = Bed::light;
   plain.lamp = {0, std::numbers::pi / 2, 0};
-  plain.sensor = {1e6, 0.0001, 0};
+  plain.sensor = {1e6, 0.0001, 0, 0};
   plain.light.exposure = 0.6;
   return plain;
 }
@@ -188,7 +188,7 @@ TEST_CASE("libjpeg reads what the camera writes", "[camera]") {
 TEST_CASE("A photo is as noisy as asked, and the same again with the same seed", "[camera]") {
   const PrintedLayer layer = dotted_layer();
   Conditions noisy = plain_photo();
-  noisy.sensor = {1000, 0.004, 0};
+  noisy.sensor = {1000, 0.004, 0, 0};
   const Photo first = take_photo(layer, {"red", "blue"}, noisy);
   CHECK(take_photo(layer, {"red", "blue"}, noisy).bytes == first.bytes);
   noisy.seed = 2;
