@@ -85,9 +85,11 @@ class Session {
       shots_.push_back({1, pairs[0], conditions, Kind::doubtful, {}, 0});
     for (const camera::Conditions& conditions : camera::unreadable_conditions())
       shots_.push_back({1, pairs[0], conditions, Kind::unreadable, {}, 0});
-    camera::Conditions similar = camera::conditions().front();
-    similar.name = "similar colours";
-    shots_.push_back({1, camera::similar_pair(), similar, Kind::unreadable, {}, 0});
+    camera::Conditions easy = camera::conditions().front();
+    easy.name = "lopsided colours";
+    shots_.push_back({1, camera::lopsided_pair(), easy, Kind::doubtful, {}, 0});
+    easy.name = "similar colours";
+    shots_.push_back({1, camera::similar_pair(), easy, Kind::unreadable, {}, 0});
   }
 
   const std::vector<Shot>& operator()() {
@@ -180,6 +182,14 @@ void summarise(const Session& session, const std::vector<Shot>& shots) {
       all.add(shot, session.nozzle(shot));
     }
     tally.print(conditions.name);
+  }
+  for (const camera::FilamentPair& pair : camera::filament_pairs()) {
+    Tally tally;
+    for (const Shot& shot : shots) {
+      if (shot.kind == Kind::readable && shot.pair.from == pair.from && shot.pair.to == pair.to)
+        tally.add(shot, session.nozzle(shot));
+    }
+    if (tally.count > 0) tally.print(pair.from + "/" + pair.to);
   }
   all.print("all");
   for (const auto& [kind, name] : {std::pair{Kind::doubtful, "doubtful"}, {Kind::unreadable, "unreadable"}}) {

@@ -84,6 +84,8 @@ std::vector<Conditions> doubtful_conditions();
 
 /// Easily told apart.
 std::vector<FilamentPair> filament_pairs();
+/// The first can hardly be seen in the second: the end of a change may be beyond reading.
+FilamentPair lopsided_pair();
 /// Too similar to be read.
 FilamentPair similar_pair();
 

@@ -187,8 +187,12 @@ std::vector<Conditions> doubtful_conditions() {
 }
 
 std::vector<FilamentPair> filament_pairs() {
-  return {{"blue", "red"},      {"yellow", "black"}, {"white", "red"},
-          {"green", "magenta"}, {"white", "blue"},   {"orange", "cyan"}};
+  return {{"blue", "red"},      {"yellow", "blue"}, {"white", "red"},
+          {"green", "magenta"}, {"white", "blue"},  {"orange", "cyan"}};
+}
+
+FilamentPair lopsided_pair() {
+  return {"yellow", "black"};
 }
 
 FilamentPair similar_pair() {

@@ -11,7 +11,7 @@ constexpr double bed_edge = 15;        ///< mm from the print to the front and t
 constexpr double table_reach = 180;    ///< mm beyond the bed, the room is dark
 constexpr double coarse_pixel = 0.25;  ///< mm
 constexpr std::size_t coarsest = 5;    ///< halvings
-constexpr double round_reach = 0.1;    ///< mm; the sides of a bead are that round, thrice
+constexpr double round_reach = 0.05;   ///< mm; half the width of a round side
 constexpr double sharpness = 45;       ///< exponent of shine
 constexpr std::size_t changes = 256, thicknesses = 16;
 
