@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t search_side = 1600;         ///< pixels of the longer side; larger photos are reduced
 constexpr double surroundings[] = {0.015, 0.03};  ///< half the side of the windows, in longer sides
 constexpr double contrasts[] = {0.02, 0.06};      ///< least difference from the mean, of 0…1
+constexpr std::size_t openings[] = {0, 1, 2};     ///< half the width of lines that are left out, pixels
 constexpr double largest_mark = 1.0 / 6;          ///< of the longer side
 constexpr double least_disk = 9;                  ///< pixels of the reduced photo
 constexpr double roundness = 0.2;                 ///< how far areas may differ from those of ellipses
@@ -73,6 +74,40 @@ std::vector<float> standing_out(const Plane& plane, std::size_t half) {
   return result;
 }
 
+using Mask = std::vector<std::uint8_t>;
+
+Mask beyond(const std::vector<float>& values, float sign, float least) {
+  Mask mask(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) mask[i] = values[i] * sign >= least ? 1 : 0;
+  return mask;
+}
+
+/// Along rows or columns: each pixel becomes 1 if at least `count` of the 2·`half` + 1 around it are.
+Mask counted(const Mask& mask, std::size_t width, std::size_t half, std::size_t count, bool along_rows) {
+  const std::size_t height = mask.size() / width, length = along_rows ? width : height;
+  const std::size_t lines = along_rows ? height : width, step = along_rows ? 1 : width;
+  Mask result(mask.size());
+  for (std::size_t line = 0; line < lines; ++line) {
+    const std::size_t first = along_rows ? line * width : line;
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < std::min(half, length); ++i) sum += mask[first + i * step];
+    for (std::size_t i = 0; i < length; ++i) {
+      if (i + half < length) sum += mask[first + (i + half) * step];
+      if (i > half) sum -= mask[first + (i - half - 1) * step];
+      result[first + i * step] = sum >= count ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+/// Without what is narrower than 2·`half` + 1 pixels, such as the lines of a grid on the bed.
+Mask opened(const Mask& mask, std::size_t width, std::size_t half) {
+  if (half == 0) return mask;
+  const std::size_t all = 2 * half + 1;
+  const Mask eroded = counted(counted(mask, width, half, all, true), width, half, all, false);
+  return counted(counted(eroded, width, half, 1, true), width, half, 1, false);
+}
+
 /// A connected group of pixels, by its moments.
 struct Blob {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
@@ -95,16 +130,16 @@ struct Blob {
   std::size_t side() const { return std::max(right - left, bottom - top) + 1; }
 };
 
-/// Groups of pixels whose `values` × `sign` are at least `least`, joined by their sides.
-std::vector<Blob> blobs_in(const std::vector<float>& values, std::size_t width, float sign, float least) {
+/// Groups of pixels of the mask, joined by their sides.
+std::vector<Blob> blobs_in(const Mask& mask, std::size_t width) {
   constexpr std::uint32_t none = 0;
-  std::vector<std::uint32_t> label(values.size(), none), parent{none};
+  std::vector<std::uint32_t> label(mask.size(), none), parent{none};
   const auto root = [&parent](std::uint32_t at) {
     while (parent[at] != at) at = parent[at] = parent[parent[at]];
     return at;
   };
-  for (std::size_t at = 0; at < values.size(); ++at) {
-    if (values[at] * sign < least) continue;
+  for (std::size_t at = 0; at < mask.size(); ++at) {
+    if (mask[at] == 0) continue;
     const std::uint32_t before = at % width > 0 ? label[at - 1] : none;
     const std::uint32_t above = at >= width ? label[at - width] : none;
     if (before == none && above == none) {
@@ -118,7 +153,7 @@ std::vector<Blob> blobs_in(const std::vector<float>& values, std::size_t width, 
     }
   }
   std::vector<Blob> blobs(parent.size());
-  for (std::size_t at = 0; at < values.size(); ++at) {
+  for (std::size_t at = 0; at < mask.size(); ++at) {
     if (label[at] != none) blobs[root(label[at])].add(at % width, at / width);
   }
   std::erase_if(blobs, [](const Blob& blob) { return blob.area < least_disk; });
@@ -211,8 +246,10 @@ std::vector<FoundMark> find_marks(const Photo& photo) {
           standing_out(plane, static_cast<std::size_t>(std::ceil(around * side)));
       for (const double contrast : contrasts) {
         for (const float sign : {-1.0F, 1.0F}) {
-          add_pairs(blobs_in(values, plane.width, sign, static_cast<float>(contrast)),
-                    static_cast<std::size_t>(largest_mark * side), by, found);
+          const Mask mask = beyond(values, sign, static_cast<float>(contrast));
+          for (const std::size_t half : openings)
+            add_pairs(blobs_in(opened(mask, plane.width, half), plane.width),
+                      static_cast<std::size_t>(largest_mark * side), by, found);
         }
       }
     }

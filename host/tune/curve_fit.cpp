@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "core/picture/lab.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -17,14 +18,19 @@ constexpr double fewest_tanks = 1, largest_tanks = 6;
 constexpr double least_mixing_volume = 0.05;  ///< mm³
 constexpr double profile_share = 0.95;        ///< where the profile's mixing volume ends
 constexpr double smallest_change = 1e-3;      ///< logarithms need more than 0
+constexpr double darkest_light = 0.003;       ///< linear; below it a camera's noise is larger than the light
+constexpr double least_channel_step = 0.3;    ///< of the step of the channel that changes most
+constexpr double end_doubt = 0.03;            ///< of a pure colour, encoded
 constexpr int fit_steps = 60;
 constexpr int repetitions = 40;
 constexpr std::size_t block = 12;  ///< neighbouring points err alike
 /// Besides what the points scatter: the places in the photo and the volumes that the printer feeds.
 constexpr double volume_doubt = 0.02, volume_doubt_share = 0.01, tank_doubt_share = 0.04;
 
+/// What is fitted: the nozzle, and by how much both pure colours of the strip differ from those of the lines.
 struct Nozzle {
   double dead = 0, mixing = 1, tanks = 2;
+  Seen low{}, high{};
 };
 
 /// The share that has arrived, tabulated over tanks and (volume − dead) ÷ mixing.
@@ -67,43 +73,37 @@ double logit(double p) {
   return std::log(inside / (1 - inside));
 }
 
-/// How a colour answers to a share.
-class Answer {
- public:
-  explicit Answer(const std::array<double, 3>& anchors) {
-    const double shares[] = {perception.began, perception.half, perception.stopped};
-    for (std::size_t i = 0; i < 3; ++i) {
-      places_[i] = logit(shares[i]);
-      lifts_[i] = logit(anchors[i]) - places_[i];
-    }
-  }
+std::array<double, 3> known_shares() {
+  return {perception.began, perception.half, perception.stopped};
+}
 
-  double operator()(double share) const {
-    if (share <= 0) return 0;
-    if (share >= 1) return 1;
-    const double z = std::log(share / (1 - share));
-    const double inside = std::clamp(z, places_[0], places_[2]);
-    // The parabola through the three.
-    double lift = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      double part = lifts_[i];
-      for (std::size_t j = 0; j < 3; ++j) {
-        if (j != i) part *= (inside - places_[j]) / (places_[i] - places_[j]);
-      }
-      lift += part;
-    }
-    return 1 / (1 + std::exp(-(z + lift)));
-  }
+double log_light(double encoded) {
+  return std::log(std::max(darkest_light, picture::decoded(encoded)));
+}
 
- private:
-  std::array<double, 3> places_{}, lifts_{};
-};
+/// Where a line can hardly be distinguished from a pure colour, the other two lines say more about it: the
+/// lift changes evenly from line to line.
+void steady(std::array<double, 3>& lifts, const std::array<double, 3>& doubts, std::size_t weak) {
+  constexpr double evenness = 0.5;  // standard deviation of that rule
+  const double ruled = 2 * lifts[1] - lifts[2 - weak];
+  const double trust = 1 / (doubts[weak] * doubts[weak]), rule_trust = 1 / (evenness * evenness);
+  lifts[weak] = (trust * lifts[weak] + rule_trust * ruled) / (trust + rule_trust);
+}
 
-double median_magnitude(const Eigen::VectorXd& rest, const std::vector<CurvePoint>& points) {
+Seen foretold(const Nozzle& nozzle, const ColourAnswer& answer, double passed, double fat) {
+  const double share = responded(nozzle, passed);
+  Seen colour = answer(share, fat);
+  for (std::size_t c = 0; c < 3; ++c) colour[c] += (1 - share) * nozzle.low[c] + share * nozzle.high[c];
+  return colour;
+}
+
+/// The median of the magnitudes, of what is not left out.
+double median_magnitude(const Eigen::VectorXd& rest, const Eigen::VectorXd& trust) {
   std::vector<double> sizes;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].trust > 0) sizes.push_back(std::abs(rest(static_cast<Eigen::Index>(i))));
+  for (Eigen::Index i = 0; i < trust.size(); ++i) {
+    if (trust(i) > 0) sizes.push_back(std::abs(rest(i)));
   }
+  if (sizes.empty()) return 1;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return *middle;
@@ -118,8 +118,17 @@ struct Fitted {
 /// From a first guess to the nearest best nozzle.
 class CurveFitter {
  public:
-  CurveFitter(const std::vector<CurvePoint>& points, const Answer& answer, double scatter)
-      : points_(points), answer_(answer), scatter_(scatter) {}
+  CurveFitter(const std::vector<CurvePoint>& points, const ColourAnswer& answer, double scatter)
+      : points_(points),
+        answer_(answer),
+        scatter_(scatter),
+        count_(static_cast<Eigen::Index>(3 * points.size())),
+        trust_(Eigen::VectorXd::Ones(count_ + ends)) {
+    for (Eigen::Index i = 0; i < count_; ++i) {
+      const CurvePoint& point = points_[static_cast<std::size_t>(i / 3)];
+      trust_(i) = answer_.uses(static_cast<std::size_t>(i % 3)) ? point.trust : 0;
+    }
+  }
 
   Fitted from(const Nozzle& guess) const {
     Nozzle nozzle = guess;
@@ -127,75 +136,114 @@ class CurveFitter {
     double cost = cost_of(rest), damping = 1e-2;
     for (int step = 0; step < fit_steps && damping < 1e8; ++step) {
       const Eigen::VectorXd weights = weights_of(rest);
-      Eigen::MatrixXd slopes(rest.size(), 3);
-      constexpr double by = 1e-3;
-      slopes.col(0) = (rests({nozzle.dead + by, nozzle.mixing, nozzle.tanks}) - rest) / by;
-      slopes.col(1) = (rests({nozzle.dead, nozzle.mixing + by, nozzle.tanks}) - rest) / by;
-      const double side = nozzle.tanks + by < largest_tanks ? by : -by;
-      slopes.col(2) = (rests({nozzle.dead, nozzle.mixing, nozzle.tanks + side}) - rest) / side;
-      Eigen::Matrix3d normal = slopes.transpose() * weights.asDiagonal() * slopes;
+      const Eigen::MatrixXd slopes = slopes_at(nozzle, rest);
+      Eigen::MatrixXd normal = slopes.transpose() * weights.asDiagonal() * slopes;
       normal.diagonal() *= 1 + damping;
       normal.diagonal().array() += 1e-12;
-      const Eigen::Vector3d change = normal.ldlt().solve(-slopes.transpose() * weights.asDiagonal() * rest);
-      const Nozzle moved{std::max(0.0, nozzle.dead + change(0)),
-                         std::max(least_mixing_volume, nozzle.mixing + change(1)),
-                         std::clamp(nozzle.tanks + change(2), fewest_tanks, largest_tanks)};
+      const Eigen::VectorXd change = normal.ldlt().solve(-slopes.transpose() * weights.asDiagonal() * rest);
+      const Nozzle moved = limited(sum_of(nozzle, change));
       const Eigen::VectorXd new_rest = rests(moved);
       const double new_cost = cost_of(new_rest);
       if (!(new_cost < cost)) {
         damping *= 8;
         continue;
       }
-      const bool settled = cost - new_cost < 1e-8 * cost;
+      const bool settled = cost - new_cost < 1e-7 * cost;
       nozzle = moved, rest = new_rest, cost = new_cost, damping = std::max(1e-9, damping / 5);
       if (settled) break;
     }
-    return {nozzle, cost, median_magnitude(rest, points_) * 1.4826};
+    return {nozzle, cost, median_magnitude(rest, trust_.head(count_)) * 1.4826};
   }
 
  private:
   static constexpr double bend = 2;  ///< scatters beyond which a point pulls no more strongly
+  static constexpr Eigen::Index ends = 6, freedoms = 3 + ends;
 
+  static Nozzle sum_of(const Nozzle& nozzle, const Eigen::VectorXd& change) {
+    Nozzle sum{nozzle.dead + change(0), nozzle.mixing + change(1), nozzle.tanks + change(2), nozzle.low,
+               nozzle.high};
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum.low[c] += change(3 + static_cast<Eigen::Index>(c));
+      sum.high[c] += change(6 + static_cast<Eigen::Index>(c));
+    }
+    return sum;
+  }
+  static Nozzle limited(const Nozzle& nozzle) {
+    return {std::max(0.0, nozzle.dead), std::max(least_mixing_volume, nozzle.mixing),
+            std::clamp(nozzle.tanks, fewest_tanks, largest_tanks), nozzle.low, nozzle.high};
+  }
+
+  Eigen::MatrixXd slopes_at(const Nozzle& nozzle, const Eigen::VectorXd& rest) const {
+    constexpr double by = 1e-3;
+    Eigen::MatrixXd slopes(rest.size(), freedoms);
+    for (Eigen::Index i = 0; i < freedoms; ++i) {
+      Eigen::VectorXd to = Eigen::VectorXd::Zero(freedoms);
+      to(i) = i == 2 && nozzle.tanks + by >= largest_tanks ? -by : by;
+      slopes.col(i) = (rests(sum_of(nozzle, to)) - rest) / to(i);
+    }
+    return slopes;
+  }
+
+  /// The last six say that the pure colours are known to `end_doubt`.
   Eigen::VectorXd rests(const Nozzle& nozzle) const {
-    Eigen::VectorXd rest(static_cast<Eigen::Index>(points_.size()));
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      rest(static_cast<Eigen::Index>(i)) = answer_(responded(nozzle, points_[i].passed)) - points_[i].change;
+    Eigen::VectorXd rest(count_ + ends);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const CurvePoint& point = points_[i];
+      const Seen colour = foretold(nozzle, answer_, point.passed, point.fat);
+      for (std::size_t c = 0; c < 3; ++c)
+        rest(static_cast<Eigen::Index>(3 * i + c)) = colour[c] - point.colour[c];
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      rest(count_ + static_cast<Eigen::Index>(c)) = nozzle.low[c] / end_doubt * scatter_;
+      rest(count_ + 3 + static_cast<Eigen::Index>(c)) = nozzle.high[c] / end_doubt * scatter_;
+    }
     return rest;
   }
   double cost_of(const Eigen::VectorXd& rest) const {
     double sum = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double r = std::abs(rest(static_cast<Eigen::Index>(i))) / scatter_;
-      sum += points_[i].trust * (r <= bend ? r * r : bend * (2 * r - bend));
+    for (Eigen::Index i = 0; i < rest.size(); ++i) {
+      const double r = std::abs(rest(i)) / scatter_;
+      sum += trust_(i) * (r <= bend ? r * r : bend * (2 * r - bend));
     }
     return sum;
   }
   Eigen::VectorXd weights_of(const Eigen::VectorXd& rest) const {
     Eigen::VectorXd weights(rest.size());
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double r = std::abs(rest(static_cast<Eigen::Index>(i))) / scatter_;
-      weights(static_cast<Eigen::Index>(i)) = points_[i].trust * (r <= bend ? 1 : bend / r);
+    for (Eigen::Index i = 0; i < rest.size(); ++i) {
+      const double r = std::abs(rest(i)) / scatter_;
+      weights(i) = trust_(i) * (r <= bend ? 1 : bend / r);
     }
     return weights;
   }
 
   const std::vector<CurvePoint>& points_;
-  const Answer& answer_;
+  const ColourAnswer& answer_;
   const double scatter_;
+  const Eigen::Index count_;
+  Eigen::VectorXd trust_;
 };
 
-/// Where the change of colour first reaches `level` for good: most of the points around are beyond it.
-std::optional<double> first_beyond(const std::vector<CurvePoint>& points, double level) {
+/// The volume after which the colour has gone `share` of its change for good: most of the points around it
+/// have.
+std::optional<double> first_beyond(const std::vector<CurvePoint>& points, const ColourAnswer& answer,
+                                   double share) {
   constexpr std::size_t around = 4;
+  const auto has = [&](const CurvePoint& point) {
+    return answer.change(point.colour, point.fat) >= answer.change(answer(share, point.fat), point.fat);
+  };
   for (std::size_t i = 0; i + around < points.size(); ++i) {
-    std::size_t beyond = 0;
-    for (std::size_t j = i; j <= i + around; ++j) beyond += points[j].change >= level ? 1 : 0;
-    if (beyond > around / 2) return points[i].passed;
+    std::size_t beyond = 0, usable = 0;
+    for (std::size_t j = i; j <= i + around; ++j) {
+      if (points[j].trust == 0) continue;
+      ++usable;
+      beyond += has(points[j]) ? 1 : 0;
+    }
+    if (2 * beyond > usable) return points[i].passed;
   }
   return std::nullopt;
 }
 
-Fitted best_fit(const std::vector<CurvePoint>& points, const Answer& answer, double scatter,
+Fitted best_fit(const std::vector<CurvePoint>& points, const ColourAnswer& answer, double scatter,
                 const std::vector<Nozzle>& guesses) {
   std::optional<Fitted> best;
   for (const Nozzle& guess : guesses) {
@@ -222,24 +270,31 @@ double deviation(const std::vector<double>& values, double middle) {
 }
 
 /// Fits again and again with errors of the size that was seen, in blocks.
-std::array<double, 3> doubts_of(const std::vector<CurvePoint>& points, const CurveAnchors& anchors,
-                                const Answer& answer, const Fitted& found) {
+std::array<double, 3> doubts_of(const std::vector<CurvePoint>& points, const ReferenceColours& references,
+                                const ColourAnswer& answer, const Fitted& found) {
   Chance chance;
   std::vector<double> dead, mixing, tanks;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
-    std::array<double, 3> moved = anchors.change;
-    for (std::size_t i = 0; i < 3; ++i) moved[i] += anchors.doubt[i] * chance.normal();
+    ReferenceColours moved = references;
+    for (ReferenceColours::Lines* lines : {&moved.thin, &moved.fat}) {
+      for (std::size_t i = 0; i < shade_count; ++i) {
+        for (double& channel : lines->colour[i]) channel += lines->doubt[i] * chance.normal();
+      }
+    }
     std::vector<CurvePoint> again = points;
     for (std::size_t first = 0; first < points.size(); first += block) {
       const auto from = static_cast<std::size_t>(chance.uniform() * static_cast<double>(points.size()));
       for (std::size_t i = first; i < std::min(first + block, points.size()); ++i) {
         const CurvePoint& other = points[(from + i - first) % points.size()];
-        const double rest = other.change - answer(responded(found.nozzle, other.passed));
-        again[i].change = answer(responded(found.nozzle, points[i].passed)) +
-                          std::clamp(rest, -4 * found.scatter, 4 * found.scatter);
+        if (other.trust == 0) continue;
+        const Seen expected = foretold(found.nozzle, answer, other.passed, other.fat);
+        again[i].colour = foretold(found.nozzle, answer, points[i].passed, points[i].fat);
+        for (std::size_t c = 0; c < 3; ++c)
+          again[i].colour[c] +=
+              std::clamp(other.colour[c] - expected[c], -4 * found.scatter, 4 * found.scatter);
       }
     }
-    const Nozzle nozzle = best_fit(again, Answer(moved), found.scatter, {found.nozzle}).nozzle;
+    const Nozzle nozzle = best_fit(again, ColourAnswer(moved), found.scatter, {found.nozzle}).nozzle;
     dead.push_back(nozzle.dead), mixing.push_back(nozzle.mixing), tanks.push_back(nozzle.tanks);
   }
   return {deviation(dead, found.nozzle.dead), deviation(mixing, found.nozzle.mixing),
@@ -252,26 +307,104 @@ Estimate estimate(double value, double deviation, double floor) {
 
 }  // namespace
 
-CurveFit fit_curve(const std::vector<CurvePoint>& points, const CurveAnchors& anchors) {
-  const auto began = first_beyond(points, anchors.change[0]);
-  const auto stopped = first_beyond(points, anchors.change[2]);
+ColourAnswer::ColourAnswer(const ReferenceColours& references) {
+  std::array<double, 3> steps{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    thin_[c] = channel_of(references.thin, c);
+    fat_[c] = channel_of(references.fat, c);
+    const auto step = [&](const ReferenceColours::Lines& lines) {
+      return lines.colour.back()[c] - lines.colour.front()[c];
+    };
+    // A channel whose direction depends on the width is of no use.
+    const double thin = step(references.thin), fat = step(references.fat);
+    steps[c] = thin * fat > 0 ? std::min(std::abs(thin), std::abs(fat)) : 0;
+  }
+  const double most = *std::max_element(steps.begin(), steps.end());
+  for (std::size_t c = 0; c < 3; ++c) used_[c] = steps[c] > 0 && steps[c] >= least_channel_step * most;
+}
+
+ColourAnswer::Channel ColourAnswer::channel_of(const ReferenceColours::Lines& lines, std::size_t channel) {
+  Channel result;
+  result.from = log_light(lines.colour.front()[channel]);
+  result.to = log_light(lines.colour.back()[channel]);
+  const double way = result.to - result.from;
+  const double encoded_way = std::abs(lines.colour.back()[channel] - lines.colour.front()[channel]);
+  if (std::abs(way) < 1e-9 || encoded_way < 1e-9) return result;
+  std::array<double, 3> doubts{};
+  const std::array<double, 3> shares = known_shares();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double part = (log_light(lines.colour[i + 1][channel]) - result.from) / way;
+    result.lifts[i] = logit(part) - logit(shares[i]);
+    // Near an end the doubt of a part is larger than its distance from the end.
+    const double doubt =
+        std::hypot(lines.doubt[i + 1], lines.doubt[i == 0 ? 0 : shade_count - 1]) / encoded_way;
+    const double inside = std::clamp(part, smallest_change, 1 - smallest_change);
+    doubts[i] = std::max(1e-3, doubt / std::max(doubt, inside * (1 - inside)));
+  }
+  const std::size_t weak = doubts[0] > doubts[2] ? 0 : 2;
+  steady(result.lifts, doubts, weak);
+  return result;
+}
+
+Seen ColourAnswer::operator()(double share, double fat) const {
+  const std::array<double, 3> shares = known_shares();
+  const double least = logit(shares[0]), most = logit(shares[2]);
+  const bool pure = share <= 0 || share >= 1;
+  const double z = pure ? 0 : std::log(share / (1 - share)), inside = std::clamp(z, least, most);
+  // Of the parabola through the three lines.
+  std::array<double, 3> parts{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    parts[i] = 1;
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (j != i) parts[i] *= (inside - logit(shares[j])) / (logit(shares[i]) - logit(shares[j]));
+    }
+  }
+  Seen colour{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Channel &a = thin_[c], &b = fat_[c];
+    double gone = share;
+    if (!pure) {
+      double lift = 0;
+      for (std::size_t i = 0; i < 3; ++i) lift += parts[i] * ((1 - fat) * a.lifts[i] + fat * b.lifts[i]);
+      gone = 1 / (1 + std::exp(-(z + lift)));
+    }
+    const double from = (1 - fat) * a.from + fat * b.from, to = (1 - fat) * a.to + fat * b.to;
+    colour[c] = picture::encoded(std::exp(from + gone * (to - from)));
+  }
+  return colour;
+}
+
+double ColourAnswer::change(const Seen& colour, double fat) const {
+  const Seen from = (*this)(0, fat), to = (*this)(1, fat);
+  double along = 0, whole = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!used_[c]) continue;
+    along += (colour[c] - from[c]) * (to[c] - from[c]);
+    whole += (to[c] - from[c]) * (to[c] - from[c]);
+  }
+  return whole > 0 ? along / whole : 0;
+}
+
+CurveFit fit_curve(const std::vector<CurvePoint>& points, const ReferenceColours& references) {
+  const ColourAnswer answer(references);
+  const auto began = first_beyond(points, answer, perception.began);
+  const auto stopped = first_beyond(points, answer, 0.9);
   if (!began || !stopped)
     throw core::DataError("", "the strip", "still changes colour at its end",
                           "print again with a larger --range");
-  const Answer answer(anchors.change);
-  const double way = std::max(0.2, *stopped - *began);
+  const double way = std::max(0.2, 1.2 * (*stopped - *began));
   std::vector<Nozzle> guesses;
   for (const double tanks : {1.2, 2.0, 3.5, 5.5})
-    guesses.push_back({std::max(0.0, *began - 0.1 * way), way, tanks});
+    guesses.push_back({std::max(0.0, *began - 0.1 * way), way, tanks, {}, {}});
   // The first fit finds the scatter, the second uses it.
-  const double first_scatter = best_fit(points, answer, 0.02, guesses).scatter;
-  const double scatter = std::max(2e-3, first_scatter);
+  const Fitted first = best_fit(points, answer, 0.01, guesses);
+  const double scatter = std::max(1e-3, first.scatter);
   const Fitted found = best_fit(points, answer, scatter, guesses);
-  constexpr double most_scatter = 0.12;
+  constexpr double most_scatter = 0.06;
   if (found.scatter > most_scatter)
     throw core::DataError("", "the strip", "does not change colour as a mixing nozzle does",
                           "take the photo again in even light, without glare on the bead");
-  const auto [dead, mixing, tanks] = doubts_of(points, anchors, answer, found);
+  const auto [dead, mixing, tanks] = doubts_of(points, references, answer, found);
   const Nozzle& nozzle = found.nozzle;
   const double floor = volume_doubt + volume_doubt_share * (nozzle.dead + nozzle.mixing);
   CurveFit fit;
@@ -279,12 +412,12 @@ CurveFit fit_curve(const std::vector<CurvePoint>& points, const CurveAnchors& an
   fit.mixing = estimate(nozzle.mixing, mixing, floor);
   fit.tanks = estimate(nozzle.tanks, tanks, tank_doubt_share * nozzle.tanks);
   fit.scatter = found.scatter;
-  fit.anchors = anchors;
+  fit.low = nozzle.low, fit.high = nozzle.high;
   return fit;
 }
 
-double CurveFit::change_after(double passed) const {
-  return Answer(anchors.change)(responded({dead.value, mixing.value, tanks.value}, passed));
+Seen CurveFit::colour_after(double passed, double fat, const ColourAnswer& answer) const {
+  return foretold({dead.value, mixing.value, tanks.value, low, high}, answer, passed, fat);
 }
 
 }  // namespace unicursal::host

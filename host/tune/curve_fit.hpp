@@ -1,46 +1,77 @@
 // Computes the dead volume, the mixing volume and the tanks of a nozzle from the colour of a strip, as it was
-// measured all along the bead. mm³. The model is that of transition_fit.hpp; here the whole curve is fitted.
+// seen all along the bead. mm³. The model is that of transition_fit.hpp; here the whole curve is fitted.
 //
 // Colours do not change in proportion to shares: a little red shows in white at once, a little white in red
-// hardly. Three lines whose shares of the change are known (`perception`) show how a colour answers to a
-// share, in the same photo. Between them, logit(colour) − logit(share) is interpolated; for filaments that
-// mix after the law of Beer and Lambert it is a constant. So neither a model of colours nor a calibrated
-// camera is needed.
+// hardly. Lines whose shares of the change are known (`perception`, and both pure mixtures) show how the
+// colour answers to a share, in the same photo. Between them each channel is interpolated: after the law of
+// Beer and Lambert, and that of Kubelka and Munk, the logit of the way that the logarithm of its light has
+// gone differs from the logit of the share by about a constant; that difference is a parabola here. So the
+// fit needs no model of the filaments and no calibrated camera.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "host/tune/strip.hpp"
 #include "host/tune/transition_fit.hpp"
 
 namespace unicursal::host {
 
-/// How far the colour has gone from the first mixture's (0) to the second's (1), after the volume `passed`
-/// since the switch.
+/// Encoded red, green and blue, 0…1: steps of equal size look about equally large.
+using Seen = std::array<double, 3>;
+
+/// A place of the strip.
 struct CurvePoint {
-  double passed = 0;
-  double change = 0;
+  double passed = 0;  ///< volume since the switch
+  Seen colour{};
+  double fat = 0;    ///< how wide the bead is, from the thin reference lines (0) to the fat ones (1)
   double trust = 1;  ///< 0: of no use
 };
 
-/// The same measure for the reference lines of `perception`, and its standard deviation.
-struct CurveAnchors {
-  std::array<double, 3> change{};
-  std::array<double, 3> doubt{};
+/// The colours of the reference lines, indexed by Shade, and the standard deviation of each. The bed shines
+/// through a thin bead more than through a fat one, so there are lines of both widths.
+struct ReferenceColours {
+  struct Lines {
+    std::array<Seen, shade_count> colour{};
+    std::array<double, shade_count> doubt{};
+  };
+  Lines thin, fat;
+};
+
+/// How the colour answers to a share.
+class ColourAnswer {
+ public:
+  explicit ColourAnswer(const ReferenceColours& references);
+
+  /// The colour after a share of the change, 0 to 1.
+  Seen operator()(double share, double fat) const;
+  /// How far a colour has gone from the first pure one (0) to the second (1), in encoded values.
+  double change(const Seen& colour, double fat) const;
+  /// Channels that hardly differ between both pure colours say nothing.
+  bool uses(std::size_t channel) const { return used_[channel]; }
+
+ private:
+  struct Channel {
+    double from = 0, to = 0;        ///< logarithms of the light
+    std::array<double, 3> lifts{};  ///< of the lines of `perception`
+  };
+  static Channel channel_of(const ReferenceColours::Lines& lines, std::size_t channel);
+
+  std::array<Channel, 3> thin_, fat_;
+  std::array<bool, 3> used_{};
 };
 
 struct CurveFit {
   Estimate dead, mixing, tanks;  ///< uncertainty: two standard deviations
-  double scatter = 0;            ///< of the points around the curve, as a change
+  double scatter = 0;            ///< of the points around the curve, encoded
+  /// By how much the strip's own pure colours differ from those of the reference lines.
+  Seen low{}, high{};
 
-  /// The change of colour that the fit foretells.
-  double change_after(double passed) const;
-
-  CurveAnchors anchors;
+  /// The colour that the fit foretells.
+  Seen colour_after(double passed, double fat, const ColourAnswer& answer) const;
 };
 
 /// Throws core::DataError if the points are not the curve of a nozzle, or end before its change does.
-/// Precondition: the anchors are between 0 and 1 and ascend.
-CurveFit fit_curve(const std::vector<CurvePoint>& points, const CurveAnchors& anchors);
+CurveFit fit_curve(const std::vector<CurvePoint>& points, const ReferenceColours& references);
 
 }  // namespace unicursal::host

@@ -67,15 +67,19 @@ class FitPicture {
       picture::write(image_, std::lround(foot.x()) - 6, std::lround(foot.y()) + 10,
                      fmt::format("{:g}", volume), label_dot, grey);
     }
+    const ColourAnswer answer(curve.references);
     for (const CurvePoint& point : curve.points) {
       if (point.passed > most_ || point.trust == 0) continue;
-      const Vec2 place = in_graph(point.passed, point.change);
+      const Vec2 place = in_graph(point.passed, answer.change(point.colour, point.fat));
       image_.stroke(place.x(), place.y(), place.x(), place.y(), 4, point_colour);
     }
-    constexpr int pieces = 400;
-    for (int i = 0; i < pieces; ++i) {
-      const double from = most_ * i / pieces, to = most_ * (i + 1) / pieces;
-      const Vec2 a = in_graph(from, fit.change_after(from)), b = in_graph(to, fit.change_after(to));
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+      const CurvePoint &from = curve.points[i], &to = curve.points[i + 1];
+      if (to.passed > most_) break;
+      const auto fitted = [&](const CurvePoint& point) {
+        return answer.change(fit.colour_after(point.passed, point.fat, answer), point.fat);
+      };
+      const Vec2 a = in_graph(from.passed, fitted(from)), b = in_graph(to.passed, fitted(to));
       image_.stroke(a.x(), a.y(), b.x(), b.y(), 2, line_colour);
     }
   }

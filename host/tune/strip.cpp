@@ -20,7 +20,7 @@ constexpr double least_range = 10;    ///< mm³; less is useless
 constexpr double range_step = 5;      ///< mm³ by which the range is reduced until the strip fits
 constexpr double finest_part = 0.02;  ///< share of the passed volume that a tick is worth at most
 constexpr double lead = 10;           ///< mm of the first mixture before the switch
-constexpr double pure_length = 40;    ///< mm at the end of a reference line that must be pure
+constexpr double pure_length = 50;    ///< mm at the end of a reference line that must be pure
 constexpr std::size_t number_step = 10, fifth_step = 5;
 /// Ticks at the ends of lanes and turns, modulo 10, so that every number is at least 7 ticks away from the
 /// turns.
@@ -44,10 +44,12 @@ class Layout {
 
   /// Returns nullopt if the strip does not fit.
   std::optional<Strip> operator()() {
-    if (s_.right - s_.left < 2 * pure_length) return std::nullopt;
+    if (s_.right - s_.left < 80) return std::nullopt;
     strip_.layer_height = s_.layer_height;
     strip_.tick = s_.tick;
     strip_.line_width = s_.line;
+    strip_.thin_width = s_.thin / s_.layer_height;
+    strip_.fat_width = s_.fat_width;
     strip_.start = here_;
     strip_.purge_start = here_;
     fill(Shade::from);
@@ -88,16 +90,19 @@ class Layout {
     }
   }
 
-  /// The last lane that fills the nozzle is pure at its end.
+  /// The last lane that fills the nozzle is pure at its end. There the bead becomes as thin as the strip
+  /// begins: a thin bead looks a little different from a fat one.
   void lay_straight(const core::Vec2& to, Shade shade, bool last) {
     const core::Vec2 pure = to + core::Vec2(std::min(pure_length, std::abs(to.x() - here_.x()) / 2), 0);
-    if (last) {
-      strip_.straight.push_back({here_, pure, s_.fat_width, shade, false});
-      strip_.straight.push_back({pure, to, s_.fat_width, shade, true});
-    } else {
-      strip_.straight.push_back({here_, to, s_.fat_width, shade, false});
-    }
-    go(to, s_.fat, shade);
+    if (!last) return lay_lane(to, s_.fat, shade, false);
+    lay_lane(pure, s_.fat, shade, false);
+    lay_lane((pure + to) / 2, s_.fat, shade, true);
+    lay_lane(to, s_.thin, shade, true);
+  }
+
+  void lay_lane(const core::Vec2& to, double section, Shade shade, bool pure) {
+    strip_.straight.push_back({here_, to, section / s_.layer_height, shade, pure});
+    go(to, section, shade);
   }
 
   /// Puts the round marks around everything. Returns false if the bed is too short.
@@ -127,15 +132,13 @@ class Layout {
   }
 
   bool lay_strip() {
-    strip_.straight.push_back(
-        {here_, here_ + core::Vec2(lead, 0), s_.thin / s_.layer_height, Shade::from, true});
-    go(here_ + core::Vec2(lead, 0), s_.thin, Shade::from);
+    lay_lane(here_ + core::Vec2(lead, 0), s_.thin, Shade::from, true);
     strip_.points.push_back({here_, 0});
     double direction = 1;
     std::size_t ticks = rounded_down((s_.right - here_.x()) / s_.tick, first_lane_end);
     while (!full()) {
       if (ticks < number_step || here_.y() + s_.behind() > s_.back) return false;
-      lay_lane(direction, ticks);
+      lay_ticks(direction, ticks);
       if (full()) break;
       lay_turn(direction, rounded_up((s_.behind() + s_.in_front()) / s_.tick, turn_end));
       direction = -direction;
@@ -147,7 +150,7 @@ class Layout {
 
   bool full() const { return strip_.points.back().passed >= range_; }
 
-  void lay_lane(double direction, std::size_t ticks) {
+  void lay_ticks(double direction, std::size_t ticks) {
     ++strip_.lanes;
     const std::size_t first = strip_.points.size() - 1;
     advance({direction, 0}, ticks);
@@ -165,7 +168,7 @@ class Layout {
   void advance(const core::Vec2& direction, std::size_t ticks) {
     for (std::size_t i = 0; i < ticks && !full(); ++i) {
       const double passed = strip_.points.back().passed;
-      const double section = std::clamp(finest_part * passed / s_.tick, s_.thin, s_.fat);
+      const double section = finest_part * passed < s_.fat * s_.tick ? s_.thin : s_.fat;
       go(here_ + direction * s_.tick, section, Shade::to);
       strip_.points.push_back({here_, passed + section * s_.tick});
     }

@@ -8,7 +8,7 @@
 //   to the end.
 //
 // The lanes before a line hold as much as the strip does, so that the nozzle is full of the line's mixture
-// for any volumes of its chamber. The strip is thin at first and becomes thicker: a tick is worth at most 2 %
+// for any volumes of its chamber. The strip is thin at first and then fat: a tick is worth at most 2 %
 // of what has passed. So small volumes can be read as finely as the nozzle allows, and large ones do not need
 // metres. Even ticks are behind the bead and odd ones in front of it, because lines as thick as the nozzle's
 // opening must stay apart. If the bed is too short, the strip turns and comes back; the turn counts, and has
@@ -54,6 +54,7 @@ struct Strip {
   double layer_height = 0;
   double tick = 0;                             ///< distance of ticks along the bead
   double line_width = 0;                       ///< of ticks and numbers
+  double thin_width = 0, fat_width = 0;        ///< of the bead: least and greatest
   std::size_t lanes = 0;                       ///< number of lanes of the strip itself
   std::vector<Point> points;                   ///< one per tick, from the switch at tick 0
   std::vector<std::size_t> marked;             ///< ticks that are printed, ascending

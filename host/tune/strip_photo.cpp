@@ -15,11 +15,10 @@ namespace {
 
 using core::Vec2;
 using picture::Light;
-/// Encoded values of red, green and blue, 0…1: steps of equal size look about equally large.
-using Seen = std::array<double, 3>;
 
 constexpr double least_agreement = 0.6;    ///< share of the strokes that must be where they should be
 constexpr double along_step = 0.5;         ///< mm between points along the bead
+constexpr double most_half = 0.95;         ///< change of colour at line 50, or 1 minus it
 constexpr double pure_step = 4;            ///< mm between samples of a pure line
 constexpr double core_part = 0.3;          ///< half of the bead's width that is looked at ÷ its width
 constexpr double least_colour_step = 0.1;  ///< between both pure colours, encoded
@@ -46,26 +45,30 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::size_t material_of(Shade shade) {
-  return static_cast<std::size_t>(shade);
+/// Lines of one shade and width look alike in the same light; ticks and round marks run in other directions
+/// and are lit differently.
+std::size_t material_of(Shade shade, bool fat) {
+  return 2 * static_cast<std::size_t>(shade) + (fat ? 1 : 0);
 }
+constexpr std::size_t tick_material = 2 * shade_count, mark_material = tick_material + 1;
 
 struct PurePlace {
   Vec2 place{0, 0};
   Light light{};
-  Shade shade = Shade::from;
+  std::size_t material = 0;
   double clipped = 0;
 };
 
 /// Samples the middle of a line every few millimetres.
-void add_line(const Sheet& sheet, const Strip::Lane& line, double step, std::vector<PurePlace>& places) {
+void add_line(const Sheet& sheet, const Strip::Lane& line, std::size_t material, double step,
+              std::vector<PurePlace>& places) {
   const Vec2 way = line.to - line.from;
   const double length = way.norm(), count = std::max(1.0, std::floor(length / step));
   for (double i = 0; i < count; ++i) {
     const Vec2 place = line.from + way * ((i + 0.5) / count);
     const double half = 0.35 * length / count;
     const SeenLight seen = sheet.light(place, way / length, std::min(half, 1.0), core_part * line.width);
-    if (seen.pixels > 0) places.push_back({place, seen.light, line.shade, seen.clipped});
+    if (seen.pixels > 0) places.push_back({place, seen.light, material, seen.clipped});
   }
 }
 
@@ -76,13 +79,13 @@ void add_round_mark(const Sheet& sheet, const Vec2& centre, double line, std::ve
                half = (sizes.ring_outer - sizes.ring_inner) / 4;
   for (const Vec2& off : {Vec2(0, 0), Vec2(middle, 0), Vec2(-middle, 0), Vec2(0, middle), Vec2(0, -middle)}) {
     const SeenLight seen = sheet.light(centre + off, {1, 0}, half, half);
-    if (seen.pixels > 0) places.push_back({centre + off, seen.light, Shade::from, seen.clipped});
+    if (seen.pixels > 0) places.push_back({centre + off, seen.light, mark_material, seen.clipped});
   }
 }
 
 EvenLight even_light(const std::vector<PurePlace>& places, const Strip& strip) {
   std::vector<KnownPlace> known;
-  for (const PurePlace& one : places) known.push_back({one.place, one.light, material_of(one.shade)});
+  for (const PurePlace& one : places) known.push_back({one.place, one.light, one.material});
   return EvenLight(known, {strip.round_marks[0], strip.round_marks[2]});
 }
 
@@ -93,11 +96,11 @@ struct PureColour {
   double clipped = 0;
 };
 
-PureColour pure_colour(const std::vector<PurePlace>& places, const EvenLight& even, Shade shade) {
+PureColour pure_colour(const std::vector<PurePlace>& places, const EvenLight& even, std::size_t material) {
   std::array<std::vector<double>, 3> channels;
   PureColour pure;
   for (const PurePlace& one : places) {
-    if (one.shade != shade) continue;
+    if (one.material != material) continue;
     const Seen seen = encoded(even.evened(one.place, one.light));
     for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(seen[c]);
     pure.clipped += one.clipped;
@@ -117,52 +120,41 @@ PureColour pure_colour(const std::vector<PurePlace>& places, const EvenLight& ev
   return pure;
 }
 
-/// The way that the colour takes from one pure mixture to the other.
-class ColourWay {
+/// The lines of one width.
+class ReferenceLines {
  public:
-  ColourWay(const std::vector<PurePlace>& places, const EvenLight& even) {
-    for (std::size_t i = 0; i < shade_count; ++i) pure_[i] = pure_colour(places, even, static_cast<Shade>(i));
-    way_ = minus(pure_.back().colour, pure_.front().colour);
+  ReferenceLines(const std::vector<PurePlace>& places, const EvenLight& even, bool fat) {
+    for (std::size_t i = 0; i < shade_count; ++i)
+      pure_[i] = pure_colour(places, even, material_of(static_cast<Shade>(i), fat));
   }
 
-  const PureColour& pure(Shade shade) const { return pure_[material_of(shade)]; }
-  double length() const { return std::sqrt(dot(way_, way_)); }
-  /// 0 at the first pure colour, 1 at the second.
-  double change(const Seen& seen) const {
-    return dot(minus(seen, pure_.front().colour), way_) / dot(way_, way_);
-  }
-  /// How far a colour lies beside the way, which leads over the reference lines.
-  double beside(const Seen& seen) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < shade_count; ++i) {
-      const Seen step = minus(pure_[i + 1].colour, pure_[i].colour), off = minus(seen, pure_[i].colour);
-      const double squared = dot(step, step);
-      const double part = squared > 0 ? std::clamp(dot(off, step) / squared, 0.0, 1.0) : 0.0;
-      const Seen rest = minus(off, {part * step[0], part * step[1], part * step[2]});
-      nearest = std::min(nearest, dot(rest, rest));
+  const PureColour& pure(Shade shade) const { return pure_[static_cast<std::size_t>(shade)]; }
+  ReferenceColours::Lines colours() const {
+    ReferenceColours::Lines lines;
+    for (std::size_t i = 0; i < shade_count; ++i) {
+      lines.colour[i] = pure_[i].colour;
+      lines.doubt[i] = pure_[i].doubt;
     }
-    return std::sqrt(nearest);
+    return lines;
   }
 
  private:
   std::array<PureColour, shade_count> pure_;
-  Seen way_{};
 };
 
-void check_colours(const ColourWay& way, const std::filesystem::path& file) {
-  for (const Shade shade : {Shade::from, Shade::to}) {
-    if (way.pure(shade).clipped <= most_clipped) continue;
+void check_pure_colours(const ReferenceLines& lines, const std::filesystem::path& file) {
+  const PureColour &from = lines.pure(Shade::from), &to = lines.pure(Shade::to);
+  if (std::max(from.clipped, to.clipped) > most_clipped)
     throw core::DataError(file.string(), "",
                           "is too bright: a pure colour is as light as the camera can show",
                           "take it again with less light, or with a darker exposure");
-  }
-  const auto lab = [&](Shade shade) {
-    const Seen& seen = way.pure(shade).colour;
+  const auto lab = [](const Seen& seen) {
     return picture::lab_of(
         Light{picture::decoded(seen[0]), picture::decoded(seen[1]), picture::decoded(seen[2])});
   };
-  const double difference = picture::difference(lab(Shade::from), lab(Shade::to));
-  if (difference >= least_difference && way.length() >= least_colour_step) return;
+  const double difference = picture::difference(lab(from.colour), lab(to.colour));
+  const Seen way = minus(to.colour, from.colour);
+  if (difference >= least_difference && dot(way, way) >= least_colour_step * least_colour_step) return;
   throw core::DataError(
       file.string(), "",
       fmt::format("shows two colours that are too alike to read a change from (ΔE2000 is {:.1f})",
@@ -171,28 +163,25 @@ void check_colours(const ColourWay& way, const std::filesystem::path& file) {
       "light");
 }
 
-CurveAnchors anchors_of(const ColourWay& way, const std::filesystem::path& file) {
-  CurveAnchors anchors;
-  const Shade shades[] = {Shade::began, Shade::half, Shade::stopped};
-  const double ends = std::hypot(way.pure(Shade::from).doubt, way.pure(Shade::to).doubt);
-  double before = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const PureColour& pure = way.pure(shades[i]);
-    anchors.change[i] = way.change(pure.colour);
-    anchors.doubt[i] = std::hypot(pure.doubt, ends) / way.length();
-    if (anchors.change[i] < before + least_reference_step)
+/// The lines of 5, 50 and 95 % lie in this order between the pure colours.
+void check_order(const ReferenceColours& references, const std::filesystem::path& file) {
+  const ColourAnswer answer(references);
+  for (const double fat : {0.0, 1.0}) {
+    const ReferenceColours::Lines& lines = fat > 0 ? references.fat : references.thin;
+    std::array<double, 3> change{};
+    for (std::size_t i = 0; i < 3; ++i) change[i] = answer.change(lines.colour[i + 1], fat);
+    if (change[1] > most_half || change[1] < 1 - most_half)
       throw core::DataError(
-          file.string(), "", "does not show the reference lines in three different colours",
+          file.string(), "",
+          fmt::format("shows line 50 in nearly the colour of line {}", change[1] > 0.5 ? 100 : 0),
+          "print the strip with two colours of about equal strength, or with --from and --to "
+          "exchanged");
+    if (change[0] >= change[1] || change[1] >= change[2])
+      throw core::DataError(
+          file.string(), "", "does not show the reference lines in the order of their colours",
           "take it again in even light and without glare, or print the strip with two strong "
           "colours");
-    before = anchors.change[i];
   }
-  if (before > 1 - least_reference_step)
-    throw core::DataError(
-        file.string(), "", "does not show line 95 in another colour than line 100",
-        "print the strip with --from and --to exchanged: a trace of a dark colour shows in a "
-        "light one");
-  return anchors;
 }
 
 }  // namespace
@@ -226,41 +215,35 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
             "should be",
             100 * sheet.agreement()),
         "use the profile and the --range with which the strip was printed, and a sharp photo");
+  const double thin = strip.thin_width, thicker = std::max(1e-6, strip.fat_width - thin);
+  const auto fatness = [&](double width) { return std::clamp((width - thin) / thicker, 0.0, 1.0); };
   std::vector<PurePlace> places;
   for (const Strip::Lane& lane : strip.straight) {
-    if (lane.pure) add_line(sheet, lane, pure_step, places);
+    if (lane.pure)
+      add_line(sheet, lane, material_of(lane.shade, fatness(lane.width) > 0.5), pure_step, places);
   }
-  const std::size_t of_lines = places.size();
-  for (const Strip::Lane& tick : strip.ticks) add_line(sheet, tick, tick.width + 100, places);
+  for (const Strip::Lane& tick : strip.ticks) add_line(sheet, tick, tick_material, tick.width + 100, places);
   for (const Vec2& centre : strip.round_marks) add_round_mark(sheet, centre, strip.line_width, places);
   const EvenLight even = even_light(places, strip);
-  places.resize(of_lines);  // narrow lines and wide marks may look a little different
-  const ColourWay way(places, even);
-  check_colours(way, file);
+  const ReferenceLines thin_lines(places, even, false), fat_lines(places, even, true);
+  check_pure_colours(thin_lines, file);
+  check_pure_colours(fat_lines, file);
   StripCurve curve;
-  curve.anchors = anchors_of(way, file);
-  std::vector<double> besides;
+  curve.references = {thin_lines.colours(), fat_lines.colours()};
+  check_order(curve.references, file);
   for (double along = along_step / 2; along < strip.length(); along += along_step) {
     const Strip::Point here = strip.at(along), before = strip.at(along - along_step / 2),
                        after = strip.at(std::min(strip.length(), along + along_step / 2));
     const Vec2 step = after.place - before.place;
     const double width = (after.passed - before.passed) / along_step / strip.layer_height;
     const SeenLight seen = sheet.light(here.place, step.normalized(), along_step / 2, core_part * width);
-    CurvePoint point{here.passed, 0, 0};
-    double beside = 1;
-    if (seen.pixels > 0) {
-      const Seen colour = encoded(even.evened(here.place, seen.light));
-      point.change = way.change(colour);
+    CurvePoint point{here.passed, {}, fatness(width), 0};
+    // What runs across the lanes is lit from another side.
+    if (seen.pixels > 0 && seen.clipped <= most_clipped && std::abs(step.x()) > 0.9 * along_step) {
+      point.colour = encoded(even.evened(here.place, seen.light));
       point.trust = 1;
-      beside = way.beside(colour);
-      if (seen.clipped > most_clipped) point.trust = 0;
     }
     curve.points.push_back(point);
-    besides.push_back(beside);
-  }
-  const double usual = median(besides);
-  for (std::size_t i = 0; i < besides.size(); ++i) {
-    if (besides[i] > 4 * usual + 0.06) curve.points[i].trust = 0;
   }
   const auto lost = std::count_if(curve.points.begin(), curve.points.end(),
                                   [](const CurvePoint& point) { return point.trust == 0; });

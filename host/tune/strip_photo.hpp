@@ -17,7 +17,7 @@ SheetPlan sheet_plan(const Strip& strip);
 
 struct StripCurve {
   std::vector<CurvePoint> points;  ///< along the bead from the switch
-  CurveAnchors anchors;
+  ReferenceColours references;
 };
 
 /// Throws core::DataError if the sheet is another strip than this one, or if its colours are too alike or too

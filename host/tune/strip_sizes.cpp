@@ -9,7 +9,7 @@ namespace {
 constexpr double margin = 10;  ///< mm to the edge of the bed: room for clips and for the ticks of turns
 /// Of the nozzle's opening: sticks to the bed and spreads fine beads.
 constexpr double height_part = 1.0 / 3;
-constexpr double finest = 1;            ///< nozzle openings; thinner beads are hard to see in a photo
+constexpr double finest = 0.85;         ///< nozzle openings; thinner beads are hard to see in a photo
 constexpr double fattest = 2;           ///< nozzle openings; fatter beads are no longer even
 constexpr double lines_per_tick = 0.6;  ///< greatest opening for ticks at a distance of 1 mm, mm
 

@@ -113,7 +113,7 @@ TEST_CASE("The G-code switches at tick 0, lays the bead in one go and feeds the 
   bool in_bead = false;
   for (const std::string& line : print.body.front().lines) {
     if (line == ";TYPE:Solid infill") in_bead = true;
-    if (line == "T4") switched = here;
+    if (line == "T4") switched = here, fed_after = 0;  // the last switch is that of tick 0
     if (in_bead) CHECK(line.find(" E-") == std::string::npos);
     if (line.front() != 'G') continue;
     std::istringstream words(line);
