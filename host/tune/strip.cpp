@@ -50,19 +50,14 @@ class Layout {
     strip_.line_width = s_.line;
     strip_.thin_width = s_.thin / s_.layer_height;
     strip_.fat_width = s_.fat_width;
-    strip_.start = here_;
-    strip_.purge_start = here_;
-    fill(Shade::from);
-    strip_.purge = std::exchange(strip_.bead, {});
-    const double front_marks = here_.y() + s_.gap + s_.mark_radius();
-    here_ = strip_.start = {s_.left, front_marks + s_.mark_radius() + s_.gap};
+    const double front_marks = lay_front_row();
     const std::array<std::size_t, 4> percent = {percent_of(perception.began), percent_of(perception.half),
                                                 percent_of(perception.stopped), 100};
     for (std::size_t i = 0; i < percent.size(); ++i) {
-      fill(static_cast<Shade>(static_cast<std::size_t>(Shade::began) + i));
+      fill(static_cast<Shade>(static_cast<std::size_t>(Shade::began) + i), s_.left, s_.right);
       reference(i, percent[i]);
     }
-    fill(Shade::from);
+    fill(Shade::from, s_.left, s_.right);
     rise(s_.gap + s_.in_front(), Shade::from);
     if (!lay_strip()) return std::nullopt;
     return surround(front_marks) ? std::optional(std::move(strip_)) : std::nullopt;
@@ -77,16 +72,29 @@ class Layout {
   }
   void rise(double way, Shade shade) { go(here_ + core::Vec2(0, way), s_.fat, shade); }
 
+  /// Lays the lanes that fill the nozzle before the marks, between the front marks. Returns the y of these
+  /// marks.
+  double lay_front_row() {
+    const double radius = s_.mark_radius();
+    const double second = s_.left + radius + (s_.right - s_.left - 2 * radius) / 3;
+    const double left = second + radius + s_.gap, right = s_.right - 2 * radius - s_.gap;
+    here_ = strip_.purge_start = {left, s_.front + s_.fat_width / 2};
+    fill(Shade::from, left, right);
+    strip_.purge = std::exchange(strip_.bead, {});
+    here_ = strip_.start = {s_.left, std::max(here_.y(), s_.front + 2 * radius) + s_.gap};
+    return s_.front + radius;
+  }
+
   /// Lays an even number of lanes, no longer than necessary, beginning and ending at the left.
-  void fill(Shade shade) {
-    const double length = range_ / s_.fat + pure_length, room = s_.right - s_.left;
-    const double pairs = std::ceil(length / (2 * room));
-    const double end = s_.left + length / (2 * pairs);
+  void fill(Shade shade, double left, double right) {
+    const double length = range_ / s_.fat + pure_length;
+    const double pairs = std::ceil(length / (2 * (right - left)));
+    const double end = left + length / (2 * pairs);
     for (double pair = 0; pair < pairs; ++pair) {
       if (pair > 0) rise(s_.fill_pitch(), shade);
       lay_straight({end, here_.y()}, shade, false);
       rise(s_.fill_pitch(), shade);
-      lay_straight({s_.left, here_.y()}, shade, pair + 1 == pairs);
+      lay_straight({left, here_.y()}, shade, pair + 1 == pairs);
     }
   }
 

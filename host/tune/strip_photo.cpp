@@ -50,7 +50,8 @@ double median(std::vector<double> values) {
 std::size_t material_of(Shade shade, bool fat) {
   return 2 * static_cast<std::size_t>(shade) + (fat ? 1 : 0);
 }
-constexpr std::size_t tick_material = 2 * shade_count, mark_material = tick_material + 1;
+constexpr std::size_t tick_material = 2 * shade_count, mark_material = tick_material + 1,
+                      purge_material = mark_material + 1;
 
 struct PurePlace {
   Vec2 place{0, 0};
@@ -219,8 +220,11 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
   const auto fatness = [&](double width) { return std::clamp((width - thin) / thicker, 0.0, 1.0); };
   std::vector<PurePlace> places;
   for (const Strip::Lane& lane : strip.straight) {
-    if (lane.pure)
-      add_line(sheet, lane, material_of(lane.shade, fatness(lane.width) > 0.5), pure_step, places);
+    if (!lane.pure) continue;
+    // The lanes before the marks lie far from the strip.
+    const bool purge = lane.from.y() < strip.start.y();
+    add_line(sheet, lane, purge ? purge_material : material_of(lane.shade, fatness(lane.width) > 0.5),
+             pure_step, places);
   }
   for (const Strip::Lane& tick : strip.ticks) add_line(sheet, tick, tick_material, tick.width + 100, places);
   for (const Vec2& centre : strip.round_marks) add_round_mark(sheet, centre, strip.line_width, places);

@@ -6,20 +6,25 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double margin = 10;  ///< mm to the edge of the bed: room for clips and for the ticks of turns
+/// mm to the edge of the bed: room for clips and for the ticks of turns; and as a share of a small bed.
+constexpr double most_margin = 10, least_margin = 6, margin_part = 0.05;
 /// Of the nozzle's opening: sticks to the bed and spreads fine beads.
 constexpr double height_part = 1.0 / 3;
 constexpr double finest = 0.85;         ///< nozzle openings; thinner beads are hard to see in a photo
 constexpr double fattest = 2;           ///< nozzle openings; fatter beads are no longer even
 constexpr double lines_per_tick = 0.6;  ///< greatest opening for ticks at a distance of 1 mm, mm
 
+double margin(double side) {
+  return std::clamp(margin_part * side, least_margin, most_margin);
+}
+
 }  // namespace
 
 StripSizes::StripSizes(const gcode::Printer& printer)
-    : left(margin),
-      right(printer.bed[0] - margin),
-      front(margin),
-      back(printer.bed[1] - margin),
+    : left(margin(printer.bed[0])),
+      right(printer.bed[0] - margin(printer.bed[0])),
+      front(margin(printer.bed[1])),
+      back(printer.bed[1] - margin(printer.bed[1])),
       layer_height(printer.nozzle * height_part),
       line(printer.nozzle) {
   const double opening = printer.nozzle;
