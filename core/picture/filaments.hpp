@@ -31,29 +31,59 @@ inline constexpr std::array<Colour, 8> usual_filaments{{{38, 96, 196},
                                                         {40, 168, 190},
                                                         {196, 60, 140}}};
 
+/// How filaments mix. The values here are those of the formula above; fit_filaments.hpp finds others from
+/// printed mixtures. With x = −ln(light), what is averaged in each channel is (sinh(bend x) ÷ bend)^power,
+/// which is x itself for a power of 1 and no bend (Beer and Lambert), and for a power of 2 and a bend of ½
+/// the ratio of absorption to scattering of Kubelka and Munk.
+struct Mixing {
+  static constexpr double usual_loss = 0.24;
+
+  double power = 1, bend = 0;
+  /// Of the first filaments, how strongly each colours a mixture in each channel; the others have the usual
+  /// strength.
+  std::vector<Light> strengths;
+  /// Of each two filaments: a mixture keeps e^(−loss · share · other share) of its light. The usual one is
+  /// the same for all, as the sum over all two of 0.24 share · other share is 0.12 (1 − Σ share²).
+  struct Pair {
+    std::size_t one = 0, other = 1;
+    Light loss{usual_loss, usual_loss, usual_loss};
+  };
+  std::vector<Pair> pairs;
+
+  bool usual() const { return power == 1 && bend == 0 && strengths.empty() && pairs.empty(); }
+};
+
 /// The filaments of a printer's feeders, as far as their colours are concerned.
 class Filaments {
  public:
   /// The usual ones.
   Filaments() : Filaments(std::span<const Colour>()) {}
   /// Feeders beyond `pure` have the usual colours.
-  explicit Filaments(std::span<const Colour> pure);
+  explicit Filaments(std::span<const Colour> pure, const Mixing& mixing = {});
   /// Of exactly these, which may be darker or brighter than bytes can say.
-  explicit Filaments(std::span<const Light> lights);
+  explicit Filaments(std::span<const Light> lights, const Mixing& mixing = {});
 
   /// At least eight, if they come from colours.
   std::size_t size() const { return of_.size(); }
-  /// Natural logarithms of the linear light that one feeder's filament reflects.
-  const Light& logarithms(std::size_t feeder) const { return of_[feeder].logarithms; }
-  /// How strongly it colours a mixture.
-  double strength(std::size_t feeder) const { return of_[feeder].strength; }
+  /// How strongly a filament of this light colours a mixture unless something else is known.
+  static double usual_strength(const Light& light);
 
  private:
   struct Filament {
-    Light logarithms{};
+    Light averaged{};  ///< what is averaged of it: the logarithms of its light, or the formula of Mixing
     double strength = 1;
+    Light strengths{1, 1, 1};  ///< of a mixing that is not the usual one
   };
+
+  Light mixed(std::span<const double> shares) const;
+  Light mixed_as_usual(std::span<const double> shares) const;
+
   std::vector<Filament> of_;
+  bool usual_ = true;
+  double power_ = 1, bend_ = 0;
+  std::vector<Mixing::Pair> pairs_;  ///< with the loss beyond the usual one
+
+  friend Light mixed_light(std::span<const double> shares, const Filaments& filaments);
 };
 
 /// `shares`: one for each of the first feeders, with a sum of 1. Precondition: not more than the filaments.
