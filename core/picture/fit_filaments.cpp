@@ -21,7 +21,7 @@ constexpr double loss_range = 0.5, loss_spread = 0.3;
 constexpr double pure_range = 0.5;
 constexpr double least_light = 0.0015;
 /// What numbers may become; beyond that the law means nothing.
-constexpr double least_power = -0.5, most_power = 1.5, most_bend = 4, most_strength = 6;  // logs; bend²
+constexpr double least_power = -0.5, most_power = 1.5, most_bend = 4, most_strength = 4;  // logs; bend²
 constexpr double alike = 3;  ///< ΔE within which all mixtures look the same
 
 /// Steps of lightness, chroma and hue that are alike to the eye, as for ΔE2000, about a measured colour.

@@ -116,6 +116,7 @@ const std::map<std::string, Values>& placeholders() {
       {"S", free_value},
       {"MB", free_value},
       {"MM", free_value},
+      {"MM,...", free_value},
       {"MM3", free_value},
       {"NUMBERS", free_value},
       {"FEEDER", free_value},

@@ -1,23 +1,17 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <future>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/error.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
-#include "host/cli/foreground.hpp"
 #include "host/cli/terminal_output.hpp"
-#include "host/dry_run/lockstep_clock.hpp"
-#include "host/dry_run/simulator_process.hpp"
-#include "host/files/whole_file.hpp"
+#include "host/cli/test_printing.hpp"
+#include "host/cli/tune_colours.hpp"
+#include "host/cli/tune_flow.hpp"
 #include "host/job/profile_edit.hpp"
 #include "host/report/summary.hpp"
 #include "host/tune/curve_fit.hpp"
@@ -30,6 +24,7 @@ namespace unicursal::host {
 namespace {
 
 constexpr const char* usual_pictures = "transition-strip";
+constexpr const char* strip_name = "the strip";
 
 struct TuneOptions {
   std::filesystem::path profile;
@@ -79,102 +74,20 @@ void check_feeders(const TuneOptions& command, const Profile& profile) {
                         "choose two feeders of different colours");
 }
 
-void check_output(const TuneOptions& command) {
-  if (!command.output) return;
-  for (const auto& input : {std::optional(command.profile), command.machine}) {
-    std::error_code none;
-    if (!input || !std::filesystem::equivalent(*command.output, *input, none)) continue;
-    throw core::DataError(command.output->string(), "", "is a profile, which would be lost",
-                          "choose another name for the G-code");
-  }
-}
-
-void write_gcode(const FinishedPrint& print, const std::filesystem::path& file) {
-  WholeFile whole(file);
-  const auto write = [&](const gcode::Chunk& chunk) {
-    for (const std::string& line : chunk.lines) whole.stream() << line << '\n';
-  };
-  write(print.start);
-  for (const gcode::Chunk& chunk : print.body) write(chunk);
-  write(print.finish);
-  whole.publish();
-  show(stdout, "written:   {}\n", file.string());
-}
-
-/// Throws PrintError if the print has failed, TuningCancelled if the user has stopped it.
-void expect_whole(const StreamResult& result) {
-  if (result.unfit) throw PrinterUnfit(result.reason);
-  if (result.ending == Ending::failed) throw PrintError(result.reason);
-  if (result.ending == Ending::stopped) throw TuningCancelled("the strip was not printed to its end");
-}
-
-void print_on(const std::string& port, const Profile& profile, const FinishedPrint& print) {
-  FinishedSource source(print, profile.printer);
-  StreamSettings settings;
-  settings.profile = profile.file;
-  settings.link = link_options(profile, {});
-  const int open = open_port(port, profile.baud, settings.link);
-  expect_whole(stream_with_progress(open, source, {}, settings).stream);
-}
-
-std::vector<std::string> simulator_arguments(const TuneOptions& command, const Profile& profile,
-                                             const std::optional<std::filesystem::path>& pictures) {
-  std::vector<std::string> arguments = {"--profile", command.machine.value_or(command.profile).string(),
-                                        "--baud", fmt::format("{}", profile.baud)};
-  if (command.tanks) arguments.insert(arguments.end(), {"--tanks", fmt::format("{}", *command.tanks)});
-  if (pictures) arguments.insert(arguments.end(), {"--picture", pictures->string()});
-  return arguments;
-}
-
 /// Pictures are made by default only if a person will read them.
 std::optional<std::filesystem::path> pictures_of(const TuneOptions& command) {
   if (command.pictures || command.read_simulated || command.began) return command.pictures;
   return usual_pictures;
 }
 
-/// Keeps the stream in a file if `kept` is given. Returns a descriptor to read the stream from.
-int kept_stream(int stream, const std::optional<std::filesystem::path>& kept) {
-  if (!kept) return stream;
-  {
-    WholeFile file(*kept);
-    std::array<char, 65536> bytes;
-    ssize_t count = 0;
-    while ((count = read(stream, bytes.data(), bytes.size())) > 0) file.stream().write(bytes.data(), count);
-    close(stream);
-    file.publish();
-  }
-  const int again = open(kept->c_str(), O_RDONLY | O_CLOEXEC);
-  if (again < 0) throw core::FileError(kept->string(), "", "cannot be read", "check the permissions");
-  return again;
-}
-
-/// The simulator ends when the last copy of this clock is gone.
-StreamSettings in_lockstep(const SimulatorProcess& simulator, const Profile& profile) {
-  StreamSettings settings;
-  settings.profile = profile.file;
-  settings.clock = std::make_shared<LockstepClock>(simulator.control());
-  return settings;
-}
-
 std::unique_ptr<StripOnRaster> print_simulated(const TuneOptions& command, const Profile& profile,
                                                const Strip& strip, const FinishedPrint& print) {
-  if (command.machine) load_profile(*command.machine);
   auto seen = std::make_unique<StripOnRaster>(strip, strip_mixtures(profile.printer, command.feeders()));
-  const auto pictures = pictures_of(command);
-  std::future<void> watching;  // outlives the simulator, whose end is that of the stream it waits for
-  SimulatorProcess simulator(simulator_arguments(command, profile, pictures),
-                             SimulatorProcess::Time::lockstep);
-  watching = std::async(std::launch::async, [&seen, &command, rasters = simulator.take_rasters()] {
-    sim::RasterReader reader(kept_stream(rasters, command.rasters));
-    while (const auto frame = reader.next()) seen->take(*frame, reader);
-  });
-  FinishedSource source(print, profile.printer);
-  expect_whole(stream_with_progress(open_port(simulator.port(), profile.baud), source, {},
-                                    in_lockstep(simulator, profile))
-                   .stream);
-  simulator.finish();
-  watching.get();
-  if (pictures) show(stdout, "picture:   {}\n", (*pictures / "deposit-0000.png").string());
+  const SimulatedTest simulated{command.machine.value_or(command.profile), command.tanks,
+                                pictures_of(command), command.rasters};
+  simulate_test(
+      simulated, profile, print, strip_name,
+      [&](const sim::RasterFrame& frame, sim::RasterReader& rasters) { seen->take(frame, rasters); });
   return seen;
 }
 
@@ -185,8 +98,7 @@ std::unique_ptr<StripReader> reader_for(const TuneOptions& command, std::unique_
 }
 
 void report(const Strip& strip, const FinishedPrint& print) {
-  double seconds = 0, volume = 0;
-  for (const gcode::Chunk& chunk : print.body) seconds += chunk.seconds, volume += chunk.volume;
+  const auto [volume, seconds] = amount_of(print);
   show(stdout,
        "strip:     {} ticks of {:g} mm in {} lane{}, shows a transition of up to {:.0f} mm³; {:.0f} mm³ and "
        "about {} in all\n",
@@ -279,7 +191,7 @@ Exit tune_transition(const TuneOptions& command) {
   const Profile profile = load_profile(command.profile);
   const ProfileText text(command.profile);
   check_feeders(command, profile);
-  check_output(command);
+  expect_other_file(command.output, {command.profile, command.machine, command.photo});
   const Strip strip = make_strip(profile.printer, command.range);
   const FinishedPrint print = strip_print(strip, profile.printer, command.feeders());
   report(strip, print);
@@ -287,7 +199,7 @@ Exit tune_transition(const TuneOptions& command) {
     if (command.output) write_gcode(print, *command.output);
     std::unique_ptr<StripReader> simulated;
     if (command.simulate) simulated = print_simulated(command, profile, strip, print);
-    if (command.port) print_on(*command.port, profile, print);
+    if (command.port) print_test(*command.port, profile, print, strip_name);
     const bool printed = command.simulate || command.port;
     if (command.output && !printed && !command.began) {
       show(stdout, "Print this file, then run the command again without -o to enter what the strip shows.\n");
@@ -308,7 +220,10 @@ Exit tune_transition(const TuneOptions& command) {
 class Tune final : public Command {
  public:
   CLI::App& declare(CLI::App& program) override;
-  Exit run() override { return tune_transition(options_); }
+  Exit run() override {
+    if (colours_.chosen()) return colours_.run();
+    return flow_.chosen() ? flow_.run() : tune_transition(options_);
+  }
 
  private:
   void declare_strip(CLI::App& app);
@@ -316,6 +231,8 @@ class Tune final : public Command {
   void declare_reading(CLI::App& app);
 
   TuneOptions options_;
+  TuneColours colours_;
+  TuneFlow flow_;
 };
 
 CLI::App& Tune::declare(CLI::App& program) {
@@ -337,6 +254,8 @@ CLI::App& Tune::declare(CLI::App& program) {
   declare_strip(*app);
   declare_printing(*app);
   declare_reading(*app);
+  colours_.declare(tune);
+  flow_.declare(tune);
   return tune;
 }
 

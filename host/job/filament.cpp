@@ -36,6 +36,9 @@ constexpr std::array<Plastic, 11> plastics{{{"PLA", 1.24},
 
 const char* const list_remedy =
     "write [[filament]] once for each feeder and below it for example colour = \"#2660c4\"";
+const char* const losses_remedy =
+    "write two feeders and the losses of red, green and blue, for example losses = [[1, 2, 0.3, 0.2, 0.2]]";
+constexpr double strongest = 1000, greatest_loss = 100;
 const char* const name_remedy = "write one name for each feeder, for example [\"red\", \"white\", \"blue\"]";
 
 std::optional<double> density_of(const std::string& material) {
@@ -96,6 +99,9 @@ Filament read_filament(const Section& section, Filament filament) {
     filament.see_through =
         section.number("see_through", between(0.01, thickest, "mm"),
                        "write the thickness that light hardly passes, for example see_through = 4.0");
+  if (section.has("strength"))
+    filament.strength = section.numbers_or("strength", picture::Light{}, {0, strongest, true, ""},
+                                           "write strength = [red, green, blue], or leave it out");
   return filament;
 }
 
@@ -108,6 +114,52 @@ std::string read_currency(const Section& section) {
   if (currency.empty() || currency.size() > longest || bad)
     section.fail("currency", fmt::format("is not a name of 1 to {} characters", longest), remedy);
   return currency;
+}
+
+picture::Mixing::Pair read_loss(const Section& section, const toml::node& node, std::size_t feeders) {
+  const toml::array* list = node.as_array();
+  if (!list || list->size() != 5)
+    section.fail("losses", "is not a list of lists of five numbers", losses_remedy);
+  std::array<double, 5> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::optional<double> number = (*list)[i].value<double>();
+    if (!number || !(std::abs(*number) <= greatest_loss))
+      section.fail("losses", fmt::format("holds something that is not a number up to {:g}", greatest_loss),
+                   losses_remedy);
+    numbers[i] = *number;
+  }
+  const auto feeder = [&](double number) {
+    if (number != std::floor(number) || number < 1 || number > static_cast<double>(feeders))
+      section.fail("losses", fmt::format("names feeder {:g}, but there are {} feeders", number, feeders),
+                   losses_remedy);
+    return static_cast<std::size_t>(number) - 1;
+  };
+  const picture::Mixing::Pair pair{
+      feeder(numbers[0]), feeder(numbers[1]), {numbers[2], numbers[3], numbers[4]}};
+  if (pair.one == pair.other)
+    section.fail("losses", fmt::format("names feeder {} twice in one list", pair.one + 1), losses_remedy);
+  return pair;
+}
+
+void read_colours(const Section& section, Filaments& filaments) {
+  filaments.power =
+      section.number_or("power", filaments.power, between(0.25, 8, ""), "write for example power = 2.0");
+  filaments.bend =
+      section.number_or("bend", filaments.bend, between(0, 4, ""), "write for example bend = 0.5");
+  const toml::node* node = section.find("losses");
+  if (!node) return;
+  const toml::array* list = node->as_array();
+  if (!list) section.fail("losses", "is not a list", losses_remedy);
+  for (const toml::node& one : *list) {
+    const picture::Mixing::Pair pair = read_loss(section, one, filaments.of_feeders.size());
+    const auto same = [&](const picture::Mixing::Pair& other) {
+      return std::minmax(pair.one, pair.other) == std::minmax(other.one, other.other);
+    };
+    if (std::any_of(filaments.losses.begin(), filaments.losses.end(), same))
+      section.fail("losses", fmt::format("holds feeders {} and {} twice", pair.one + 1, pair.other + 1),
+                   "keep one list of the two");
+    filaments.losses.push_back(pair);
+  }
 }
 
 /// extruder.filaments
@@ -130,10 +182,26 @@ void read_names(const Section& section, Filaments& filaments) {
 
 }  // namespace
 
+picture::Mixing Filaments::mixing() const {
+  picture::Mixing mixing;
+  mixing.power = power;
+  mixing.bend = bend;
+  mixing.pairs = losses;
+  const bool strong = std::any_of(of_feeders.begin(), of_feeders.end(),
+                                  [](const Filament& filament) { return filament.strength.has_value(); });
+  for (const Filament& filament : of_feeders) {
+    if (!strong) break;
+    picture::Light usual{};
+    usual.fill(picture::Filaments::usual_strength(picture::light_of(filament.colour)));
+    mixing.strengths.push_back(filament.strength.value_or(usual));
+  }
+  return mixing;
+}
+
 picture::Filaments Filaments::colours() const {
   std::vector<picture::Colour> pure;
   for (const Filament& filament : of_feeders) pure.push_back(filament.colour);
-  return picture::Filaments(pure);
+  return picture::Filaments(pure, mixing());
 }
 
 Filaments usual_filaments(const gcode::Printer& printer) {
@@ -155,6 +223,7 @@ std::optional<std::size_t> filament_count(const Section& root) {
 
 Filaments read_filaments(const Section& root, const Section& extruder, gcode::Printer& printer) {
   Filaments filaments = usual_filaments(printer);
+  read_colours(root.section_or_empty("colours", keys::colours), filaments);
   const toml::array* list = filament_list(root);
   if (!list) {
     read_names(extruder, filaments);
@@ -166,6 +235,7 @@ Filaments read_filaments(const Section& root, const Section& extruder, gcode::Pr
     root.fail("filament",
               fmt::format("stands there {} times, but extruder.feeders is {}", list->size(), printer.feeders),
               list_remedy);
+  filaments.listed = true;
   std::optional<std::string> currency;
   for (std::size_t f = 0; f < printer.feeders; ++f) {
     const Section section(root.file(), *(*list)[f].as_table(), fmt::format("filament[{}]", f),

@@ -22,13 +22,19 @@ struct Filament {
   /// Thickness through which hardly any light passes any more; absent: not measured. Nothing depends on it
   /// yet.
   std::optional<double> see_through;
+  /// How strongly it colours mixtures in red, green and blue; absent: the usual strength of its colour.
+  std::optional<picture::Light> strength;
 };
 
 struct Filaments {
   std::vector<Filament> of_feeders;  ///< one for each feeder
   std::string currency = "EUR";      ///< of all prices
   bool named = false;                ///< by the profile
+  bool listed = false;               ///< by [[filament]]
+  double power = 1, bend = 0;        ///< of [colours], as of picture::Mixing
+  std::vector<picture::Mixing::Pair> losses;
 
+  picture::Mixing mixing() const;
   picture::Filaments colours() const;
 };
 
@@ -39,9 +45,9 @@ Filaments usual_filaments(const gcode::Printer& printer);
 /// tables.
 std::optional<std::size_t> filament_count(const Section& root);
 
-/// Reads [[filament]], or else the names in extruder.filaments. The printer's feeders have been read. A
-/// filament that is thicker or thinner than extruder.filament_diameter changes the flow factor of its feeder,
-/// since the firmware counts lengths. Throws JobError.
+/// Reads [colours] and [[filament]], or else the names in extruder.filaments. The printer's feeders have been
+/// read. A filament that is thicker or thinner than extruder.filament_diameter changes the flow factor of its
+/// feeder, since the firmware counts lengths. Throws JobError.
 Filaments read_filaments(const Section& root, const Section& extruder, gcode::Printer& printer);
 
 }  // namespace unicursal::host

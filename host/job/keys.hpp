@@ -39,7 +39,8 @@ inline const Keys zone = {"select", "pattern", "boundary", "mixture", "transitio
 inline const Keys pattern = {"angle", "field"};
 inline const Keys gradient = {"from", "to", "along", "over"};
 
-inline const Keys profile = {"printer", "extruder", "filament", "temperature", "transition", "gcode"};
+inline const Keys profile = {"printer",     "extruder",   "filament", "colours",
+                             "temperature", "transition", "gcode"};
 inline const Keys printer = {"name",
                              "firmware",
                              "port",
@@ -61,8 +62,9 @@ inline const Keys extruder = {
     "feeders",          "filament_diameter", "max_flow", "floor_share",  "retraction_length",
     "retraction_speed", "filaments",         "z_hop",    "steps_per_mm", "flow_factors",
     "max_speed",        "max_acceleration",  "jerk",     "tube_length"};
-inline const Keys filament = {"name",    "colour", "material", "diameter",
-                              "density", "price",  "currency", "see_through"};
+inline const Keys filament = {"name",  "colour",   "material",    "diameter", "density",
+                              "price", "currency", "see_through", "strength"};
+inline const Keys colours = {"power", "bend", "losses"};
 inline const Keys temperature = {"nozzle", "bed"};
 inline const Keys transition = {"dead_volume", "mixing_volume", "tanks", "overshoot"};
 inline const Keys gcode = {"start", "end"};

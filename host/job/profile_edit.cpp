@@ -1,6 +1,7 @@
 #include "host/job/profile_edit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -15,9 +16,6 @@
 
 namespace unicursal::host {
 namespace {
-
-constexpr const char* section = "transition";
-constexpr const char* transition_keys[] = {"dead_volume", "mixing_volume", "tanks"};
 
 std::string read(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -61,37 +59,47 @@ void replace_value(std::string& text, const toml::source_region& where, const st
   text.replace(begin, old, value);
 }
 
-const toml::node* find(const toml::table& root, const char* key) {
-  const toml::table* table = root[section].as_table();
+/// The table of a change; absent if it is not there, or is something else.
+template <class Table>
+auto table_of(Table& root, const ProfileChange& change) {
+  auto* node = root.get(change.table);
+  if (node && change.index) {
+    auto* list = node->as_array();
+    node = list && *change.index < list->size() ? list->get(*change.index) : nullptr;
+  }
+  return node ? node->as_table() : nullptr;
+}
+
+const toml::node* find(const toml::table& root, const ProfileChange& change, const std::string& key) {
+  const toml::table* table = table_of(root, change);
   return table == nullptr ? nullptr : table->get(key);
 }
 
-/// Adds `key` after the section's other key, in the same form.
-void add_beside(std::string& text, const toml::table& root, const char* sister, const std::string& key,
-                const std::string& value) {
-  const toml::source_region& where = find(root, sister)->source();
-  if (root[section].as_table()->is_inline()) {
-    text.insert(offset_of(text, where.end), fmt::format(", {} = {}", key, value));
+/// Adds the key after another one of its table, in the same form.
+void add_beside(std::string& text, const toml::table& root, const ProfileChange& change) {
+  const toml::source_region& where = find(root, change, change.beside)->source();
+  if (table_of(root, change)->is_inline()) {
+    text.insert(offset_of(text, where.end), fmt::format(", {} = {}", change.key, change.value));
     return;
   }
   const std::size_t at = offset_of(text, where.begin);
   const std::size_t start = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
   std::string line = text.substr(start, at - start);
-  const std::size_t name = line.rfind(sister);
+  const std::size_t name = line.rfind(change.beside);
   if (name == std::string::npos) return;  // written with escapes: the final check refuses it
-  line.replace(name, std::string(sister).size(), key);
-  text.insert(line_end(text, at), line_break_of(text) + line + value);
+  line.replace(name, change.beside.size(), change.key);
+  text.insert(line_end(text, offset_of(text, where.end)), line_break_of(text) + line + change.value);
 }
 
-/// Adds `key` as the first one below the section's heading; a missing section is added at the end.
-void add_to_section(std::string& text, const toml::table& root, const std::string& key,
-                    const std::string& value) {
-  const std::string line_break = line_break_of(text), line = fmt::format("{} = {}", key, value);
-  const toml::table* table = root[section].as_table();
+/// Adds the key as the first one below the table's heading; a missing table is added at the end.
+void add_to_table(std::string& text, const toml::table& root, const ProfileChange& change) {
+  const std::string line_break = line_break_of(text), line = fmt::format("{} = {}", change.key, change.value);
+  const toml::table* table = table_of(root, change);
   if (table == nullptr) {
+    if (change.index) return;  // the final check refuses it
     if (!text.empty() && text.back() != '\n') text += line_break;
     if (!text.empty()) text += line_break;
-    text += fmt::format("[{}]{}{}{}", section, line_break, line, line_break);
+    text += fmt::format("[{}]{}{}{}", change.table, line_break, line, line_break);
   } else if (table->is_inline()) {
     text.insert(offset_of(text, table->source().begin) + 1, fmt::format(" {} ", line));
   } else {
@@ -99,80 +107,99 @@ void add_to_section(std::string& text, const toml::table& root, const std::strin
   }
 }
 
-void set(std::string& text, const char* key, const char* sister, const std::string& value,
-         const std::filesystem::path& file) {
+void make(const ProfileChange& change, std::string& text, const std::filesystem::path& file) {
   const toml::table root = parse_toml(text, file);
-  if (const toml::node* node = find(root, key)) {
-    replace_value(text, node->source(), value);
-  } else if (find(root, sister) != nullptr) {
-    add_beside(text, root, sister, key, value);
+  if (const toml::node* node = find(root, change, change.key)) {
+    replace_value(text, node->source(), change.value);
+  } else if (!change.beside.empty() && find(root, change, change.beside) != nullptr) {
+    add_beside(text, root, change);
   } else {
-    add_to_section(text, root, key, value);
+    add_to_table(text, root, change);
   }
 }
 
-void erase_keys(toml::table& root, std::size_t count) {
-  toml::table* table = root[section].as_table();
+void erase(toml::table& root, const ProfileChange& change) {
+  toml::table* table = table_of(root, change);
   if (table == nullptr) return;
-  for (std::size_t i = 0; i < count; ++i) table->erase(transition_keys[i]);
-  if (table->empty()) root.erase(section);
+  table->erase(change.key);
+  if (table->empty() && !change.index) root.erase(change.table);
 }
 
-bool holds(const toml::table& root, const char* key, const std::string& value) {
-  const toml::node* node = find(root, key);
-  return node != nullptr && node->value<double>() == std::stod(value);
+bool holds(const toml::table& root, const ProfileChange& change) {
+  const toml::node* node = find(root, change, change.key);
+  if (node == nullptr) return false;
+  toml::table wanted = toml::parse("value = " + change.value), found;
+  found.insert("value", *node);
+  return wanted == found;
 }
 
 /// Whether the edit changed exactly what it should.
 bool differs_only_there(const std::string& before, const std::string& after,
-                        const std::vector<std::string>& values, const std::filesystem::path& file) {
+                        std::span<const ProfileChange> changes, const std::filesystem::path& file) {
   try {
     toml::table old_table = parse_toml(before, file), new_table = parse_toml(after, file);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!holds(new_table, transition_keys[i], values[i])) return false;
+    for (const ProfileChange& change : changes) {
+      if (!holds(new_table, change)) return false;
+      erase(old_table, change);
+      erase(new_table, change);
     }
-    erase_keys(old_table, values.size());
-    erase_keys(new_table, values.size());
     return old_table == new_table;
   } catch (const JobError&) {
     return false;
   }
 }
 
-/// What a person can do instead, as the beginning of a sentence.
-std::string by_hand(const MeasuredTransition& found) {
-  const std::string volumes = fmt::format("dead_volume = {:.2f}{} mixing_volume = {:.2f}", found.dead_volume,
-                                          found.tanks ? "," : " and", found.mixing_volume);
-  return "write " + volumes + (found.tanks ? fmt::format(" and tanks = {}", *found.tanks) : "");
+std::string in_words(std::span<const ProfileChange> changes) {
+  std::vector<std::string> words;
+  for (const ProfileChange& change : changes) {
+    const std::string table =
+        change.index ? fmt::format("{}[{}]", change.table, *change.index) : change.table;
+    words.push_back(fmt::format("{}.{} = {}", table, change.key, change.value));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::vector<ProfileChange> transition_changes(const MeasuredTransition& found) {
+  std::vector<ProfileChange> changes{
+      {"transition", {}, "dead_volume", fmt::format("{:.2f}", found.dead_volume), "mixing_volume"},
+      {"transition", {}, "mixing_volume", fmt::format("{:.2f}", found.mixing_volume), "dead_volume"}};
+  if (found.tanks)
+    changes.push_back({"transition", {}, "tanks", fmt::format("{}", *found.tanks), "dead_volume"});
+  return changes;
 }
 
 }  // namespace
 
-std::string with_transition(const std::string& text, const MeasuredTransition& found,
-                            const std::filesystem::path& file) {
-  std::vector<std::string> values = {fmt::format("{:.2f}", found.dead_volume),
-                                     fmt::format("{:.2f}", found.mixing_volume)};
-  if (found.tanks) values.push_back(fmt::format("{}", *found.tanks));
+std::string with_changes(const std::string& text, std::span<const ProfileChange> changes,
+                         const std::filesystem::path& file) {
   parse_toml(text, file);
   std::string changed = text;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    set(changed, transition_keys[i], transition_keys[i == 0 ? 1 : 0], values[i], file);
-  if (!differs_only_there(text, changed, values, file)) {
-    throw JobError(file.string(), section, "is written in a way that cannot be changed here",
-                   by_hand(found) + " yourself");
+  for (const ProfileChange& change : changes) make(change, changed, file);
+  if (!differs_only_there(text, changed, changes, file)) {
+    throw JobError(file.string(), changes.front().table, "is written in a way that cannot be changed here",
+                   fmt::format("write {} yourself", in_words(changes)));
   }
   return changed;
 }
 
+std::string with_transition(const std::string& text, const MeasuredTransition& found,
+                            const std::filesystem::path& file) {
+  return with_changes(text, transition_changes(found), file);
+}
+
 ProfileText::ProfileText(std::filesystem::path file) : file_(std::move(file)), text_(read(file_)) {}
 
-void ProfileText::set_transition(const MeasuredTransition& found) const {
-  const std::string changed = with_transition(text_, found, file_);
+void ProfileText::set(std::span<const ProfileChange> changes) const {
+  const std::string changed = with_changes(text_, changes, file_);
   if (read(file_) != text_) {
     throw core::FileError(file_.string(), "", "has been changed by another program meanwhile",
-                          by_hand(found) + " into it yourself");
+                          fmt::format("write {} into it yourself", in_words(changes)));
   }
   write_whole_file(file_, changed, WholeFile::Access::as_before);
+}
+
+void ProfileText::set_transition(const MeasuredTransition& found) const {
+  set(transition_changes(found));
 }
 
 }  // namespace unicursal::host

@@ -81,6 +81,21 @@ StripReading TerminalReader::read(const Strip& strip) {
   }
 }
 
+std::optional<double> typed_number(const std::string& text) {
+  return number_in(trimmed(text));
+}
+
+double asked_number(std::istream& in, std::ostream& out, const std::string& question, double least,
+                    double most) {
+  for (;;) {
+    const std::string answer = line_of(in, out, question + " ");
+    if (answer == "q" || answer == "Q") throw TuningCancelled("as requested");
+    const std::optional<double> number = number_in(answer);
+    if (number && *number >= least && *number <= most) return *number;
+    out << fmt::format("  Please enter a number from {:g} to {:g}, such as 20.5; q quits.\n", least, most);
+  }
+}
+
 bool confirmed(std::istream& in, std::ostream& out, const std::string& question) {
   const std::string answer = line_of(in, out, question + " [y/N] ");
   return answer == "y" || answer == "Y" || answer == "yes";

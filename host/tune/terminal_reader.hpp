@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 #include "host/tune/reading.hpp"
@@ -23,6 +24,13 @@ class TerminalReader final : public StripReader {
   std::istream& in_;
   std::ostream& out_;
 };
+
+/// A number as people type it, with a decimal comma or point and blanks around it; absent if it is none.
+std::optional<double> typed_number(const std::string& text);
+
+/// Asks until a number from `least` to `most` is given. `q` and the end of the input throw TuningCancelled.
+double asked_number(std::istream& in, std::ostream& out, const std::string& question, double least,
+                    double most);
 
 /// Asks a yes-or-no question; any answer but yes counts as no.
 bool confirmed(std::istream& in, std::ostream& out, const std::string& question);

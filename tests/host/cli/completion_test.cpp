@@ -94,7 +94,7 @@ TEST_CASE("the program knows what can stand next on its command line") {
   CHECK(offers({"--ve"}) == " --version ");
   CHECK(offers({"dry-run", "--lay"}) == " --layers ");
   CHECK(offers({"dry-run", "leaf.toml", "--charge"}) == " --charge-planning ");
-  CHECK(offers({"tune", ""}) == " transition ");
+  CHECK(offers({"tune", ""}) == " transition colours flow ");
   CHECK(offers({"tune", "transition", "--sto"}) == " --stopped ");
   CHECK(offers({"status", ""}) == " --help --daemon --token --state --json ");  // nothing else can follow
   CHECK(offers({"wrong", ""}).find(" dry-run ") != std::string::npos);
@@ -144,7 +144,8 @@ TEST_CASE("any words can be asked about") {
 }
 
 TEST_CASE("each placeholder in the help is one whose values Tab knows") {
-  std::vector<std::vector<std::string>> commands{{"tune", "transition"}};
+  std::vector<std::vector<std::string>> commands{
+      {"tune", "transition"}, {"tune", "colours"}, {"tune", "flow"}};
   std::istringstream names(offers({""}));
   for (std::string name; names >> name;) commands.push_back({name});
   CHECK(commands.size() > 20);

@@ -157,7 +157,7 @@ TEST_CASE("The README's commands run", "[optimised]") {
 }
 
 TEST_CASE("The README's text names commands that exist") {
-  static const std::regex span("`unicursal ([a-z-]+( transition)?)( [^`]*|)`");
+  static const std::regex span("`unicursal ([a-z-]+( transition| colours| flow)?)( [^`]*|)`");
   const std::string text = readme();
   std::size_t count = 0;
   for (std::sregex_iterator i(text.begin(), text.end(), span), end; i != end; ++i, ++count) {

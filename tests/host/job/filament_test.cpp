@@ -70,6 +70,28 @@ TEST_CASE("A profile names the filaments of its feeders, and their number is tha
   CHECK_FALSE(filaments[2].price);
 }
 
+TEST_CASE("How filaments mix can be named, and what is left out is usual") {
+  const std::string some = blue + "strength = [1.5, 2, 0.5]\n" + yellow + wood;
+  const Profile usual = profile_with(blue + yellow + wood);
+  CHECK(usual.filaments.mixing().usual());
+  const Profile profile =
+      profile_with(some + "[colours]\npower = 2\nbend = 0.5\nlosses = [[3, 1, 0.1, 0.2, 0.3]]\n");
+  const picture::Mixing mixing = profile.filaments.mixing();
+  CHECK(mixing.power == 2);
+  CHECK(mixing.bend == 0.5);
+  REQUIRE(mixing.strengths.size() == 3);
+  CHECK(mixing.strengths[0] == picture::Light{1.5, 2, 0.5});
+  const double other = picture::Filaments::usual_strength(picture::light_of(picture::Colour{240, 190, 40}));
+  CHECK(mixing.strengths[1] == picture::Light{other, other, other});
+  REQUIRE(mixing.pairs.size() == 1);
+  CHECK((mixing.pairs[0].one == 2 && mixing.pairs[0].other == 0 && mixing.pairs[0].loss[1] == 0.2));
+  // A filament that colours more strongly shows more.
+  const std::vector<double> half{0.5, 0.5, 0};
+  const picture::Colour strong =
+      colour_of(half, profile_with(blue + "strength = [9, 9, 9]\n" + yellow + wood).filaments.colours());
+  CHECK(strong.r < colour_of(half, usual.filaments.colours()).r);
+}
+
 TEST_CASE("A thinner filament is fed farther, in proportion to its section") {
   const Profile profile = profile_with(blue + yellow);
   CHECK(profile.printer.flow_factors[0] == Approx(std::pow(1.75 / 1.71, 2)));
@@ -107,6 +129,17 @@ TEST_CASE("A mistake in a filament is reported with file, line, key and remedy")
             {"filament[1].currency", "\"EUR\"", "\"CHF\"", "one currency"}},
            {blue + sound + "currency = \"\"\n", {"filament[1].currency", "1 to 8"}},
            {blue + sound + "see_through = 0\n", {"filament[1].see_through", "mm"}},
+           {blue + sound + "strength = [1, 2]\n", {"filament[1].strength", "3", "[red, green, blue]"}},
+           {blue + sound + "strength = [1, 0, 2]\n", {"filament[1].strength", "above 0"}},
+           {blue + sound + "[colours]\npower = 0\n", {"line 24", "colours.power", "0.25 to 8"}},
+           {blue + sound + "[colours]\nlosses = [1, 2, 0.2, 0.2, 0.2]\n", {"colours.losses", "five numbers"}},
+           {blue + sound + "[colours]\nlosses = [[1, 2, 0.2, 0.2, \"x\"]]\n",
+            {"colours.losses", "not a number", "[[1, 2, 0.3"}},
+           {blue + sound + "[colours]\nlosses = [[1, 3, 0.2, 0.2, 0.2]]\n",
+            {"colours.losses", "feeder 3", "2 feeders"}},
+           {blue + sound + "[colours]\nlosses = [[2, 2, 0.2, 0.2, 0.2]]\n", {"colours.losses", "twice"}},
+           {blue + sound + "[colours]\nlosses = [[1, 2, 0, 0, 0], [2, 1, 0, 0, 0]]\n",
+            {"colours.losses", "feeders 2 and 1 twice"}},
            {"\n[filament]\nname = \"x\"\n", {"filament", "list of filaments", "[[filament]]"}}}) {
     const std::string sentence = complaint(without_number() + one.filaments);
     INFO(sentence);

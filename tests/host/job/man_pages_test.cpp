@@ -67,10 +67,12 @@ TEST_CASE("unicursal-profile(5) names the keys of a profile and no others") {
   add(known, "extruder", keys::extruder);
   add(known, "filament", keys::filament);
   add(known, "temperature", keys::temperature);
+  add(known, "colours", keys::colours);
   add(known, "transition", keys::transition);
   add(known, "gcode", keys::gcode);
   CHECK(documented(page("unicursal-profile.5")) == known);
-  CHECK(keys::profile == keys::Keys{"printer", "extruder", "filament", "temperature", "transition", "gcode"});
+  CHECK(keys::profile ==
+        keys::Keys{"printer", "extruder", "filament", "colours", "temperature", "transition", "gcode"});
 }
 
 TEST_CASE("unicursal-profile(5) names every placeholder of start and end lines") {

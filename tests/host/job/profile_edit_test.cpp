@@ -61,6 +61,32 @@ TEST_CASE("The two numbers are replaced and everything else stays, in every way 
   }
 }
 
+TEST_CASE("Values of lists of tables and lists of several lines are changed as well") {
+  const std::vector<ProfileChange> changes{{"filament", 0, "strength", "[1, 2, 3]", "colour"},
+                                           {"filament", 1, "strength", "[4, 5, 6]", "colour"},
+                                           {"filament", 1, "colour", "\"#010203\"", ""},
+                                           {"colours", {}, "power", "2.1", ""},
+                                           {"colours", {}, "losses", "[\n  [1, 2, 3, 4, 5],\n]", "power"}};
+  const std::pair<const char*, const char*> cases[] = {
+      {"[printer]\nname = \"a\"\n[[filament]] # one\ncolour = \"#ffffff\" # white\n[[filament]]\nname = "
+       "\"x\"\n\n[extruder] # end\n",
+       "[printer]\nname = \"a\"\n[[filament]] # one\ncolour = \"#ffffff\" # white\nstrength = [1, 2, "
+       "3]\n[[filament]]\ncolour = \"#010203\"\nstrength = [4, 5, 6]\nname = \"x\"\n\n[extruder] # "
+       "end\n\n[colours]\npower = 2.1\nlosses = [\n  [1, 2, 3, 4, 5],\n]\n"},
+      {"filament = [{ colour = \"#ffffff\" }, {}]\n[colours]\nlosses = [\n  [1, 2, 0, 0, 0], # a\n]\npower = "
+       "1 # b\n",
+       "filament = [{ colour = \"#ffffff\", strength = [1, 2, 3] }, { colour = \"#010203\" ,  strength = [4, "
+       "5, 6] }]\n[colours]\nlosses = [\n  [1, 2, 3, 4, 5],\n]\npower = 2.1 # b\n"},
+  };
+  for (const auto& [before, after] : cases) {
+    CAPTURE(before);
+    CHECK(with_changes(before, changes, "p.toml") == after);
+    CHECK(with_changes(after, changes, "p.toml") == after);
+  }
+  CHECK_THROWS_WITH(with_changes("[printer]\n", changes, "p.toml"),
+                    Catch::Contains("filament[0].strength = [1, 2, 3]"));
+}
+
 TEST_CASE("What cannot be edited safely is refused") {
   CHECK_THROWS_AS(edited("[transition\n"), core::DataError);
   CHECK_THROWS_AS(edited("transition = 3\n"), core::DataError);

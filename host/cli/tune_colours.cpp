@@ -1,0 +1,151 @@
+#include "host/cli/tune_colours.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+
+#include "core/error.hpp"
+#include "core/picture/hex_colour.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/terminal_output.hpp"
+#include "host/cli/test_printing.hpp"
+#include "host/job/profile.hpp"
+#include "host/job/profile_edit.hpp"
+#include "host/report/summary.hpp"
+#include "host/tune/chart.hpp"
+#include "host/tune/chart_fit.hpp"
+#include "host/tune/terminal_reader.hpp"
+
+namespace unicursal::host {
+namespace {
+
+constexpr const char* chart_name = "the chart";
+
+std::size_t darkest_feeder(const Filaments& filaments) {
+  const auto lightness = [](const Filament& filament) {
+    return picture::lab_of(picture::light_of(filament.colour)).lightness;
+  };
+  const auto& all = filaments.of_feeders;
+  const auto darkest = std::min_element(all.begin(), all.end(), [&](const Filament& a, const Filament& b) {
+    return lightness(a) < lightness(b);
+  });
+  return static_cast<std::size_t>(darkest - all.begin());
+}
+
+/// What is measured is kept in [[filament]].
+void expect_filaments(const Profile& profile) {
+  if (profile.filaments.listed) return;
+  throw core::DataError(profile.file.string(), "filament", "is missing, so that nothing names the colours",
+                        "write [[filament]] once for each feeder and below it for example colour = "
+                        "\"#2660c4\", see unicursal-profile(5)");
+}
+
+void report(const Chart& chart, const FinishedPrint& print) {
+  const auto [volume, seconds] = amount_of(print);
+  show(stdout, "chart:     {} patches; {:.0f} mm³ and about {} in all\n", chart.patches.size(), volume,
+       duration_words(seconds));
+}
+
+void report(const Chart& chart, const ChartFit& fit, const Filaments& before) {
+  show(stdout, "patch  mixture                foretold  seen     ΔE, then and now\n");
+  for (const FittedPatch& patch : fit.patches) {
+    show(stdout, "{:5}  {:21}  {}   {}  {:4.1f} {:5.1f}{}\n", patch.patch + 1,
+         shares_text(chart.patches[patch.patch].mixture), picture::hex_of(patch.foretold),
+         picture::hex_of(patch.seen), patch.before, patch.after, patch.stands_out ? "  stands out" : "");
+  }
+  for (std::size_t f = 0; f < before.of_feeders.size(); ++f) {
+    const picture::Colour was = before.of_feeders[f].colour, is = fit.filaments.of_feeders[f].colour;
+    if (was != is) show(stdout, "feeder {}: {} is {}\n", f + 1, picture::hex_of(was), picture::hex_of(is));
+  }
+  show(stdout, "median:    a ΔE of {:.1f} before, {:.1f} now\n", fit.before, fit.after);
+  const auto outstanding = std::count_if(fit.patches.begin(), fit.patches.end(),
+                                         [](const FittedPatch& patch) { return patch.stands_out; });
+  if (outstanding > 0)
+    show(stdout,
+         "What stands out counts little. Look at these patches; measure them again, or leave them "
+         "out.\n");
+}
+
+}  // namespace
+
+void TuneColours::declare(CLI::App& tune) {
+  CLI::App& app = *tune.add_subcommand(
+      "colours", "Measure how the filaments mix with a chart and write it to the profile.");
+  app_ = &app;
+  app.footer(
+      "Examples:\n  unicursal tune colours diamond.toml --port auto           print the chart, then:\n"
+      "  unicursal tune colours diamond.toml --measured colours.csv");
+  add_note(
+      app,
+      "The chart shows the filaments alone, each of them twice, and mixtures. Measure the colours of its "
+      "patches, for example with a colorimeter, and write a line for each patch into a file: its number "
+      "and \"#rrggbb\", or its number, L, a and b. The command shows how far the patches lie from what "
+      "was foretold, before and now. It changes only the colours and strengths of the profile's "
+      "[[filament]] and its [colours], and only after you confirm.");
+  constexpr auto printing = "Printing", reading = "Reading", simulated = "Simulated printer";
+  add_value(app, "PROFILE", profile_, " ", "The printer's profile: see unicursal-profile(5).").required();
+  add_value(app, "--marks", marks_, "FEEDER",
+            "Feeder of the marks and numbers, which should stand out from the bed. Default: the darkest.")
+      .check(integer_between(1, 8))
+      ->group(printing);
+  CLI::Option& port = add_value(app, "--port", port_, "PORT",
+                                "Print the chart on this serial port, or auto to search for the printer.");
+  port.group(printing);
+  add_value(app, "-o,--output", output_, "FILE", "Write the chart to this file, as G-code.").group(printing);
+  CLI::Option* simulate =
+      app.add_flag("--simulate", simulate_, "Print the chart on the simulated printer.")->excludes(&port);
+  simulate->option_text(" ")->group(printing);
+  add_value(app, "--picture", pictures_, "DIR", "Folder for pictures of the simulated chart.")
+      .needs(simulate)
+      ->group(simulated);
+  add_value(app, "--rasters", rasters_, "FILE",
+            "Keep what the simulated printer has laid in this file (sim/bed/raster.hpp).")
+      .needs(simulate)
+      ->group(simulated);
+  add_value(app, "--measured", measured_, "FILE", "The measured colours of the chart's patches.")
+      .group(reading);
+  app.add_flag("--yes", yes_, "Write to the profile without asking.")->group(reading);
+}
+
+bool TuneColours::chosen() const {
+  return app_ && app_->parsed();
+}
+
+Exit TuneColours::run() const {
+  const Profile profile = load_profile(profile_);
+  const ProfileText text(profile_);
+  expect_filaments(profile);
+  expect_other_file(output_, {profile_, measured_});
+  if (marks_ && *marks_ > profile.printer.feeders)
+    throw core::DataError("", "--marks", fmt::format("this printer has no feeder {}", *marks_),
+                          fmt::format("choose one of 1 to {}", profile.printer.feeders));
+  const Chart chart = make_chart(profile.printer, marks_ ? *marks_ - 1 : darkest_feeder(profile.filaments));
+  const FinishedPrint print = gcode_of(chart.print, profile.printer);
+  report(chart, print);
+  try {
+    if (output_) write_gcode(print, *output_);
+    if (simulate_) simulate_test({profile_, {}, pictures_, rasters_}, profile, print, chart_name, skip_layer);
+    if (port_) print_test(*port_, profile, print, chart_name);
+    if (!measured_) {
+      show(stdout, "Measure the patches of the printed chart, then run the command again with --measured.\n");
+      return Exit::success;
+    }
+    const ChartFit fit =
+        fit_chart(chart, profile.filaments, read_measured_colours(*measured_, chart.patches.size()),
+                  picture::PureColours::fitted);
+    report(chart, fit, profile.filaments);
+    const std::string question = fmt::format("Write this into {}?", profile_.string());
+    if (!yes_ && !confirmed(std::cin, std::cout, question))
+      throw TuningCancelled("the result was not accepted");
+    text.set(colour_changes(profile.filaments, fit.filaments));
+    show(stdout, "written:   {}\n", profile_.string());
+    return Exit::success;
+  } catch (const TuningCancelled& cancelled) {
+    show(stdout, "{}; the profile was not changed\n", cancelled.what());
+    return Exit::failed;
+  }
+}
+
+}  // namespace unicursal::host
