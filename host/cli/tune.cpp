@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
+#include "host/cli/photo_corners.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/cli/test_printing.hpp"
 #include "host/cli/tune_colours.hpp"
@@ -133,20 +132,6 @@ void report(const CurveFit& found, const gcode::Printer& printer) {
   line("dead:      ", found.dead, " mm³", printer.dead_volume);
   line("mixing:    ", found.mixing, " mm³", printer.mixing_volume);
   line("tanks:     ", found.tanks, "", static_cast<double>(printer.tanks));
-}
-
-std::optional<GivenCorners> corners_in(const std::optional<std::string>& text) {
-  if (!text) return std::nullopt;
-  std::string spaced = *text;
-  std::replace(spaced.begin(), spaced.end(), ',', ' ');
-  std::istringstream numbers(spaced);
-  GivenCorners corners;
-  for (core::Vec2& corner : corners) numbers >> corner.x() >> corner.y();
-  std::string rest;
-  if (numbers && !(numbers >> rest)) return corners;
-  throw core::DataError("", "--corners", "are not eight numbers",
-                        "write x and y of the four corner marks in pixels, as in "
-                        "--corners 310,2050,3650,2100,3500,720,420,700");
 }
 
 void confirm(const TuneOptions& command, const char* what) {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/picture/hex_colour.hpp"
 #include "host/cli/arguments.hpp"
+#include "host/cli/photo_corners.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/cli/test_printing.hpp"
 #include "host/job/profile.hpp"
@@ -16,6 +17,7 @@
 #include "host/report/summary.hpp"
 #include "host/tune/chart.hpp"
 #include "host/tune/chart_fit.hpp"
+#include "host/tune/chart_photo.hpp"
 #include "host/tune/terminal_reader.hpp"
 
 namespace unicursal::host {
@@ -40,6 +42,13 @@ void expect_filaments(const Profile& profile) {
   throw core::DataError(profile.file.string(), "filament", "is missing, so that nothing names the colours",
                         "write [[filament]] once for each feeder and below it for example colour = "
                         "\"#2660c4\", see unicursal-profile(5)");
+}
+
+ChartFit fit_of_photo(const Chart& chart, const Filaments& filaments, const std::filesystem::path& file,
+                      const std::optional<GivenCorners>& corners) {
+  const Photo photo = read_photo(file);
+  const Sheet sheet(photo, sheet_plan(chart), corners, file);
+  return fit_photo(chart, filaments, read_chart(sheet, chart, file));
 }
 
 void report(const Chart& chart, const FinishedPrint& print) {
@@ -76,12 +85,14 @@ void TuneColours::declare(CLI::App& tune) {
   app_ = &app;
   app.footer(
       "Examples:\n  unicursal tune colours diamond.toml --port auto           print the chart, then:\n"
-      "  unicursal tune colours diamond.toml --measured colours.csv");
+      "  unicursal tune colours diamond.toml --photo chart.jpg");
   add_note(
       app,
-      "The chart shows the filaments alone, each of them twice, and mixtures. Measure the colours of its "
-      "patches, for example with a colorimeter, and write a line for each patch into a file: its number "
-      "and \"#rrggbb\", or its number, L, a and b. The command shows how far the patches lie from what "
+      "The chart shows the filaments alone, each of them twice, and mixtures. Take a photo of it, in even "
+      "light and without reflections; the filaments alone show what the light and the camera do to "
+      "colours. Or measure its patches, for example with a colorimeter, and write a line for each patch "
+      "into a file: its number and \"#rrggbb\", or its number, L, a and b. The command shows how far the "
+      "patches lie from what "
       "was foretold, before and now. It changes only the colours and strengths of the profile's "
       "[[filament]] and its [colours], and only after you confirm.");
   constexpr auto printing = "Printing", reading = "Reading", simulated = "Simulated printer";
@@ -104,8 +115,19 @@ void TuneColours::declare(CLI::App& tune) {
             "Keep what the simulated printer has laid in this file (sim/bed/raster.hpp).")
       .needs(simulate)
       ->group(simulated);
-  add_value(app, "--measured", measured_, "FILE", "The measured colours of the chart's patches.")
-      .group(reading);
+  CLI::Option& measured =
+      add_value(app, "--measured", measured_, "FILE", "The measured colours of the chart's patches.");
+  measured.group(reading);
+  CLI::Option* photo = add_value(app, "--photo", photo_, "FILE",
+                                 "Read the chart from this photo, JPEG or PNG. It shows all six round marks, "
+                                 "sharp and in even light.")
+                           .excludes(&measured)
+                           ->group(reading);
+  add_value(app, "--corners", corners_, "NUMBERS",
+            "Where the four corner marks are in the photo, if they are not found: x,y of the front left, "
+            "front right, back right and back left one, in pixels. Needs --photo.")
+      .needs(photo)
+      ->group(reading);
   app.add_flag("--yes", yes_, "Write to the profile without asking.")->group(reading);
 }
 
@@ -117,7 +139,7 @@ Exit TuneColours::run() const {
   const Profile profile = load_profile(profile_);
   const ProfileText text(profile_);
   expect_filaments(profile);
-  expect_other_file(output_, {profile_, measured_});
+  expect_other_file(output_, {profile_, measured_, photo_});
   if (marks_ && *marks_ > profile.printer.feeders)
     throw core::DataError("", "--marks", fmt::format("this printer has no feeder {}", *marks_),
                           fmt::format("choose one of 1 to {}", profile.printer.feeders));
@@ -128,13 +150,16 @@ Exit TuneColours::run() const {
     if (output_) write_gcode(print, *output_);
     if (simulate_) simulate_test({profile_, {}, pictures_, rasters_}, profile, print, chart_name, skip_layer);
     if (port_) print_test(*port_, profile, print, chart_name);
-    if (!measured_) {
-      show(stdout, "Measure the patches of the printed chart, then run the command again with --measured.\n");
+    if (!measured_ && !photo_) {
+      show(stdout,
+           "Take a photo of the printed chart, or measure its patches; then run the command again with "
+           "--photo or --measured.\n");
       return Exit::success;
     }
     const ChartFit fit =
-        fit_chart(chart, profile.filaments, read_measured_colours(*measured_, chart.patches.size()),
-                  picture::PureColours::fitted);
+        photo_ ? fit_of_photo(chart, profile.filaments, *photo_, corners_in(corners_))
+               : fit_chart(chart, profile.filaments, read_measured_colours(*measured_, chart.patches.size()),
+                           picture::PureColours::fitted);
     report(chart, fit, profile.filaments);
     const std::string question = fmt::format("Write this into {}?", profile_.string());
     if (!yes_ && !confirmed(std::cin, std::cout, question))

@@ -27,7 +27,8 @@ class TuneColours {
   std::optional<std::string> port_;
   bool simulate_ = false;
   std::optional<std::filesystem::path> pictures_, rasters_;
-  std::optional<std::filesystem::path> measured_;
+  std::optional<std::filesystem::path> measured_, photo_;
+  std::optional<std::string> corners_;  ///< of the photo, pixels
   bool yes_ = false;
   const CLI::App* app_ = nullptr;
 };

@@ -101,7 +101,8 @@ void add_to_table(std::string& text, const toml::table& root, const ProfileChang
     if (!text.empty()) text += line_break;
     text += fmt::format("[{}]{}{}{}", change.table, line_break, line, line_break);
   } else if (table->is_inline()) {
-    text.insert(offset_of(text, table->source().begin) + 1, fmt::format(" {} ", line));
+    text.insert(offset_of(text, table->source().begin) + 1,
+                fmt::format(" {}{}", line, table->empty() ? " " : ","));
   } else {
     text.insert(line_end(text, offset_of(text, table->source().begin)), line_break + line);
   }

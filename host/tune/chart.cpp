@@ -200,14 +200,15 @@ class ChartLayout {
 
   std::vector<std::vector<core::Vec2>> marks_and_numbers() const {
     std::vector<std::vector<core::Vec2>> strokes;
-    for (const core::Vec2& place : chart_.marks) {
-      for (auto& stroke : mark_strokes(place, s_.line)) strokes.push_back(std::move(stroke));
-    }
     for (std::size_t i = 0; i < chart_.patches.size(); ++i) {
       const core::Box& square = chart_.patches[i].square;
       const core::Vec2 corner(square.center().x() - number_width(i + 1, s_) / 2,
                               square.min.y() - 2 * s_.line - s_.digit_height);
       for (auto& stroke : number_strokes(i + 1, corner, s_)) strokes.push_back(std::move(stroke));
+    }
+    // After the numbers the nozzle is full of the marks' filament.
+    for (const core::Vec2& place : chart_.marks) {
+      for (auto& stroke : mark_strokes(place, s_.line)) strokes.push_back(std::move(stroke));
     }
     return strokes;
   }

@@ -75,8 +75,9 @@ TEST_CASE("Values of lists of tables and lists of several lines are changed as w
        "end\n\n[colours]\npower = 2.1\nlosses = [\n  [1, 2, 3, 4, 5],\n]\n"},
       {"filament = [{ colour = \"#ffffff\" }, {}]\n[colours]\nlosses = [\n  [1, 2, 0, 0, 0], # a\n]\npower = "
        "1 # b\n",
-       "filament = [{ colour = \"#ffffff\", strength = [1, 2, 3] }, { colour = \"#010203\" ,  strength = [4, "
-       "5, 6] }]\n[colours]\nlosses = [\n  [1, 2, 3, 4, 5],\n]\npower = 2.1 # b\n"},
+       "filament = [{ colour = \"#ffffff\", strength = [1, 2, 3] }, { colour = \"#010203\", strength = [4, "
+       "5, "
+       "6] }]\n[colours]\nlosses = [\n  [1, 2, 3, 4, 5],\n]\npower = 2.1 # b\n"},
   };
   for (const auto& [before, after] : cases) {
     CAPTURE(before);
