@@ -9,7 +9,8 @@ namespace {
 
 using core::Vec2;
 
-constexpr double far_off = 2;  ///< doubts beyond which a sighting pulls no more strongly
+constexpr double far_off = 2;   ///< doubts beyond which a sighting pulls no more strongly
+constexpr double mistaken = 8;  ///< doubts; a sighting that is farther off than this is of something else
 constexpr int most_view_steps = 40;
 
 Vec2 projected(const std::array<double, 8>& plane, const Vec2& place) {
@@ -37,6 +38,45 @@ double robust_sum(const Eigen::VectorXd& rest) {
   double sum = 0;
   for (const double r : rest) sum += std::abs(r) <= far_off ? r * r : far_off * (2 * std::abs(r) - far_off);
   return sum;
+}
+
+/// Moves the view to where the robust sum is least. Returns what remains there.
+Eigen::VectorXd settle(View& view, const std::vector<Sighting>& sightings, std::size_t lens) {
+  const auto free = static_cast<Eigen::Index>(View::freedoms - 2 + lens);
+  Eigen::VectorXd rest = rests(view, sightings);
+  double sum = robust_sum(rest), damping = 1e-3;
+  for (int step = 0; step < most_view_steps && damping < 1e6; ++step) {
+    Eigen::MatrixXd slopes(rest.size(), free);
+    for (Eigen::Index i = 0; i < free; ++i) {
+      View::Numbers moved = view.numbers();
+      const double by = i < 8 ? 0.01 : 1e-5;
+      moved[static_cast<std::size_t>(i)] += by;
+      View other = view;
+      other.set(moved);
+      slopes.col(i) = (rests(other, sightings) - rest) / by;
+    }
+    const Eigen::VectorXd weights =
+        rest.unaryExpr([](double r) { return std::abs(r) <= far_off ? 1.0 : far_off / std::abs(r); });
+    const Eigen::MatrixXd weighted = weights.asDiagonal() * slopes;
+    Eigen::MatrixXd normal = slopes.transpose() * weighted;
+    normal.diagonal() *= 1 + damping;
+    normal.diagonal().array() += 1e-12;
+    const Eigen::VectorXd change = normal.ldlt().solve(-weighted.transpose() * rest);
+    View::Numbers moved = view.numbers();
+    for (Eigen::Index i = 0; i < free; ++i) moved[static_cast<std::size_t>(i)] += change(i);
+    View other = view;
+    other.set(moved);
+    const Eigen::VectorXd new_rest = rests(other, sightings);
+    const double new_sum = robust_sum(new_rest);
+    if (!(new_sum < sum)) {
+      damping *= 10;
+      continue;
+    }
+    const bool settled = sum - new_sum < 1e-7 * sum;
+    view = other, rest = new_rest, sum = new_sum, damping = std::max(1e-9, damping / 5);
+    if (settled) break;
+  }
+  return rest;
 }
 
 }  // namespace
@@ -106,47 +146,15 @@ bool View::possible() const {
 }
 
 double fit_view(View& view, const std::vector<Sighting>& sightings, std::size_t lens) {
-  const auto free = static_cast<Eigen::Index>(View::freedoms - 2 + lens);
-  Eigen::VectorXd rest = rests(view, sightings);
-  double sum = robust_sum(rest), damping = 1e-3;
-  for (int step = 0; step < most_view_steps && damping < 1e6; ++step) {
-    Eigen::MatrixXd slopes(rest.size(), free);
-    for (Eigen::Index i = 0; i < free; ++i) {
-      View::Numbers moved = view.numbers();
-      const double by = i < 8 ? 0.01 : 1e-5;
-      moved[static_cast<std::size_t>(i)] += by;
-      View other = view;
-      other.set(moved);
-      slopes.col(i) = (rests(other, sightings) - rest) / by;
-    }
-    const Eigen::VectorXd weights =
-        rest.unaryExpr([](double r) { return std::abs(r) <= far_off ? 1.0 : far_off / std::abs(r); });
-    const Eigen::MatrixXd weighted = weights.asDiagonal() * slopes;
-    Eigen::MatrixXd normal = slopes.transpose() * weighted;
-    normal.diagonal() *= 1 + damping;
-    normal.diagonal().array() += 1e-12;
-    const Eigen::VectorXd change = normal.ldlt().solve(-weighted.transpose() * rest);
-    View::Numbers moved = view.numbers();
-    for (Eigen::Index i = 0; i < free; ++i) moved[static_cast<std::size_t>(i)] += change(i);
-    View other = view;
-    other.set(moved);
-    const Eigen::VectorXd new_rest = rests(other, sightings);
-    const double new_sum = robust_sum(new_rest);
-    if (!(new_sum < sum)) {
-      damping *= 10;
-      continue;
-    }
-    const bool settled = sum - new_sum < 1e-7 * sum;
-    view = other, rest = new_rest, sum = new_sum, damping = std::max(1e-9, damping / 5);
-    if (settled) break;
+  settle(view, sightings, lens);
+  // Mistaken sightings pull a little, however far off they are; so they are left out in the end.
+  std::vector<Sighting> kept;
+  for (const Sighting& one : sightings) {
+    if (rests(view, {one}).norm() <= mistaken) kept.push_back(one);
   }
-  double squares = 0, count = 0;
-  for (const double r : rest) {
-    if (std::abs(r) > 2 * far_off) continue;
-    squares += r * r;
-    ++count;
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0;
+  if (2 * kept.size() < sightings.size()) kept = sightings;
+  const Eigen::VectorXd rest = settle(view, kept, lens);
+  return rest.size() > 0 ? std::sqrt(rest.squaredNorm() / static_cast<double>(rest.size())) : 0;
 }
 
 }  // namespace unicursal::host

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -301,6 +302,41 @@ std::array<double, 3> doubts_of(const std::vector<CurvePoint>& points, const Ref
           deviation(tanks, found.nozzle.tanks)};
 }
 
+/// How far a colour is from all colours of the change: glare and dirt are not on the way from one mixture to
+/// the other, whatever the nozzle.
+double beside_the_way(const CurvePoint& point, const std::vector<Seen>& way, const ColourAnswer& answer) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Seen& colour : way) {
+    double squares = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (answer.uses(c)) squares += (point.colour[c] - colour[c]) * (point.colour[c] - colour[c]);
+    }
+    least = std::min(least, squares);
+  }
+  return std::sqrt(least);
+}
+
+/// The points without those that lie beside the way of the colours.
+std::vector<CurvePoint> on_the_way(std::vector<CurvePoint> points, const ColourAnswer& answer) {
+  constexpr int steps = 100;
+  constexpr double allowed = 0.03, usual_times = 4;
+  std::array<std::vector<Seen>, 2> ways;
+  for (int i = 0; i <= steps; ++i) {
+    for (std::size_t fat = 0; fat < 2; ++fat)
+      ways[fat].push_back(answer(static_cast<double>(i) / steps, static_cast<double>(fat)));
+  }
+  std::vector<double> distances;
+  for (const CurvePoint& point : points)
+    distances.push_back(beside_the_way(point, ways[point.fat < 0.5 ? 0 : 1], answer));
+  std::vector<double> sorted = distances;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (distances[i] > allowed + usual_times * *middle) points[i].trust = 0;
+  }
+  return points;
+}
+
 Estimate estimate(double value, double deviation, double floor) {
   return {value, 2 * std::hypot(deviation, floor)};
 }
@@ -385,8 +421,9 @@ double ColourAnswer::change(const Seen& colour, double fat) const {
   return whole > 0 ? along / whole : 0;
 }
 
-CurveFit fit_curve(const std::vector<CurvePoint>& points, const ReferenceColours& references) {
+CurveFit fit_curve(const std::vector<CurvePoint>& seen, const ReferenceColours& references) {
   const ColourAnswer answer(references);
+  const std::vector<CurvePoint> points = on_the_way(seen, answer);
   const auto began = first_beyond(points, answer, perception.began);
   const auto stopped = first_beyond(points, answer, 0.9);
   if (!began || !stopped)
