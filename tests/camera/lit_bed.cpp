@@ -11,41 +11,28 @@ constexpr double bed_edge = 15;        ///< mm from the print to the front and t
 constexpr double table_reach = 180;    ///< mm beyond the bed, the room is dark
 constexpr double coarse_pixel = 0.25;  ///< mm
 constexpr std::size_t coarsest = 5;    ///< halvings
-constexpr double round_reach = 0.05;   ///< mm; half the width of a round side
+constexpr double round_side = 0.1;     ///< mm; the width of a round side: half a usual layer height
 constexpr double sharpness = 45;       ///< exponent of shine
 constexpr std::size_t changes = 256, thicknesses = 16;
 
 using Vector = std::array<double, 3>;
 
-/// Means over a sliding window of 2 `reach` + 1 values, in place.
-void smooth(float* first, std::size_t count, std::size_t stride, std::size_t reach,
-            std::vector<float>& line) {
-  line.assign(count + 2 * reach, 0);
-  for (std::size_t i = 0; i < count; ++i) line[i + reach] = first[i * stride];
-  const float part = 1.0F / static_cast<float>(2 * reach + 1);
-  double sum = 0;
-  for (std::size_t i = 0; i < 2 * reach; ++i) sum += line[i];
-  for (std::size_t i = 0; i < count; ++i) {
-    sum += line[i + 2 * reach];
-    first[i * stride] = static_cast<float>(sum) * part;
-    sum -= line[i];
-  }
+/// Each place becomes the mean of itself and its neighbours in a square of nine; the border stays.
+void smooth(std::vector<float>& heights, std::size_t columns, std::size_t rows) {
+  std::vector<float> across(heights.size());
+  for (std::size_t i = 1; i + 1 < heights.size(); ++i)
+    across[i] = (heights[i - 1] + heights[i] + heights[i + 1]) / 3;
+  for (std::size_t i = columns; i + columns < columns * rows; ++i)
+    heights[i] = (across[i - columns] + across[i] + across[i + columns]) / 3;
 }
 
 /// The surface of the plastic, in layer heights, with round sides.
 std::vector<float> rounded(const PrintedLayer& layer) {
   std::vector<float> heights(layer.fill.size());
   for (std::size_t i = 0; i < heights.size(); ++i)
-    heights[i] = static_cast<float>(layer.fill[i] / PrintedLayer::full);
-  const auto reach = static_cast<std::size_t>(std::lround(round_reach / layer.pixel));
-  if (reach == 0) return heights;
-  std::vector<float> line;
-  for (int pass = 0; pass < 2; ++pass) {
-    for (std::size_t y = 0; y < layer.rows; ++y)
-      smooth(&heights[y * layer.columns], layer.columns, 1, reach, line);
-    for (std::size_t x = 0; x < layer.columns; ++x)
-      smooth(&heights[x], layer.rows, layer.columns, reach, line);
-  }
+    heights[i] = static_cast<float>(layer.fill[i]) * static_cast<float>(1 / PrintedLayer::full);
+  for (long pass = std::lround(round_side / layer.pixel); pass > 0; --pass)
+    smooth(heights, layer.columns, layer.rows);
   return heights;
 }
 
