@@ -1,143 +1,27 @@
 // `unicursal tune colours`: the program itself, and a printer whose plastic mixes by other optics than the
 // program's (other_optics.hpp).
-#include <fcntl.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <random>
 
-#include "core/picture/hex_colour.hpp"
-#include "host/job/colour_mixture.hpp"
-#include "host/job/profile.hpp"
-#include "host/tune/chart.hpp"
-#include "sim/bed/raster.hpp"
-#include "tests/core/picture/other_optics.hpp"
-#include "tests/host/support/child_process.hpp"
-#include "tests/host/support/temp_folder.hpp"
+#include "tests/host/support/colour_studio.hpp"
 
 namespace unicursal {
 namespace {
 
+using test::ColourStudio;
 using test::Dye;
 using test::Outcome;
 using test::run;
 
-constexpr const char* machine_text = R"([printer]
-name = "Diamond"   # an old one
-bed = [200.0, 200.0, 200.0]
-nozzle = 0.6
-bead_width_range = [0.36, 1.6]
-)";
-
-struct Studio {
-  explicit Studio(const std::vector<Dye>& dyes, unsigned seed = 1)
-      : random(seed), optics(pigments(dyes, random)), text(machine_text) {
-    for (std::size_t f = 0; f < dyes.size(); ++f)
-      text += "\n[[filament]]   # spool " + std::to_string(f + 1) + "\ncolour = \"" +
-              picture::hex_of(picture::colour_of(optics.pure(f))) + "\" # as its maker says\n";
-    profile = folder.write("diamond.toml", text).string();
-    chart = host::make_chart(host::load_profile(profile).printer, 0);
-  }
-
-  static std::vector<test::Pigments> pigments(const std::vector<Dye>& dyes, std::mt19937& random) {
-    std::vector<test::Pigments> all;
-    for (const Dye dye : dyes) all.push_back(pigments_of(dye, random));
-    return all;
-  }
-
-  /// What a colorimeter says, with noise of a ΔE of about 1.
-  std::string measured(const std::vector<std::vector<double>>& shares) {
-    std::normal_distribution<double> noise(0, 0.6);
-    std::string list = "patch, L, a, b\n";
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-      const picture::Lab lab = picture::lab_of(optics.light(shares[i]));
-      list += std::to_string(i + 1);
-      for (const double value : {lab.lightness, lab.a, lab.b})
-        list += ", " + std::to_string(value + noise(random));
-      list += "\n";
-    }
-    return list;
-  }
-
-  std::vector<std::vector<double>> as_delivered() const {
-    std::vector<std::vector<double>> all;
-    for (const host::ChartPatch& patch : chart.patches)
-      all.emplace_back(patch.mixture.shares().begin(), patch.mixture.shares().end());
-    return all;
-  }
-
-  Outcome tune(const std::string& list, std::vector<std::string> more = {"--yes"}) const {
-    more.insert(more.begin(),
-                {"tune", "colours", profile, "--measured", folder.write("list.csv", list).string()});
-    return run(more);
-  }
-
-  /// Requests by colour, of what these filaments can make: how far what is then printed lies from it.
-  double median_miss() {
-    const host::Profile used = host::load_profile(profile);
-    std::exponential_distribution<double> part(1);
-    std::vector<double> far;
-    for (int i = 0; i < 21; ++i) {
-      std::vector<double> shares(optics.size());
-      double sum = 0;
-      for (double& share : shares) sum += share = part(random);
-      for (double& share : shares) share = 0.02 + (1 - 0.02 * double(shares.size())) * share / sum;
-      const picture::Colour wanted = picture::colour_of(optics.light(shares));
-      const gcode::Shares found = host::mixture_near(wanted, used).shares;
-      far.push_back(
-          difference(picture::lab_of(picture::light_of(wanted)),
-                     picture::lab_of(optics.light(std::vector<double>(found.begin(), found.end())))));
-    }
-    std::nth_element(far.begin(), far.begin() + 10, far.end());
-    return far[10];
-  }
-
-  test::TempFolder folder;
-  std::mt19937 random;
-  test::OtherOptics optics;
-  std::string text, profile;
-  host::Chart chart;
-};
-
-/// The mean shares in the middles of the patches, on the last layer.
-std::vector<std::vector<double>> shares_on(const std::filesystem::path& rasters, const host::Chart& chart) {
-  const std::size_t feeders = chart.patches.front().mixture.feeders();
-  std::vector<std::vector<double>> shares;
-  sim::RasterReader reader(::open(rasters.c_str(), O_RDONLY | O_CLOEXEC));
-  while (const auto frame = reader.next()) {
-    shares.assign(chart.patches.size(), std::vector<double>(feeders));
-    std::vector<double> count(chart.patches.size());
-    std::vector<sim::RasterPixel> pixels(frame->columns);
-    for (std::uint64_t row = 0; row < frame->rows; ++row) {
-      reader.read_row(pixels);
-      const double y = frame->bottom + (double(row) + 0.5) * frame->pixel;
-      for (std::size_t i = 0; i < chart.patches.size(); ++i) {
-        const core::Box& box = chart.patches[i].middle;
-        if (y < box.min.y() || y > box.max.y()) continue;
-        for (double x = box.min.x(); x < box.max.x(); x += frame->pixel) {
-          const sim::RasterPixel& pixel = pixels.at(std::size_t((x - frame->left) / frame->pixel));
-          if (pixel.fill <= 0) continue;
-          count[i] += 1;
-          for (std::size_t f = 0; f < feeders; ++f) shares[i][f] += pixel.share(f);
-        }
-      }
-    }
-    for (std::size_t i = 0; i < shares.size(); ++i)
-      for (double& share : shares[i]) share /= count[i];
-  }
-  return shares;
-}
-
 }  // namespace
 
 TEST_CASE("After a chart was printed and measured, colours come out as wanted", "[tuning][optimised]") {
-  Studio studio({Dye::blue, Dye::red, Dye::white});
+  ColourStudio studio({Dye::blue, Dye::red, Dye::white});
   const std::string rasters = (studio.folder / "rasters").string();
   const Outcome printed = run({"tune", "colours", studio.profile, "--simulate", "--rasters", rasters});
   INFO(printed.out << printed.err);
   REQUIRE(printed.code == 0);
-  const auto laid = shares_on(rasters, studio.chart);
+  const auto laid = test::shares_on(rasters, studio.chart);
   REQUIRE(laid.size() == 19);
   const auto wanted = studio.as_delivered();
   for (std::size_t i = 0; i < laid.size(); ++i)
@@ -155,7 +39,7 @@ TEST_CASE("Measured charts of several sets of filaments change the profile, and 
   const std::vector<Dye> dyes = GENERATE(std::vector<Dye>{Dye::yellow, Dye::blue},
                                          std::vector<Dye>{Dye::cyan, Dye::magenta, Dye::yellow},
                                          std::vector<Dye>{Dye::white, Dye::black, Dye::red, Dye::yellow});
-  Studio studio(dyes, 2);
+  ColourStudio studio(dyes, 2);
   const Outcome outcome = studio.tune(studio.measured(studio.as_delivered()));
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.code == 0);
@@ -173,7 +57,7 @@ TEST_CASE("Measured charts of several sets of filaments change the profile, and 
 }
 
 TEST_CASE("A spoilt patch is named, and what cannot be right is refused", "[tuning]") {
-  Studio studio({Dye::blue, Dye::red, Dye::white});
+  ColourStudio studio({Dye::blue, Dye::red, Dye::white});
   const auto delivered = studio.as_delivered();
   std::vector<std::string> lines(1);
   for (const char c : studio.measured(delivered)) {
@@ -233,7 +117,7 @@ TEST_CASE("A spoilt patch is named, and what cannot be right is refused", "[tuni
 }
 
 TEST_CASE("The chart is written as G-code, and nothing changes without consent", "[tuning]") {
-  Studio studio({Dye::blue, Dye::red, Dye::white});
+  ColourStudio studio({Dye::blue, Dye::red, Dye::white});
   const std::string file = (studio.folder / "chart.gcode").string();
   const Outcome written = run({"tune", "colours", studio.profile, "-o", file});
   CHECK(written.code == 0);
@@ -254,7 +138,7 @@ TEST_CASE("The chart is written as G-code, and nothing changes without consent",
     CHECK(refused.code == 2);
   }
   CHECK(test::read_text(studio.profile) == studio.text);
-  const std::string plain = studio.folder.write("plain.toml", machine_text).string();
+  const std::string plain = studio.folder.write("plain.toml", test::studio_machine).string();
   const Outcome nameless = run({"tune", "colours", plain});
   CHECK(nameless.code == 2);
   CHECK(nameless.err.find("write [[filament]] once for each feeder") != std::string::npos);
