@@ -11,10 +11,8 @@
 #include "tests/camera/camera.hpp"
 #include "tests/host/support/temp_folder.hpp"
 
-namespace unicursal {
+namespace unicursal::camera {
 namespace {
-
-using namespace camera;
 
 constexpr Place dots[] = {{14, 13}, {85, 12}, {86, 37}, {13, 36}, {40, 24}};
 constexpr double dot_radius = 1.2;  // mm
@@ -221,4 +219,4 @@ TEST_CASE("Dark pigment outweighs bright, and the bed shines through a thin laye
   CHECK(on(3, 0.9) - on(3, 0.05) < 0.01F);
 }
 
-}  // namespace unicursal
+}  // namespace unicursal::camera
