@@ -12,6 +12,8 @@ constexpr double full_trust = 0.05;     ///< linear; darker places have noisier 
 constexpr double expected_scatter = 0.03;
 constexpr double stiffness = 1e-3;  ///< keeps the polynomial flat where nothing is known
 constexpr int light_rounds = 8;
+constexpr double nearby = 12;      ///< mm; standard deviation of the weights of known places
+constexpr double believed_at = 4;  ///< known places at which half of what they have in common is believed
 /// Least numbers of places for polynomials of the first, second and third degree.
 constexpr std::size_t for_degree[] = {3, 12, 40};
 constexpr std::size_t terms_of_degree[] = {2, 5, 9};
@@ -66,6 +68,13 @@ EvenLight::EvenLight(const std::vector<KnownPlace>& known, const core::Box& box)
       }
     }
     polynomials_[channel].assign(solved.begin(), solved.begin() + terms);
+    const Eigen::VectorXd rest = light - matrix * solved;
+    rests_.resize(known.size());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      rests_[i].place = known[i].place;
+      rests_[i].logarithm[channel] = rest(static_cast<Eigen::Index>(i));
+      rests_[i].weight[channel] = weights(static_cast<Eigen::Index>(i));
+    }
   }
 }
 
@@ -77,14 +86,28 @@ std::vector<double> EvenLight::terms_of(const core::Vec2& place) const {
   return terms;
 }
 
-picture::Light EvenLight::evened(const core::Vec2& place, const picture::Light& seen) const {
+picture::Light EvenLight::brightness(const core::Vec2& place) const {
   const std::vector<double> terms = terms_of(place);
-  picture::Light light{};
+  picture::Light logarithms{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    double sum = 0;
-    for (std::size_t t = 0; t < terms.size(); ++t) sum += polynomials_[channel][t] * terms[t];
-    light[channel] = seen[channel] / std::exp(sum);
+    for (std::size_t t = 0; t < terms.size(); ++t) logarithms[channel] += polynomials_[channel][t] * terms[t];
+    double common = 0, weights = believed_at;
+    for (const Rest& rest : rests_) {
+      const double weight =
+          rest.weight[channel] * std::exp(-(rest.place - place).squaredNorm() / (2 * nearby * nearby));
+      common += weight * rest.logarithm[channel];
+      weights += weight;
+    }
+    logarithms[channel] += common / weights;
   }
+  return logarithms;
+}
+
+picture::Light EvenLight::evened(const core::Vec2& place, const picture::Light& seen) const {
+  const picture::Light logarithms = brightness(place);
+  picture::Light light{};
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    light[channel] = seen[channel] / std::exp(logarithms[channel]);
   return light;
 }
 

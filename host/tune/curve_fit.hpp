@@ -26,6 +26,9 @@ struct CurvePoint {
   Seen colour{};
   double fat = 0;    ///< how wide the bead is, from the thin reference lines (0) to the fat ones (1)
   double trust = 1;  ///< 0: of no use
+  /// Natural logarithms of how much brighter this place is lit than the reference lines. The colour has been
+  /// evened; but cameras bend light colours less than dark ones, so that something remains.
+  Seen brightness{};
 };
 
 /// The colours of the reference lines, indexed by Shade, and the standard deviation of each. The bed shines
@@ -66,9 +69,11 @@ struct CurveFit {
   double scatter = 0;            ///< of the points around the curve, encoded
   /// By how much the strip's own pure colours differ from those of the reference lines.
   Seen low{}, high{};
+  /// By how much more than the first colour the second one answers to brightness.
+  Seen bent{};
 
-  /// The colour that the fit foretells.
-  Seen colour_after(double passed, double fat, const ColourAnswer& answer) const;
+  /// The colour that the fit foretells at the place of a point.
+  Seen colour_at(const CurvePoint& point, const ColourAnswer& answer) const;
 };
 
 /// Throws core::DataError if the points are not the curve of a nozzle, or end before its change does.

@@ -77,7 +77,7 @@ class FitPicture {
       const CurvePoint &from = curve.points[i], &to = curve.points[i + 1];
       if (to.passed > most_) break;
       const auto fitted = [&](const CurvePoint& point) {
-        return answer.change(fit.colour_after(point.passed, point.fat, answer), point.fat);
+        return answer.change(fit.colour_at(point, answer), point.fat);
       };
       const Vec2 a = in_graph(from.passed, fitted(from)), b = in_graph(to.passed, fitted(to));
       image_.stroke(a.x(), a.y(), b.x(), b.y(), 2, line_colour);

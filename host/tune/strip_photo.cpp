@@ -235,13 +235,14 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
   StripCurve curve;
   curve.references = {thin_lines.colours(), fat_lines.colours()};
   check_order(curve.references, file);
+  const Seen at_lines = even.brightness((strip.references.front() + strip.references.back()) / 2);
   for (double along = along_step / 2; along < strip.length(); along += along_step) {
     const Strip::Point here = strip.at(along), before = strip.at(along - along_step / 2),
                        after = strip.at(std::min(strip.length(), along + along_step / 2));
     const Vec2 step = after.place - before.place;
     const double width = (after.passed - before.passed) / along_step / strip.layer_height;
     const SeenLight seen = sheet.light(here.place, step.normalized(), along_step / 2, core_part * width);
-    CurvePoint point{here.passed, {}, fatness(width), 0};
+    CurvePoint point{here.passed, {}, fatness(width), 0, minus(even.brightness(here.place), at_lines)};
     // What runs across the lanes is lit from another side.
     if (seen.pixels > 0 && seen.clipped <= most_clipped && std::abs(step.x()) > 0.9 * along_step) {
       point.colour = encoded(even.evened(here.place, seen.light));
