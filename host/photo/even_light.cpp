@@ -7,8 +7,8 @@
 namespace unicursal::host {
 namespace {
 
-constexpr double darkest_seen = 0.002;  ///< linear; below it a camera's noise is larger than the light
-constexpr double full_trust = 0.05;     ///< linear; darker places have noisier logarithms
+constexpr double noise_floor = 0.002;   ///< linear; below it a camera's noise is larger than the light
+constexpr double trusted_light = 0.05;  ///< linear; darker places have noisier logarithms
 constexpr double expected_scatter = 0.03;
 constexpr double stiffness = 1e-3;  ///< keeps the polynomial flat where nothing is known
 constexpr int light_rounds = 8;
@@ -19,7 +19,7 @@ constexpr std::size_t for_degree[] = {3, 12, 40};
 constexpr std::size_t terms_of_degree[] = {2, 5, 9};
 
 double logarithm(double light) {
-  return std::log(std::max(darkest_seen, light));
+  return std::log(std::max(noise_floor, light));
 }
 
 double median_of(std::vector<double> values) {
@@ -51,7 +51,7 @@ EvenLight::EvenLight(const std::vector<KnownPlace>& known, const core::Box& box)
     for (Eigen::Index i = 0; i < rows; ++i) {
       const double seen = known[static_cast<std::size_t>(i)].light[channel];
       light(i) = logarithm(seen);
-      trust(i) = std::clamp(seen / full_trust, 0.05, 1.0);
+      trust(i) = std::clamp(seen / trusted_light, 0.05, 1.0);
     }
     Eigen::VectorXd weights = trust, solved;
     for (int round = 0; round < light_rounds; ++round) {

@@ -14,15 +14,15 @@ namespace {
 using core::Vec2;
 
 constexpr std::size_t most_candidates = 12;
-constexpr double mark_tolerance = 0.03;   ///< of the longer diagonal: lenses bend lines
-constexpr double size_tolerance = 1.35;   ///< factor between the seen and the expected size of a mark
-constexpr double mark_doubt = 0.12;       ///< mm
-constexpr double stroke_doubt = 0.08;     ///< mm
-constexpr double chunk_length = 4;        ///< mm of a stroke that are looked at together
-constexpr double profile_step = 0.05;     ///< mm
-constexpr double least_contrast = 0.025;  ///< between a stroke and the bed beside it, encoded values
-constexpr double off_the_line = 0.25;     ///< mm; a stroke farther away was not found
-constexpr double least_scale = 3.5;       ///< pixels per mm
+constexpr double mark_tolerance = 0.03;    ///< of the longer diagonal: lenses bend lines
+constexpr double size_tolerance = 1.35;    ///< factor between the seen and the expected size of a mark
+constexpr double mark_doubt = 0.12;        ///< mm
+constexpr double stroke_doubt = 0.08;      ///< mm
+constexpr double chunk_length = 4;         ///< mm of a stroke that are looked at together
+constexpr double profile_step = 0.05;      ///< mm
+constexpr double least_contrast = 0.025;   ///< between a stroke and the bed beside it, encoded values
+constexpr double off_the_line = 0.25;      ///< mm; a stroke farther away was not found
+constexpr double least_photo_scale = 3.5;  ///< pixels per mm
 
 constexpr const char* again =
     "take it again from above, with all six round marks in it, sharp and in even light";
@@ -184,7 +184,7 @@ Sheet::Sheet(const Photo& photo, const SheetPlan& plan, const std::optional<Give
                           "name front left, front right, back right and back left, in this order");
   const Vec2 middle = box_of(plan.marks).center();
   const double scale = view_.scale_at(middle);
-  if (scale < least_scale)
+  if (scale < least_photo_scale)
     throw core::DataError(file.string(), "",
                           fmt::format("is too small: it has {:.1f} pixels per millimetre of the bed", scale),
                           "take it again from nearer, with at least 4 pixels per millimetre");

@@ -23,7 +23,7 @@ constexpr double pure_step = 4;            ///< mm between samples of a pure lin
 constexpr double core_part = 0.3;          ///< half of the bead's width that is looked at ÷ its width
 constexpr double least_colour_step = 0.1;  ///< between both pure colours, encoded
 constexpr double least_difference = 10;    ///< between both pure colours, ΔE2000
-constexpr double most_clipped = 0.5;       ///< share of pixels of a pure colour
+constexpr double clipped_at_most = 0.5;    ///< share of pixels of a pure colour
 constexpr double least_reference_step =
     0.015;  ///< between neighbouring reference lines, as a change of colour
 
@@ -145,7 +145,7 @@ class ReferenceLines {
 
 void check_pure_colours(const ReferenceLines& lines, const std::filesystem::path& file) {
   const PureColour &from = lines.pure(Shade::from), &to = lines.pure(Shade::to);
-  if (std::max(from.clipped, to.clipped) > most_clipped)
+  if (std::max(from.clipped, to.clipped) > clipped_at_most)
     throw core::DataError(file.string(), "",
                           "is too bright: a pure colour is as light as the camera can show",
                           "take it again with less light, or with a darker exposure");
@@ -244,7 +244,7 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
     const SeenLight seen = sheet.light(here.place, step.normalized(), along_step / 2, core_part * width);
     CurvePoint point{here.passed, {}, fatness(width), 0, minus(even.brightness(here.place), at_lines)};
     // What runs across the lanes is lit from another side.
-    if (seen.pixels > 0 && seen.clipped <= most_clipped && std::abs(step.x()) > 0.9 * along_step) {
+    if (seen.pixels > 0 && seen.clipped <= clipped_at_most && std::abs(step.x()) > 0.9 * along_step) {
       point.colour = encoded(even.evened(here.place, seen.light));
       point.trust = 1;
     }
