@@ -20,6 +20,7 @@ constexpr double least_mixing_volume = 0.05;  ///< mm³
 constexpr double profile_share = 0.95;        ///< where the profile's mixing volume ends
 constexpr double smallest_change = 1e-3;      ///< logarithms need more than 0
 constexpr double darkest_light = 0.003;       ///< linear; below it a camera's noise is larger than the light
+constexpr double first_traces = 0.015;        ///< share beyond which lifts are constant
 constexpr double least_channel_step = 0.3;    ///< of the step of the channel that changes most
 constexpr double end_doubt = 0.03;            ///< of a pure colour, encoded
 constexpr double usual_bend = 0.15;           ///< standard deviation of `bent`
@@ -400,7 +401,7 @@ ColourAnswer::Channel ColourAnswer::channel_of(const ReferenceColours::Lines& li
 
 Seen ColourAnswer::operator()(double share, double fat) const {
   const std::array<double, 3> shares = known_shares();
-  const double least = logit(shares[0]), most = logit(shares[2]);
+  const double least = logit(first_traces), most = logit(1 - first_traces);
   const bool pure = share <= 0 || share >= 1;
   const double z = pure ? 0 : std::log(share / (1 - share)), inside = std::clamp(z, least, most);
   // Of the parabola through the three lines.
