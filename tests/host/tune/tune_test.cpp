@@ -97,6 +97,28 @@ TEST_CASE("The other direction and other feeders give the same", "[tuning]") {
   }
 }
 
+TEST_CASE("Printers of two, four and eight feeders are tuned between their first and last feeder",
+          "[tuning][optimised]") {
+  for (const char* feeders : {"2", "4", "8"}) {
+    CAPTURE(feeders);
+    const Workshop shop;
+    const std::string more = std::string("\n[extruder]\nfeeders = ") + feeders + "\n";
+    shop.folder.write("diamond.toml", profile_text + more);
+    const std::string machine = shop.machine({3, 8, 2});
+    shop.folder.write("machine.toml", test::read_text(machine) + more);
+    const Outcome outcome = run(shop.tune({"--simulate", "--machine", machine, "--from", "1", "--to", feeders,
+                                           "--read-simulated", "--yes"}));
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(host::load_profile(shop.profile).printer.dead_volume == Approx(3).margin(0.5));
+    CHECK(host::load_profile(shop.profile).printer.mixing_volume == Approx(8).margin(0.5));
+    // One more feeder than there is.
+    const std::string next = std::to_string(std::stoi(feeders) + 1);
+    const Outcome refused = run(shop.tune({"--simulate", "--from", "1", "--to", next}));
+    CHECK(refused.code == 2);
+  }
+}
+
 TEST_CASE("Asked at the terminal, with a picture to look at", "[tuning]") {
   const Workshop shop;
   const Outcome outcome =
@@ -172,6 +194,11 @@ TEST_CASE("Errors also leave the profile unchanged", "[tuning]") {
       {"--simulate", "--machine", shop.path("none.toml")},
       {"--simulate", "--tanks", "0"},
       {"--read-simulated"},
+      {"--photo", shop.path("none.jpg")},
+      {"--photo", shop.profile},
+      {"--corners", "1,2,3,4,5,6,7,8"},
+      {"--photo", shop.profile, "--corners", "1,2,3"},
+      {"--photo", shop.profile, "--began", "31", "--stopped", "73"},
       {"-o", shop.profile},
       {"-o", shop.path("diamond.toml/x/y")},
   };
