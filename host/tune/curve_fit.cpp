@@ -23,7 +23,11 @@ constexpr double darkest_light = 0.003;       ///< linear; below it a camera's n
 constexpr double first_traces = 0.015;        ///< share beyond which lifts are constant
 constexpr double least_channel_step = 0.3;    ///< of the step of the channel that changes most
 constexpr double end_doubt = 0.03;            ///< of a pure colour, encoded
+constexpr double lane_doubt = 0.015;          ///< of the second pure colour on one lane, encoded
 constexpr double usual_bend = 0.15;           ///< standard deviation of `bent`
+/// How much these are believed: neighbouring points err alike, so that a thousand of them say no more than some
+/// hundred.
+constexpr double believed = 3;
 constexpr int fit_steps = 60;
 constexpr int repetitions = 40;
 constexpr std::size_t block = 30;  ///< neighbouring points err alike
@@ -33,7 +37,9 @@ constexpr double volume_doubt = 0.02, volume_doubt_share = 0.01, tank_doubt_shar
 /// What is fitted: the nozzle, and by how much both pure colours of the strip differ from those of the lines.
 struct Nozzle {
   double dead = 0, mixing = 1, tanks = 2;
-  Seen low{}, high{}, bent{};
+  Seen low{}, bent{};
+  Seen high{};
+  std::array<Seen, CurveFit::most_lanes> lanes{};
 };
 
 /// The share that has arrived, tabulated over tanks and (volume − dead) ÷ mixing.
@@ -97,10 +103,11 @@ void steady(std::array<double, 3>& lifts, const std::array<double, 3>& doubts, s
 Seen foretold(const Nozzle& nozzle, const ColourAnswer& answer, const CurvePoint& point) {
   const double share = responded(nozzle, point.passed);
   Seen colour = answer(share, point.fat);
+  const Seen& lane = nozzle.lanes[std::min(point.lane, CurveFit::most_lanes - 1)];
   for (std::size_t c = 0; c < 3; ++c) {
     const double bent = share * nozzle.bent[c] * point.brightness[c];
     if (bent != 0) colour[c] = picture::encoded(picture::decoded(std::max(0.0, colour[c])) * std::exp(bent));
-    colour[c] += (1 - share) * nozzle.low[c] + share * nozzle.high[c];
+    colour[c] += (1 - share) * nozzle.low[c] + share * (nozzle.high[c] + lane[c]);
   }
   return colour;
 }
@@ -165,29 +172,29 @@ class CurveFitter {
 
  private:
   static constexpr double bend = 2;  ///< scatters beyond which a point pulls no more strongly
-  static constexpr Eigen::Index ends = 9, freedoms = 3 + ends;
+  static constexpr std::size_t loose_colours = 3 + CurveFit::most_lanes;
+  static constexpr Eigen::Index ends = 3 * loose_colours, freedoms = 3 + ends;
 
   static Nozzle sum_of(const Nozzle& nozzle, const Eigen::VectorXd& change) {
-    Nozzle sum{nozzle.dead + change(0),
-               nozzle.mixing + change(1),
-               nozzle.tanks + change(2),
-               nozzle.low,
-               nozzle.high,
-               nozzle.bent};
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum.low[c] += change(3 + static_cast<Eigen::Index>(c));
-      sum.high[c] += change(6 + static_cast<Eigen::Index>(c));
-      sum.bent[c] += change(9 + static_cast<Eigen::Index>(c));
+    Nozzle sum = nozzle;
+    sum.dead += change(0), sum.mixing += change(1), sum.tanks += change(2);
+    Eigen::Index at = 3;
+    for (Seen* seen : loose(sum)) {
+      for (double& channel : *seen) channel += change(at++);
     }
     return sum;
   }
-  static Nozzle limited(const Nozzle& nozzle) {
-    return {std::max(0.0, nozzle.dead),
-            std::max(least_mixing_volume, nozzle.mixing),
-            std::clamp(nozzle.tanks, fewest_tanks, largest_tanks),
-            nozzle.low,
-            nozzle.high,
-            nozzle.bent};
+  /// What is fitted besides the nozzle.
+  static std::array<Seen*, loose_colours> loose(Nozzle& nozzle) {
+    std::array<Seen*, loose_colours> all{&nozzle.bent, &nozzle.low, &nozzle.high};
+    for (std::size_t lane = 0; lane < CurveFit::most_lanes; ++lane) all[3 + lane] = &nozzle.lanes[lane];
+    return all;
+  }
+  static Nozzle limited(Nozzle nozzle) {
+    nozzle.dead = std::max(0.0, nozzle.dead);
+    nozzle.mixing = std::max(least_mixing_volume, nozzle.mixing);
+    nozzle.tanks = std::clamp(nozzle.tanks, fewest_tanks, largest_tanks);
+    return nozzle;
   }
 
   Eigen::MatrixXd slopes_at(const Nozzle& nozzle, const Eigen::VectorXd& rest) const {
@@ -201,7 +208,7 @@ class CurveFitter {
     return slopes;
   }
 
-  /// The last nine say that the pure colours are known to `end_doubt`, and how much cameras usually bend.
+  /// The last ones say how much cameras usually bend, and that the pure colours are known to `end_doubt`.
   Eigen::VectorXd rests(const Nozzle& nozzle) const {
     Eigen::VectorXd rest(count_ + ends);
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -210,10 +217,11 @@ class CurveFitter {
       for (std::size_t c = 0; c < 3; ++c)
         rest(static_cast<Eigen::Index>(3 * i + c)) = colour[c] - point.colour[c];
     }
-    for (std::size_t c = 0; c < 3; ++c) {
-      rest(count_ + static_cast<Eigen::Index>(c)) = nozzle.low[c] / end_doubt * scatter_;
-      rest(count_ + 3 + static_cast<Eigen::Index>(c)) = nozzle.high[c] / end_doubt * scatter_;
-      rest(count_ + 6 + static_cast<Eigen::Index>(c)) = nozzle.bent[c] / usual_bend * scatter_;
+    Eigen::Index at = count_;
+    Nozzle copy = nozzle;
+    for (const Seen* seen : loose(copy)) {
+      const double doubt = at < count_ + 3 ? usual_bend : at < count_ + 9 ? end_doubt : lane_doubt;
+      for (const double channel : *seen) rest(at++) = believed * channel / doubt * scatter_;
     }
     return rest;
   }
@@ -449,7 +457,7 @@ CurveFit fit_curve(const std::vector<CurvePoint>& seen, const ReferenceColours& 
   const double way = std::max(0.2, 1.2 * (*stopped - *began));
   std::vector<Nozzle> guesses;
   for (const double tanks : {1.2, 2.0, 3.5, 5.5})
-    guesses.push_back({std::max(0.0, *began - 0.1 * way), way, tanks, {}, {}, {}});
+    guesses.push_back({std::max(0.0, *began - 0.1 * way), way, tanks, {}, {}, {}, {}});
   // The first fit finds the scatter, the second uses it.
   const Fitted first = best_fit(points, answer, 0.01, guesses);
   const double scatter = std::max(1e-3, first.scatter);
@@ -466,12 +474,12 @@ CurveFit fit_curve(const std::vector<CurvePoint>& seen, const ReferenceColours& 
   fit.mixing = estimate(nozzle.mixing, mixing, floor);
   fit.tanks = estimate(nozzle.tanks, tanks, tank_doubt_share * nozzle.tanks);
   fit.scatter = found.scatter;
-  fit.low = nozzle.low, fit.high = nozzle.high, fit.bent = nozzle.bent;
+  fit.low = nozzle.low, fit.high = nozzle.high, fit.bent = nozzle.bent, fit.lanes = nozzle.lanes;
   return fit;
 }
 
 Seen CurveFit::colour_at(const CurvePoint& point, const ColourAnswer& answer) const {
-  return foretold({dead.value, mixing.value, tanks.value, low, high, bent}, answer, point);
+  return foretold({dead.value, mixing.value, tanks.value, low, bent, high, lanes}, answer, point);
 }
 
 }  // namespace unicursal::host

@@ -29,6 +29,8 @@ struct CurvePoint {
   /// Natural logarithms of how much brighter this place is lit than the reference lines. The colour has been
   /// evened; but cameras bend light colours less than dark ones, so that something remains.
   Seen brightness{};
+  /// The straight piece of the strip that it lies on. The bed below each may shine through differently.
+  std::size_t lane = 0;
 };
 
 /// The colours of the reference lines, indexed by Shade, and the standard deviation of each. The bed shines
@@ -67,8 +69,11 @@ class ColourAnswer {
 struct CurveFit {
   Estimate dead, mixing, tanks;  ///< uncertainty: two standard deviations
   double scatter = 0;            ///< of the points around the curve, encoded
-  /// By how much the strip's own pure colours differ from those of the reference lines.
+  /// By how much the strip's own pure colours differ from those of the reference lines; the second one also
+  /// on each lane (the last of them on all further ones).
+  static constexpr std::size_t most_lanes = 4;
   Seen low{}, high{};
+  std::array<Seen, most_lanes> lanes{};
   /// By how much more than the first colour the second one answers to brightness.
   Seen bent{};
 

@@ -236,15 +236,20 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
   curve.references = {thin_lines.colours(), fat_lines.colours()};
   check_order(curve.references, file);
   const Seen at_lines = even.brightness((strip.references.front() + strip.references.back()) / 2);
+  std::size_t lane = 0;
+  bool turned = false;
   for (double along = along_step / 2; along < strip.length(); along += along_step) {
     const Strip::Point here = strip.at(along), before = strip.at(along - along_step / 2),
                        after = strip.at(std::min(strip.length(), along + along_step / 2));
     const Vec2 step = after.place - before.place;
     const double width = (after.passed - before.passed) / along_step / strip.layer_height;
     const SeenLight seen = sheet.light(here.place, step.normalized(), along_step / 2, core_part * width);
-    CurvePoint point{here.passed, {}, fatness(width), 0, minus(even.brightness(here.place), at_lines)};
+    CurvePoint point{here.passed, {}, fatness(width), 0, minus(even.brightness(here.place), at_lines), lane};
+    const bool turning = std::abs(step.x()) <= 0.9 * along_step;
+    if (turning && !turned) ++lane;
+    turned = turning;
     // What runs across the lanes is lit from another side.
-    if (seen.pixels > 0 && seen.clipped <= clipped_at_most && std::abs(step.x()) > 0.9 * along_step) {
+    if (seen.pixels > 0 && seen.clipped <= clipped_at_most && !turning) {
       point.colour = encoded(even.evened(here.place, seen.light));
       point.trust = 1;
     }

@@ -72,7 +72,7 @@ SeenStrip seen_strip(const HiddenNozzle& nozzle, const Pair& pair, double noise_
   };
   for (double passed = 0.02; passed < range;) {
     const double fat = passed < 12 ? 0 : 1;
-    strip.points.push_back({passed, seen(arrived(nozzle, passed), fat), fat, 1, {}});
+    strip.points.push_back({passed, seen(arrived(nozzle, passed), fat), fat, 1, {}, 0});
     passed += fat > 0 ? 0.12 : 0.05;
   }
   const double shares[] = {0, 0.05, 0.5, 0.95, 1};
