@@ -29,7 +29,9 @@ struct LayerShare {
 /// The feeders change to another mixture at a line of the chunk.
 struct MixtureStart {
   std::size_t line = 0;  ///< index of the line that selects the mixture
-  std::string name;      ///< of the job's material; else the shares, such as "0.02 : 0.74 : 0.24"
+  /// Of the job's material, or of the feeder that purges its inlet: "feeder 2"; else the shares, such as
+  /// "0.02 : 0.74 : 0.24".
+  std::string name;
 
   friend bool operator==(const MixtureStart&, const MixtureStart&) = default;
 };
@@ -44,7 +46,7 @@ struct Chunk {
   double volume = 0;   ///< mm³ extruded along beads and the prime line; excludes retractions
   /// The same volume, by mixture; each mixture once.
   std::vector<MixtureVolume> mixture_volumes;
-  double prime_volume = 0;  ///< mm³ of `volume` in the prime line and the skirt
+  double prime_volume = 0;  ///< mm³ of `volume` in the prime line, purges included, and the skirt
   /// Of `mixture_volumes`, what is laid beside the part: the prime volume, and of a slicer's file skirt,
   /// brim, raft, wipe tower and the user's own lines.
   std::vector<MixtureVolume> aside_mixtures;

@@ -49,6 +49,8 @@ struct Printer {
   double mixing_volume = 4.0;  ///< mm³ from the first trace to 95 %
   std::size_t tanks = 2;       ///< stirred tanks in series that model the chamber; more: sharper changes
   bool overshoot = true;       ///< changes of mixture are sped up (mixing/overshoot.hpp)
+  /// Each feeder pushes fresh plastic out before a part (toolpath/prime_line.hpp). Profiles turn it on.
+  bool purge_inlets = false;
   Motion motion;
   std::string start_gcode;  ///< extra lines after homing and heating, may be empty
   std::string end_gcode;    ///< extra lines before the motors go off, may be empty

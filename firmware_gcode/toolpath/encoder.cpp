@@ -115,7 +115,9 @@ struct Encoder::State {
   void write(Chunk& chunk, const Remark& step);
   void write(Chunk& chunk, const Warning& step);
   void write(Chunk& chunk, const Approach& step);
+  void write(Chunk& chunk, const Purge& step);
   void write(Chunk& chunk, const Lay& step);
+  void give_back(Chunk& chunk, std::size_t tool);
   std::string name_of(const Mixture& delivered) const;
   void define_tool(std::size_t tool);
   void switch_mixture(Chunk& chunk);
@@ -252,7 +254,7 @@ double Encoder::State::flow_for(const RoutedLayer& routed) {
   return flow;
 }
 
-/// Primes with the first material of the part.
+/// Purges the inlets, then primes with the first material of the part.
 void Encoder::State::plan_prime(const RoutedLayer& routed) {
   const Traversal& first = routed.traversals.front();
   const core::BeadPath& path = routed.layer.paths[first.path];
@@ -265,8 +267,10 @@ void Encoder::State::plan_prime(const RoutedLayer& routed) {
   }
   steps.push_back(Remark{";TYPE:Custom"});
   steps.push_back(Approach{{}, line->from, routed.layer.top, line->width});
-  steps.push_back(Lay{line->from, line->to, line->volume, true});
-  want({line->volume, prime_material, 0, unseen, false, routed.layer.index, nullptr});
+  const double purged = line->purge * static_cast<double>(printer.feeders);
+  if (purged > 0) steps.push_back(Purge{line->from, line->at(purged), purged});
+  steps.push_back(Lay{line->at(purged), line->to, line->volume - purged, true});
+  want({line->volume - purged, prime_material, 0, unseen, false, routed.layer.index, nullptr});
 }
 
 void Encoder::State::warn(const std::string& reason, const std::string& consequence) {
@@ -446,6 +450,36 @@ void Encoder::State::switch_mixture(Chunk& chunk) {
   }
   assert(shade);  // the first switch is at 0
   writer.select_tool(chunk, shade_tool);
+}
+
+/// The tool holds again what the table of tools says. It is selected, too, since a Repetier feeds what M163
+/// said last.
+void Encoder::State::give_back(Chunk& chunk, std::size_t tool) {
+  append(chunk.lines, dialect.define_tool(tool, tools.mixture(tool).written));
+  define_tool(tool);
+  writer.select_tool(chunk, tool);
+}
+
+/// The printer may have no more tools than the print's mixtures need, so that the first two are borrowed in
+/// turn. The one in use is never redefined.
+void Encoder::State::write(Chunk& chunk, const Purge& step) {
+  const core::Vec2 way = (step.to - step.from) / static_cast<double>(printer.feeders);
+  const double volume = step.volume / static_cast<double>(printer.feeders);
+  write_width(chunk, volume / layer_height / way.norm());
+  std::size_t tool = writer.tool() == 0 ? 1 : 0;
+  for (std::size_t f = 0; f < printer.feeders; ++f, tool = 1 - tool) {
+    const CalibratedMixture mixture = calibrated(
+        purge_mixture(f, printer.feeders).with_floor(printer.floor_share), printer.flow_factors, dialect);
+    append(chunk.lines, dialect.define_tool(tool, mixture.written));
+    writer.define_tool(tool, fmt::format("feeder {}", f + 1), mixture);
+    writer.select_tool(chunk, tool);
+    writer.bead(chunk, step.from + way * static_cast<double>(f + 1), volume,
+                pace.speed(way, volume, level, layer_height));
+    add(chunk.mixture_volumes, mixture.delivered, volume);
+    add(chunk.aside_mixtures, mixture.delivered, volume);
+    chunk.prime_volume += volume;
+  }
+  for (const std::size_t borrowed : {tool, 1 - tool}) give_back(chunk, borrowed);
 }
 
 /// Cuts the bead where a switch falls inside it.

@@ -30,6 +30,9 @@ class MoveWriter {
   /// The height of the nozzle; absent before the first rise.
   std::optional<double> height() const;
 
+  /// The tool in use; absent before the first one.
+  std::optional<std::size_t> tool() const { return tool_; }
+
   /// Forgets the state, so that the next move writes everything it depends on. Needed if the printer may have
   /// stopped anywhere in the written lines.
   void forget();

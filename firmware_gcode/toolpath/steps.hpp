@@ -37,6 +37,12 @@ struct Lay {
   double volume;
   bool prime = false;
 };
-using Step = std::variant<BeginLayer, EndLayer, Remark, Warning, Approach, Lay>;
+/// The beginning of the prime line, in which one feeder after the other purges its inlet. It is laid before
+/// the first bead that the mixing schedule knows.
+struct Purge {
+  core::Vec2 from, to;
+  double volume;  ///< of all feeders
+};
+using Step = std::variant<BeginLayer, EndLayer, Remark, Warning, Approach, Purge, Lay>;
 
 }  // namespace unicursal::gcode

@@ -61,7 +61,7 @@ inline const Keys printer = {"name",
 inline const Keys extruder = {
     "feeders",          "filament_diameter", "max_flow", "floor_share",  "retraction_length",
     "retraction_speed", "filaments",         "z_hop",    "steps_per_mm", "flow_factors",
-    "max_speed",        "max_acceleration",  "jerk",     "tube_length"};
+    "max_speed",        "max_acceleration",  "jerk",     "tube_length",  "purge_inlets"};
 inline const Keys filament = {"name",  "colour",   "material",    "diameter", "density",
                               "price", "currency", "see_through", "strength"};
 inline const Keys colours = {"power", "bend", "losses"};

@@ -157,6 +157,7 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
                         "write for example retraction_speed = 25.0");
   printer.z_hop = section.number_or("z_hop", printer.z_hop, within(gcode::bounds::z_hop, "mm"),
                                     "write for example z_hop = 0.4");
+  printer.purge_inlets = section.flag_or("purge_inlets", true, "write true or false");
   read_flow_factors(section, printer);
   if (section.has("steps_per_mm")) {
     printer.extruder_steps = section.number("steps_per_mm", within(gcode::bounds::extruder_steps, "steps/mm"),

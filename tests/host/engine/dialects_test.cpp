@@ -2,6 +2,7 @@
 // simulated printer does.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/json_events.hpp"
@@ -62,6 +63,24 @@ TEST_CASE("The same job in every dialect leaves the same deposit, up to the shar
     CHECK(report["comparison"]["worst_relative_error"].get<double>() < 0.01);
     CHECK(report["simulator"]["warnings"].empty());
   }
+}
+
+TEST_CASE("Each feeder has moved before the part begins, in every dialect") {
+  const std::string firmware = GENERATE("marlin", "repetier", "reprapfirmware");
+  CAPTURE(firmware);
+  const json report = dry_run(test::sample_job, profile_for(firmware));
+  const json& mixtures = report["simulator"]["mixtures"];  // in the order of their first use
+  REQUIRE(mixtures.size() >= 5);
+  const double least = 4 / (std::numbers::pi / 4 * 1.75 * 1.75);  // mm of filament
+  for (std::size_t feeder = 0; feeder < 3; ++feeder) {
+    CHECK(mixtures[feeder]["shares"][feeder].get<double>() == Approx(0.8).epsilon(0.01));
+    CHECK(mixtures[feeder]["extruded_mm"].get<double>() == Approx(least).epsilon(0.01));
+  }
+  CHECK(report["comparison"]["worst_relative_error"].get<double>() < 0.01);
+  double prime = 0;
+  for (const json& mixture : report["mixtures"]) prime += mixture["prime_mm3"].get<double>();
+  CHECK(prime == Approx(2 * 6.1 + 3 * 4).epsilon(0.01));
+  CHECK(report["simulator"]["warnings"].empty());
 }
 
 TEST_CASE("The printing time is estimated within 2 % for every kind of job", "[optimised]") {

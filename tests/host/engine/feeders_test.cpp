@@ -32,10 +32,11 @@ std::string job_for(std::size_t feeders) {
   return replaced(job, "[0.0, 1.0, 1.0]", shares(0, 1, feeders));
 }
 
-/// No share is raised, so that only the first two feeders turn whatever the number.
+/// No share is raised and no inlet purged, so that only the first two feeders turn whatever the number.
 std::string profile_for(const std::string& firmware, std::size_t feeders) {
   std::string profile = replaced(test::sample_profile, "\"marlin\"", "\"" + firmware + "\"");
-  return replaced(profile, "feeders = 3", fmt::format("feeders = {}\nfloor_share = 0", feeders));
+  return replaced(profile, "feeders = 3",
+                  fmt::format("feeders = {}\nfloor_share = 0\npurge_inlets = false", feeders));
 }
 
 test::Outcome dry_run(const test::TempFolder& folder, const std::string& firmware, std::size_t feeders) {

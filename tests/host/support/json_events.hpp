@@ -22,11 +22,13 @@ inline std::vector<nlohmann::json> printing_statuses(const std::string& events) 
   return statuses;
 }
 
-/// The mixtures that the events name while the state is "printing".
+/// The mixtures that the events name while the state is "printing", without the feeders that purge their
+/// inlets before the part.
 inline std::set<std::string> mixtures_named(const std::string& events) {
   std::set<std::string> mixtures;
   for (const nlohmann::json& status : printing_statuses(events)) {
-    if (status.contains("mixture")) mixtures.insert(status["mixture"].get<std::string>());
+    const std::string mixture = status.value("mixture", "");
+    if (!mixture.empty() && !mixture.starts_with("feeder ")) mixtures.insert(mixture);
   }
   return mixtures;
 }
