@@ -24,6 +24,7 @@ namespace unicursal::host {
 namespace {
 
 constexpr const char* chart_name = "the chart";
+constexpr double least_thickness = 0.05, most_thickness = 5;  ///< mm
 
 std::size_t darkest_feeder(const Filaments& filaments) {
   const auto lightness = [](const Filament& filament) {
@@ -101,6 +102,10 @@ void TuneColours::declare(CLI::App& tune) {
             "Feeder of the marks and numbers, which should stand out from the bed. Default: the darkest.")
       .check(integer_between(1, 8))
       ->group(printing);
+  add_value(app, "--thickness", thickness_, "MM",
+            "Thickness of the patches. A thin layer shows the bed. Default: 0.8.")
+      .check(number_between(least_thickness, most_thickness))
+      ->group(printing);
   CLI::Option& port = add_value(app, "--port", port_, "PORT",
                                 "Print the chart on this serial port, or auto to search for the printer.");
   port.group(printing);
@@ -143,7 +148,8 @@ Exit TuneColours::run() const {
   if (marks_ && *marks_ > profile.printer.feeders)
     throw core::DataError("", "--marks", fmt::format("this printer has no feeder {}", *marks_),
                           fmt::format("choose one of 1 to {}", profile.printer.feeders));
-  const Chart chart = make_chart(profile.printer, marks_ ? *marks_ - 1 : darkest_feeder(profile.filaments));
+  const Chart chart = make_chart(profile.printer, marks_ ? *marks_ - 1 : darkest_feeder(profile.filaments),
+                                 thickness_.value_or(usual_thickness));
   const FinishedPrint print = gcode_of(chart.print, profile.printer);
   report(chart, print);
   try {

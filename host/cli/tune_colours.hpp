@@ -23,6 +23,7 @@ class TuneColours {
  private:
   std::filesystem::path profile_;
   std::optional<std::size_t> marks_;             ///< feeder, counted from 1
+  std::optional<double> thickness_;              ///< mm
   std::optional<std::filesystem::path> output_;  ///< G-code
   std::optional<std::string> port_;
   bool simulate_ = false;

@@ -19,7 +19,6 @@ constexpr double side = 10;           ///< mm, of a patch
 constexpr double border = 1.5;        ///< mm of a patch that are not looked at
 constexpr double purge_factor = 1.5;  ///< of dead and mixing volume
 constexpr double least_purge = 2;     ///< mm of a band between two patches
-constexpr double thickness = 0.4;     ///< mm at least, and two layers; a single thin one shows the bed
 constexpr double chart_flow = 3;      ///< mm³/s
 
 using Parts = std::vector<double>;
@@ -90,8 +89,8 @@ std::vector<Parts> recipes(std::size_t feeders) {
 
 class ChartLayout {
  public:
-  ChartLayout(const gcode::Printer& printer, std::size_t marks)
-      : printer_(printer), s_(printer), mark_(s_.line), marks_feeder_(marks) {
+  ChartLayout(const gcode::Printer& printer, std::size_t marks, double thickness)
+      : printer_(printer), s_(printer), mark_(s_.line), marks_feeder_(marks), thickness_(thickness) {
     const double purge = purge_factor * (printer.dead_volume + printer.mixing_volume);
     lanes_ = std::round(side / s_.line);
     pitch_ = side / lanes_;
@@ -193,7 +192,7 @@ class ChartLayout {
     const auto alone = [&](const ChartPatch& patch) { return patch.feeder == marks_feeder_; };
     const auto marks = std::find_if(chart_.patches.begin(), chart_.patches.end(), alone);
     print.marks_mixture = static_cast<std::size_t>(marks - chart_.patches.begin());
-    const double layers = std::max(2.0, std::ceil(thickness / s_.layer_height - 1e-9));
+    const double layers = std::max(1.0, std::ceil(thickness_ / s_.layer_height - 1e-9));
     print.layers.assign(static_cast<std::size_t>(layers), {{}, {}, {bead_}});
     print.layers.front().marks = marks_and_numbers();
   }
@@ -217,6 +216,7 @@ class ChartLayout {
   const StripSizes s_;
   const MarkSizes mark_;
   const std::size_t marks_feeder_;
+  const double thickness_;
   double lanes_ = 0, purge_lanes_ = 0;  ///< whole numbers
   double pitch_ = 0, cell_ = 0;
   double bottom_ = 0;  ///< of the row
@@ -227,8 +227,8 @@ class ChartLayout {
 
 }  // namespace
 
-Chart make_chart(const gcode::Printer& printer, std::size_t marks) {
-  return ChartLayout(printer, marks)();
+Chart make_chart(const gcode::Printer& printer, std::size_t marks, double thickness) {
+  return ChartLayout(printer, marks, thickness)();
 }
 
 }  // namespace unicursal::host

@@ -23,6 +23,8 @@
 namespace unicursal::host {
 
 inline constexpr std::size_t most_patches = 28;
+/// mm. The bed shines through thinner layers of white and yellow.
+inline constexpr double usual_thickness = 0.8;
 
 struct ChartPatch {
   gcode::Mixture mixture;             ///< as it is delivered
@@ -37,8 +39,8 @@ struct Chart {
   TestPrint print;
 };
 
-/// `marks`: the feeder of marks and numbers, which should stand out from the bed. Throws core::DataError if
-/// the chart does not fit.
-Chart make_chart(const gcode::Printer& printer, std::size_t marks);
+/// `marks`: the feeder of marks and numbers, which should stand out from the bed. `thickness`: of the patches
+/// at least, mm. Throws core::DataError if the chart does not fit.
+Chart make_chart(const gcode::Printer& printer, std::size_t marks, double thickness = usual_thickness);
 
 }  // namespace unicursal::host
