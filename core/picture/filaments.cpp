@@ -16,6 +16,22 @@ double luminance(const Light& light) {
   return 0.2126729 * light[0] + 0.7151522 * light[1] + 0.0721750 * light[2];
 }
 
+using Row = std::array<double, 3>;
+
+/// Linear sRGB to the primaries of ITU-R BT.2020, and back. Nearly all colours of plastic lie within these,
+/// so that no channel of a saturated filament is dark only because sRGB cannot show it.
+constexpr std::array<Row, 3> to_wide{
+    {{0.627404, 0.329283, 0.043313}, {0.069097, 0.919540, 0.011362}, {0.016391, 0.088013, 0.895595}}};
+constexpr std::array<Row, 3> from_wide{
+    {{1.660491, -0.587641, -0.072850}, {-0.124550, 1.132900, -0.008349}, {-0.018151, -0.100579, 1.118730}}};
+
+Light product(const std::array<Row, 3>& rows, const Light& light) {
+  Light result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = rows[i][0] * light[0] + rows[i][1] * light[1] + rows[i][2] * light[2];
+  return result;
+}
+
 /// What is averaged of a negative logarithm of light; brighter than white counts as white.
 double averaged_of(double x, double power, double bend) {
   return std::pow(bend > 0 ? std::sinh(bend * std::max(0.0, x)) / bend : std::max(0.0, x), power);
@@ -40,8 +56,9 @@ Filaments::Filaments(std::span<const Light> lights, const Mixing& mixing)
     : usual_(mixing.usual()), power_(mixing.power), bend_(mixing.bend), pairs_(mixing.pairs) {
   for (const Light& light : lights) {
     Filament filament;
+    const Light known = usual_ ? light : product(to_wide, light);
     for (std::size_t channel = 0; channel < light.size(); ++channel) {
-      const double logarithm = std::log(std::max(darkest, light[channel]));
+      const double logarithm = std::log(std::max(darkest, known[channel]));
       filament.averaged[channel] = usual_ ? logarithm : averaged_of(-logarithm, power_, bend_);
     }
     filament.strength = usual_strength(light);
@@ -95,7 +112,7 @@ Light Filaments::mixed(std::span<const double> shares) const {
   }
   for (std::size_t channel = 0; channel < result.size(); ++channel)
     result[channel] = std::exp(-logarithm_of(sum[channel] / weights[channel], power_, bend_) - lost[channel]);
-  return result;
+  return product(from_wide, result);
 }
 
 Light mixed_light(std::span<const double> shares, const Filaments& filaments) {

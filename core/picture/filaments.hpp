@@ -34,7 +34,9 @@ inline constexpr std::array<Colour, 8> usual_filaments{{{38, 96, 196},
 /// How filaments mix. The values here are those of the formula above; fit_filaments.hpp finds others from
 /// printed mixtures. With x = −ln(light), what is averaged in each channel is (sinh(bend x) ÷ bend)^power,
 /// which is x itself for a power of 1 and no bend (Beer and Lambert), and for a power of 2 and a bend of ½
-/// the ratio of absorption to scattering of Kubelka and Munk.
+/// the ratio of absorption to scattering of Kubelka and Munk. The channels of such a law are those of ITU-R
+/// BT.2020 instead of sRGB, since saturated filaments lie beyond sRGB: a channel that is dark only because
+/// sRGB cannot show the colour would say nothing of how it mixes.
 struct Mixing {
   static constexpr double usual_loss = 0.24;
 
