@@ -23,7 +23,7 @@ constexpr double darkest_light = 0.003;       ///< linear; below it a camera's n
 constexpr double first_traces = 0.015;        ///< share beyond which lifts are constant
 constexpr double least_channel_step = 0.3;    ///< of the step of the channel that changes most
 constexpr double end_doubt = 0.03;            ///< of a pure colour, encoded
-constexpr double lane_doubt = 0.015;          ///< of the second pure colour on one lane, encoded
+constexpr double lane_doubt = 0.006;          ///< of the second pure colour on one lane, encoded
 constexpr double usual_bend = 0.15;           ///< standard deviation of `bent`
 /// How much these are believed: neighbouring points err alike, so that a thousand of them say no more than some
 /// hundred.
@@ -32,7 +32,7 @@ constexpr int fit_steps = 60;
 constexpr int repetitions = 40;
 constexpr std::size_t block = 30;  ///< neighbouring points err alike
 /// Besides what the points scatter: the places in the photo and the volumes that the printer feeds.
-constexpr double volume_doubt = 0.02, volume_doubt_share = 0.01, tank_doubt_share = 0.08;
+constexpr double volume_doubt = 0.02, volume_doubt_share = 0.01, tank_doubt_share = 0.2;
 
 /// What is fitted: the nozzle, and by how much both pure colours of the strip differ from those of the lines.
 struct Nozzle {
