@@ -35,17 +35,16 @@ std::vector<std::string> simulator_arguments(const SimulatedTest& simulated, con
   return arguments;
 }
 
-/// Keeps the stream in a file if `kept` is given. Returns a descriptor to read the stream from.
-int kept_stream(int stream, const std::optional<std::filesystem::path>& kept) {
-  if (!kept) return stream;
-  {
-    WholeFile file(*kept);
-    std::array<char, 65536> bytes;
-    ssize_t count = 0;
-    while ((count = ::read(stream, bytes.data(), bytes.size())) > 0) file.stream().write(bytes.data(), count);
-    ::close(stream);
-    file.publish();
-  }
+/// Keeps the stream in a file, if there is one. Returns a descriptor to read the stream from. The stream is
+/// read to its end whatever happens to the file, since the simulated printer waits for it.
+int kept_stream(int stream, std::unique_ptr<WholeFile> file,
+                const std::optional<std::filesystem::path>& kept) {
+  if (!file) return stream;
+  std::array<char, 65536> bytes;
+  ssize_t count = 0;
+  while ((count = ::read(stream, bytes.data(), bytes.size())) > 0) file->stream().write(bytes.data(), count);
+  ::close(stream);
+  file->publish();
   const int again = ::open(kept->c_str(), O_RDONLY | O_CLOEXEC);
   if (again < 0) throw core::FileError(kept->string(), "", "cannot be read", "check the permissions");
   return again;
@@ -79,8 +78,7 @@ void expect_other_file(const std::optional<std::filesystem::path>& output,
   for (const auto& input : inputs) {
     std::error_code none;
     if (!input || !std::filesystem::equivalent(*output, *input, none)) continue;
-    throw core::DataError(output->string(), "", "is an input, which would be lost",
-                          "choose another name for the G-code");
+    throw core::DataError(output->string(), "", "is an input, which would be lost", "choose another name");
   }
 }
 
@@ -97,10 +95,12 @@ void print_test(const std::string& port, const Profile& profile, const FinishedP
 void simulate_test(const SimulatedTest& simulated, const Profile& profile, const FinishedPrint& print,
                    const std::string& name, const LayerTaker& take) {
   load_profile(simulated.machine);
+  std::unique_ptr<WholeFile> kept;
+  if (simulated.rasters) kept = std::make_unique<WholeFile>(*simulated.rasters);
   std::future<void> watching;  // outlives the simulator, whose end is that of the stream it waits for
   SimulatorProcess simulator(simulator_arguments(simulated, profile), SimulatorProcess::Time::lockstep);
   watching = std::async(std::launch::async, [&, rasters = simulator.take_rasters()] {
-    sim::RasterReader reader(kept_stream(rasters, simulated.rasters));
+    sim::RasterReader reader(kept_stream(rasters, std::move(kept), simulated.rasters));
     while (const auto frame = reader.next()) take(*frame, reader);
   });
   FinishedSource source(print, profile.printer);

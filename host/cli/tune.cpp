@@ -12,6 +12,7 @@
 #include "host/cli/tune_colours.hpp"
 #include "host/cli/tune_flow.hpp"
 #include "host/job/profile_edit.hpp"
+#include "host/photo/read_photo.hpp"
 #include "host/report/summary.hpp"
 #include "host/tune/curve_fit.hpp"
 #include "host/tune/fit_picture.hpp"
@@ -134,10 +135,14 @@ void report(const CurveFit& found, const gcode::Printer& printer) {
   line("tanks:     ", found.tanks, "", static_cast<double>(printer.tanks));
 }
 
-void confirm(const TuneOptions& command, const char* what) {
+void confirm(const TuneOptions& command, const std::string& what) {
   const std::string question = fmt::format("Write {} into {}?", what, command.profile.string());
   if (!command.yes && !confirmed(std::cin, std::cout, question))
     throw TuningCancelled("the result was not accepted");
+}
+
+std::filesystem::path fit_file(const TuneOptions& command) {
+  return *command.pictures / "fit.png";
 }
 
 void settle_from_photo(const TuneOptions& command, const ProfileText& text, const Profile& profile,
@@ -147,17 +152,16 @@ void settle_from_photo(const TuneOptions& command, const ProfileText& text, cons
   const Photo photo = read_photo(file);
   const Sheet sheet(photo, sheet_plan(strip), corners, file);
   const StripCurve curve = read_curve(sheet, strip, file);
-  const CurveFit found = fit_curve(curve.points, curve.references);
+  const CurveFit found = fit_curve(curve.points, curve.references, file);
   report(found, profile.printer);
   if (command.pictures) {
     std::filesystem::create_directories(*command.pictures);
-    const std::filesystem::path picture = *command.pictures / "fit.png";
-    picture::write_png(picture, fit_picture(photo, sheet, strip, curve, found));
-    show(stdout, "picture:   {}\n", picture.string());
+    picture::write_png(fit_file(command), fit_picture(photo, sheet, strip, curve, found));
+    show(stdout, "picture:   {}\n", fit_file(command).string());
   }
-  confirm(command, "them");
-  text.set_transition(
-      {found.dead.value, found.mixing.value, static_cast<std::size_t>(std::lround(found.tanks.value))});
+  const auto tanks = static_cast<std::size_t>(std::lround(found.tanks.value));
+  confirm(command, fmt::format("both volumes and {} tank{}", tanks, tanks == 1 ? "" : "s"));
+  text.set_transition({found.dead.value, found.mixing.value, tanks});
   show(stdout, "written:   {}\n", command.profile.string());
 }
 
@@ -176,7 +180,12 @@ Exit tune_transition(const TuneOptions& command) {
   const Profile profile = load_profile(command.profile);
   const ProfileText text(command.profile);
   check_feeders(command, profile);
-  expect_other_file(command.output, {command.profile, command.machine, command.photo});
+  const std::vector<std::optional<std::filesystem::path>> inputs{command.profile, command.machine,
+                                                                 command.photo};
+  expect_other_file(command.output, inputs);
+  expect_other_file(command.rasters, inputs);
+  if (command.photo && command.pictures) expect_other_file(fit_file(command), inputs);
+  corners_in(command.corners);
   const Strip strip = make_strip(profile.printer, command.range);
   const FinishedPrint print = strip_print(strip, profile.printer, command.feeders());
   report(strip, print);
@@ -186,7 +195,7 @@ Exit tune_transition(const TuneOptions& command) {
     if (command.simulate) simulated = print_simulated(command, profile, strip, print);
     if (command.port) print_test(*command.port, profile, print, strip_name);
     const bool printed = command.simulate || command.port;
-    if (command.output && !printed && !command.began) {
+    if (command.output && !printed && !command.began && !command.photo) {
       show(stdout, "Print this file, then run the command again without -o to enter what the strip shows.\n");
       return Exit::success;
     }
@@ -229,13 +238,16 @@ CLI::App& Tune::declare(CLI::App& program) {
   app->footer(
       "Examples:\n  unicursal tune transition diamond.toml --port auto\n"
       "  unicursal tune transition diamond.toml -o strip.gcode      print this file, then:\n"
+      "  unicursal tune transition diamond.toml --photo strip.jpg\n"
       "  unicursal tune transition diamond.toml --began 31 --half 45 --stopped 73");
-  add_note(
-      *app,
-      "The strip is one bead whose mixture changes at tick 0. Three lines below it show the colour after "
-      "5, 50 and 95 % of the change. The program asks at which ticks the bead looks like these lines. "
-      "It changes only these two numbers of the profile, and only after you confirm. Use two strong "
-      "colours: a trace of a light colour can hardly be seen in a dark one.");
+  add_note(*app,
+           "The strip is one bead whose mixture changes at tick 0. Lines below it show the colour after 5, "
+           "50, 95 and "
+           "100 % of the change. The program reads the strip from a photo, or asks at which ticks the bead "
+           "looks like these "
+           "lines. It changes only dead_volume, mixing_volume and, from a photo, tanks of the profile, and "
+           "only after you "
+           "confirm. Use two strong colours: a trace of a light colour can hardly be seen in a dark one.");
   declare_strip(*app);
   declare_printing(*app);
   declare_reading(*app);
@@ -304,7 +316,8 @@ void Tune::declare_reading(CLI::App& app) {
                                  "Read the strip from this photo, JPEG or PNG. It shows all six round marks, "
                                  "sharp and in even light.")
                            .group(group);
-  photo->excludes(began);
+  for (CLI::Option* other : {began, app.get_option("--port"), app.get_option("--simulate")})
+    photo->excludes(other);
   add_value(
       app, "--corners", options_.corners, "NUMBERS",
       "Where the four corner marks are in the photo, if they are not found: x,y of the front left, front "

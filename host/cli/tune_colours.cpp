@@ -14,6 +14,7 @@
 #include "host/cli/test_printing.hpp"
 #include "host/job/profile.hpp"
 #include "host/job/profile_edit.hpp"
+#include "host/photo/read_photo.hpp"
 #include "host/report/summary.hpp"
 #include "host/tune/chart.hpp"
 #include "host/tune/chart_fit.hpp"
@@ -127,6 +128,8 @@ void TuneColours::declare(CLI::App& tune) {
                                  "Read the chart from this photo, JPEG or PNG. It shows all six round marks, "
                                  "sharp and in even light.")
                            .excludes(&measured)
+                           ->excludes(&port)
+                           ->excludes(simulate)
                            ->group(reading);
   add_value(app, "--corners", corners_, "NUMBERS",
             "Where the four corner marks are in the photo, if they are not found: x,y of the front left, "
@@ -144,7 +147,8 @@ Exit TuneColours::run() const {
   const Profile profile = load_profile(profile_);
   const ProfileText text(profile_);
   expect_filaments(profile);
-  expect_other_file(output_, {profile_, measured_, photo_});
+  for (const auto& written : {output_, rasters_}) expect_other_file(written, {profile_, measured_, photo_});
+  corners_in(corners_);
   if (marks_ && *marks_ > profile.printer.feeders)
     throw core::DataError("", "--marks", fmt::format("this printer has no feeder {}", *marks_),
                           fmt::format("choose one of 1 to {}", profile.printer.feeders));

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "host/photo/marks.hpp"
 
@@ -17,6 +16,7 @@ constexpr double surroundings[] = {0.015, 0.03};  ///< half the side of the wind
 constexpr double contrasts[] = {0.02, 0.06};      ///< least difference from the mean, of 0…1
 constexpr std::size_t openings[] = {0, 1, 2};     ///< half the width of lines that are left out, pixels
 constexpr double largest_mark = 1.0 / 6;          ///< of the longer side
+constexpr std::size_t most_places = 300;          ///< a photo with more of them shows a pattern
 constexpr double least_disk = 9;                  ///< pixels of the reduced photo
 constexpr double roundness = 0.2;                 ///< how far areas may differ from those of ellipses
 constexpr double likeness = 0.4;                  ///< how far the shapes of disk and ring may differ
@@ -215,6 +215,7 @@ void add_pairs(std::vector<Blob> blobs, std::size_t longest, std::size_t by, std
 std::vector<FoundMark> merged(const std::vector<FoundMark>& found) {
   std::vector<FoundMark> marks;
   for (const FoundMark& seen : found) {
+    if (marks.size() == most_places) break;
     const auto same = std::find_if(marks.begin(), marks.end(), [&](const FoundMark& mark) {
       return (mark.centre - seen.centre).norm() < 0.5 * std::min(mark.radius, seen.radius);
     });

@@ -1,8 +1,8 @@
 // A photo, as a camera or a phone has taken it. Pixels, y down; pixel (x, y) covers x … x + 1.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <filesystem>
 #include <vector>
 
 #include "core/numeric/vec2.hpp"
@@ -31,10 +31,5 @@ class Photo {
   std::size_t width_, height_;
   std::vector<picture::Colour> pixels_;
 };
-
-/// Reads a JPEG or PNG file and turns it upright as its EXIF orientation says (CIPA DC-008, tag 0x0112).
-/// Throws core::FileError if it cannot be read, and core::DataError if it is not such a picture, is damaged,
-/// or has more than 200 million pixels.
-Photo read_photo(const std::filesystem::path& file);
 
 }  // namespace unicursal::host

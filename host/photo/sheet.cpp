@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "host/photo/find_marks.hpp"
@@ -14,14 +15,15 @@ namespace {
 using core::Vec2;
 
 constexpr std::size_t most_candidates = 12;
-constexpr double mark_tolerance = 0.03;    ///< of the longer diagonal: lenses bend lines
-constexpr double size_tolerance = 1.35;    ///< factor between the seen and the expected size of a mark
-constexpr double mark_doubt = 0.12;        ///< mm
-constexpr double stroke_doubt = 0.08;      ///< mm
-constexpr double chunk_length = 4;         ///< mm of a stroke that are looked at together
-constexpr double profile_step = 0.05;      ///< mm
-constexpr double least_contrast = 0.025;   ///< between a stroke and the bed beside it, encoded values
-constexpr double off_the_line = 0.25;      ///< mm; a stroke farther away was not found
+constexpr double mark_tolerance = 0.03;   ///< of the longer diagonal: lenses bend lines
+constexpr double size_tolerance = 1.35;   ///< factor between the seen and the expected size of a mark
+constexpr double mark_doubt = 0.12;       ///< mm
+constexpr double stroke_doubt = 0.08;     ///< mm
+constexpr double chunk_length = 4;        ///< mm of a stroke that are looked at together
+constexpr double profile_step = 0.05;     ///< mm
+constexpr double least_contrast = 0.025;  ///< between a stroke and the bed beside it, encoded values
+constexpr double off_the_line = 0.25;     ///< mm; a stroke farther away was not found
+constexpr double most_slant = 2;  ///< lengths in front ÷ lengths behind; blur and gloss then differ too much
 constexpr double least_photo_scale = 3.5;  ///< pixels per mm
 
 constexpr const char* again =
@@ -188,12 +190,29 @@ Sheet::Sheet(const Photo& photo, const SheetPlan& plan, const std::optional<Give
     throw core::DataError(file.string(), "",
                           fmt::format("is too small: it has {:.1f} pixels per millimetre of the bed", scale),
                           "take it again from nearer, with at least 4 pixels per millimetre");
+  check_slant(plan, file);
   for (Sighting& mark : found.marks) mark.doubt = (given ? 4 : 1) * mark_doubt * scale;
   if (found.marks.size() >= 6) fit_view(view_, found.marks, 1);
   if (plan.strokes.empty()) return;
   for (const auto& [reach, lens] :
        {std::pair{0.85, 1}, std::pair{0.6, 1}, std::pair{0.5, 2}, std::pair{0.4, 2}})
     agreement_ = refine(plan, found.marks, reach, static_cast<std::size_t>(lens));
+}
+
+void Sheet::check_slant(const SheetPlan& plan, const std::filesystem::path& file) const {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const Vec2& mark : plan.marks) {
+    for (const Vec2& step : view_.steps_at(mark)) {
+      least = std::min(least, step.norm());
+      most = std::max(most, step.norm());
+    }
+  }
+  if (most <= most_slant * least) return;
+  throw core::DataError(
+      file.string(), "",
+      fmt::format("is taken at a steep slant: a millimetre is {:.1f} times as long in front as behind",
+                  most / least),
+      "take it again from farther above, so that it is less than 2 times as long");
 }
 
 double Sheet::refine(const SheetPlan& plan, std::vector<Sighting> sightings, double reach, std::size_t lens) {
@@ -260,8 +279,6 @@ SeenLight Sheet::light(const Vec2& place, const Vec2& direction, double half_alo
     for (std::size_t c = 0; c < 3; ++c)
       seen.light[c] += picture::decoded(pixels[i].encoded[c]) / static_cast<double>(last - first);
   }
-  // The middle half of a normal distribution spans 1.349 standard deviations; three channels are summed.
-  seen.noise = (pixels[last - 1].brightness - pixels[first].brightness) / 1.349 / 3;
   return seen;
 }
 

@@ -33,7 +33,6 @@ using GivenCorners = std::array<core::Vec2, 4>;
 /// The colour of a small piece of the print.
 struct SeenLight {
   picture::Light light{};  ///< as the camera shows it: the middle half of the pixels, by brightness
-  double noise = 0;        ///< standard deviation of one pixel, in encoded values of 0…1
   double clipped = 0;      ///< share of the pixels in which a channel is at its end, 255
   std::size_t pixels = 0;  ///< of the photo; 0: the place is not in it
 };
@@ -56,6 +55,7 @@ class Sheet {
   double agreement() const { return agreement_; }
 
  private:
+  void check_slant(const SheetPlan& plan, const std::filesystem::path& file) const;
   double refine(const SheetPlan& plan, std::vector<Sighting> marks, double reach, std::size_t lens);
 
   const Photo& photo_;

@@ -25,8 +25,8 @@ constexpr double least_channel_step = 0.3;    ///< of the step of the channel th
 constexpr double end_doubt = 0.03;            ///< of a pure colour, encoded
 constexpr double lane_doubt = 0.006;          ///< of the second pure colour on one lane, encoded
 constexpr double usual_bend = 0.15;           ///< standard deviation of `bent`
-/// How much these are believed: neighbouring points err alike, so that a thousand of them say no more than some
-/// hundred.
+/// How much these are believed: neighbouring points err alike, so that a thousand of them say no more than
+/// some hundred.
 constexpr double believed = 3;
 constexpr int fit_steps = 60;
 constexpr int repetitions = 40;
@@ -353,7 +353,11 @@ std::vector<CurvePoint> on_the_way(std::vector<CurvePoint> points, const ColourA
   std::vector<double> distances;
   for (const CurvePoint& point : points)
     distances.push_back(beside_the_way(point, ways[point.fat < 0.5 ? 0 : 1], answer));
-  std::vector<double> sorted = distances;
+  std::vector<double> sorted;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].trust > 0) sorted.push_back(distances[i]);
+  }
+  if (sorted.empty()) return points;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -446,13 +450,17 @@ double ColourAnswer::change(const Seen& colour, double fat) const {
   return whole > 0 ? along / whole : 0;
 }
 
-CurveFit fit_curve(const std::vector<CurvePoint>& seen, const ReferenceColours& references) {
+CurveFit fit_curve(const std::vector<CurvePoint>& seen, const ReferenceColours& references,
+                   const std::filesystem::path& file) {
   const ColourAnswer answer(references);
   const std::vector<CurvePoint> points = on_the_way(seen, answer);
   const auto began = first_beyond(points, answer, perception.began);
   const auto stopped = first_beyond(points, answer, 0.9);
-  if (!began || !stopped)
-    throw core::DataError("", "the strip", "still changes colour at its end",
+  if (!began)
+    throw core::DataError(file.string(), "", "shows a strip that does not change its colour",
+                          "print the strip with two feeders of different colours");
+  if (!stopped)
+    throw core::DataError(file.string(), "", "shows a strip that still changes its colour at its end",
                           "print again with a larger --range");
   const double way = std::max(0.2, 1.2 * (*stopped - *began));
   std::vector<Nozzle> guesses;
@@ -464,7 +472,8 @@ CurveFit fit_curve(const std::vector<CurvePoint>& seen, const ReferenceColours& 
   const Fitted found = best_fit(points, answer, scatter, guesses);
   constexpr double most_scatter = 0.06;
   if (found.scatter > most_scatter)
-    throw core::DataError("", "the strip", "does not change colour as a mixing nozzle does",
+    throw core::DataError(file.string(), "",
+                          "shows a strip that does not change its colour as behind a mixing nozzle",
                           "take the photo again in even light, without glare on the bead");
   const auto [dead, mixing, tanks] = doubts_of(points, references, answer, found);
   const Nozzle& nozzle = found.nozzle;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <vector>
 
 #include "host/tune/strip.hpp"
@@ -81,7 +82,9 @@ struct CurveFit {
   Seen colour_at(const CurvePoint& point, const ColourAnswer& answer) const;
 };
 
-/// Throws core::DataError if the points are not the curve of a nozzle, or end before its change does.
-CurveFit fit_curve(const std::vector<CurvePoint>& points, const ReferenceColours& references);
+/// Throws core::DataError if the points are not the curve of a nozzle, or end before its change does. `file`
+/// is that of the photo, for messages.
+CurveFit fit_curve(const std::vector<CurvePoint>& points, const ReferenceColours& references,
+                   const std::filesystem::path& file);
 
 }  // namespace unicursal::host

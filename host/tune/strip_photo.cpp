@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/picture/lab.hpp"
@@ -95,6 +94,7 @@ struct PureColour {
   Seen colour{};
   double doubt = 0;  ///< standard deviation of the mean
   double clipped = 0;
+  std::size_t places = 0;  ///< of the photo at which it was seen
 };
 
 PureColour pure_colour(const std::vector<PurePlace>& places, const EvenLight& even, std::size_t material) {
@@ -106,6 +106,7 @@ PureColour pure_colour(const std::vector<PurePlace>& places, const EvenLight& ev
     for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(seen[c]);
     pure.clipped += one.clipped;
   }
+  pure.places = channels[0].size();
   const auto count = static_cast<double>(channels[0].size());
   if (count == 0) return pure;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -142,6 +143,14 @@ class ReferenceLines {
  private:
   std::array<PureColour, shade_count> pure_;
 };
+
+void check_all_seen(const ReferenceLines& lines, const std::filesystem::path& file) {
+  for (std::size_t i = 0; i < shade_count; ++i) {
+    if (lines.pure(static_cast<Shade>(i)).places > 0) continue;
+    throw core::DataError(file.string(), "", "does not show all reference lines",
+                          "take it again with the whole strip in it");
+  }
+}
 
 void check_pure_colours(const ReferenceLines& lines, const std::filesystem::path& file) {
   const PureColour &from = lines.pure(Shade::from), &to = lines.pure(Shade::to);
@@ -216,8 +225,12 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
             "should be",
             100 * sheet.agreement()),
         "use the profile and the --range with which the strip was printed, and a sharp photo");
-  const double thin = strip.thin_width, thicker = std::max(1e-6, strip.fat_width - thin);
-  const auto fatness = [&](double width) { return std::clamp((width - thin) / thicker, 0.0, 1.0); };
+  // If a printer can lay one width only, all lines are thin and fat alike.
+  const double thin = strip.thin_width, thicker = strip.fat_width - thin;
+  const bool two_widths = thicker > 0.05 * thin;
+  const auto fatness = [&](double width) {
+    return two_widths ? std::clamp((width - thin) / thicker, 0.0, 1.0) : 0.0;
+  };
   std::vector<PurePlace> places;
   for (const Strip::Lane& lane : strip.straight) {
     if (!lane.pure) continue;
@@ -229,7 +242,9 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
   for (const Strip::Lane& tick : strip.ticks) add_line(sheet, tick, tick_material, tick.width + 100, places);
   for (const Vec2& centre : strip.round_marks) add_round_mark(sheet, centre, strip.line_width, places);
   const EvenLight even = even_light(places, strip);
-  const ReferenceLines thin_lines(places, even, false), fat_lines(places, even, true);
+  const ReferenceLines thin_lines(places, even, false), fat_lines(places, even, two_widths);
+  check_all_seen(thin_lines, file);
+  check_all_seen(fat_lines, file);
   check_pure_colours(thin_lines, file);
   check_pure_colours(fat_lines, file);
   StripCurve curve;

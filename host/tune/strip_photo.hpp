@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 #include "host/photo/sheet.hpp"
 #include "host/tune/curve_fit.hpp"

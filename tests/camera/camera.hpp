@@ -82,7 +82,7 @@ std::vector<Conditions> unreadable_conditions();
 /// Some that a reader may read or refuse.
 std::vector<Conditions> doubtful_conditions();
 
-/// Easily told apart.
+/// Easily distinguished.
 std::vector<FilamentPair> filament_pairs();
 /// The first can hardly be seen in the second: the end of a change may be beyond reading.
 FilamentPair lopsided_pair();

@@ -94,7 +94,7 @@ TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under
     for (const Pair& pair : pairs) {
       CAPTURE(nozzle.dead, nozzle.mixing, nozzle.tanks, pair.strength);
       const SeenStrip strip = seen_strip(nozzle, pair, 0.004);
-      const CurveFit fit = fit_curve(strip.points, strip.references);
+      const CurveFit fit = fit_curve(strip.points, strip.references, "strip.jpg");
       const double whole = nozzle.dead + nozzle.mixing;
       const double error =
           std::max(std::abs(fit.dead.value - nozzle.dead), std::abs(fit.mixing.value - nozzle.mixing));
@@ -114,8 +114,8 @@ TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under
 TEST_CASE("More noise gives more uncertainty") {
   const HiddenNozzle nozzle{4, 10, 3};
   const SeenStrip quiet = seen_strip(nozzle, pairs[0], 0.001), loud = seen_strip(nozzle, pairs[0], 0.02);
-  const CurveFit sure = fit_curve(quiet.points, quiet.references),
-                 unsure = fit_curve(loud.points, loud.references);
+  const CurveFit sure = fit_curve(quiet.points, quiet.references, "strip.jpg"),
+                 unsure = fit_curve(loud.points, loud.references, "strip.jpg");
   CHECK(unsure.mixing.uncertainty > 1.2 * sure.mixing.uncertainty);
   CHECK(unsure.tanks.uncertainty > 1.2 * sure.tanks.uncertainty);
   CHECK(std::abs(unsure.mixing.value - 10) < unsure.mixing.uncertainty);
@@ -125,24 +125,25 @@ TEST_CASE("More noise gives more uncertainty") {
 TEST_CASE("Glare on a tenth of the bead does not change the result") {
   const HiddenNozzle nozzle{4, 10, 3};
   SeenStrip strip = seen_strip(nozzle, pairs[0], 0.003);
-  const CurveFit before = fit_curve(strip.points, strip.references);
+  const CurveFit before = fit_curve(strip.points, strip.references, "strip.jpg");
   for (std::size_t i = 90; i < 90 + strip.points.size() / 10; ++i) {
     for (double& channel : strip.points[i].colour) channel += 0.3;
   }
-  const CurveFit after = fit_curve(strip.points, strip.references);
+  const CurveFit after = fit_curve(strip.points, strip.references, "strip.jpg");
   CHECK(after.dead.value == Approx(before.dead.value).margin(0.4));
   CHECK(after.mixing.value == Approx(before.mixing.value).margin(0.8));
 }
 
 TEST_CASE("A strip that ends too early, or shows something else, is refused") {
   const SeenStrip early = seen_strip({10, 25, 1}, pairs[0], 0.002, 25);
-  CHECK_THROWS_WITH(fit_curve(early.points, early.references), Catch::Contains("larger --range"));
+  CHECK_THROWS_WITH(fit_curve(early.points, early.references, "strip.jpg"),
+                    Catch::Contains("larger --range"));
   SeenStrip other = seen_strip({4, 10, 2}, pairs[0], 0.002);
   std::mt19937 chance(1);
   for (CurvePoint& point : other.points) {
     for (double& channel : point.colour) channel = static_cast<double>(chance()) / 4294967296.0;
   }
-  CHECK_THROWS_AS(fit_curve(other.points, other.references), core::DataError);
+  CHECK_THROWS_AS(fit_curve(other.points, other.references, "strip.jpg"), core::DataError);
 }
 
 TEST_CASE("Colours of the reference lines are given back exactly, and colours between them lie between") {

@@ -106,8 +106,8 @@ TEST_CASE("Printers of two, four and eight feeders are tuned between their first
     shop.folder.write("diamond.toml", profile_text + more);
     const std::string machine = shop.machine({3, 8, 2});
     shop.folder.write("machine.toml", test::read_text(machine) + more);
-    const Outcome outcome = run(shop.tune({"--simulate", "--machine", machine, "--from", "1", "--to", feeders,
-                                           "--read-simulated", "--yes"}));
+    const Outcome outcome = run(shop.tune(
+        {"--simulate", "--machine", machine, "--from", "1", "--to", feeders, "--read-simulated", "--yes"}));
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(host::load_profile(shop.profile).printer.dead_volume == Approx(3).margin(0.5));
@@ -197,8 +197,6 @@ TEST_CASE("Errors also leave the profile unchanged", "[tuning]") {
       {"--photo", shop.path("none.jpg")},
       {"--photo", shop.profile},
       {"--corners", "1,2,3,4,5,6,7,8"},
-      {"--photo", shop.profile, "--corners", "1,2,3"},
-      {"--photo", shop.profile, "--began", "31", "--stopped", "73"},
       {"-o", shop.profile},
       {"-o", shop.path("diamond.toml/x/y")},
   };
@@ -211,6 +209,30 @@ TEST_CASE("Errors also leave the profile unchanged", "[tuning]") {
   }
   CHECK(run({"tune"}).code == 2);
   CHECK(run({"tune", "transition", shop.path("none.toml")}).code == 2);
+}
+
+TEST_CASE("Options that exclude each other, and files that would be lost, are named before anything is done",
+          "[tuning]") {
+  const Workshop shop;
+  const std::string photo = shop.folder.write("fit.png", "a photo").string();
+  const std::pair<std::vector<std::string>, const char*> wrong[] = {
+      {{"--photo", photo, "--corners", "1,2,3"}, "--corners: are not eight numbers"},
+      {{"--photo", photo, "--began", "31", "--stopped", "73"}, "--began"},
+      {{"--photo", photo, "--port", "auto"}, "--port"},
+      {{"--photo", photo, "--simulate"}, "--simulate"},
+      {{"--photo", photo, "--picture", shop.path(".")}, "is an input, which would be lost"},
+      {{"--simulate", "--rasters", shop.profile}, "is an input, which would be lost"},
+      {{"--simulate", "--rasters", shop.path("."), "--read-simulated"}, "unicursal: "},
+  };
+  for (const auto& [arguments, words] : wrong) {
+    CAPTURE(arguments);
+    const Outcome outcome = run(shop.tune(arguments));
+    CHECK(outcome.code == 2);
+    INFO(outcome.err);
+    CHECK(outcome.err.find(words) != std::string::npos);
+    CHECK(shop.untouched());
+    CHECK(test::read_text(photo) == "a photo");
+  }
 }
 
 TEST_CASE("A profile that was edited meanwhile is not overwritten", "[tuning]") {
