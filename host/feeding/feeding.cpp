@@ -41,7 +41,7 @@ void add_lines(Chunk& chunk, std::vector<std::string> lines) {
                      std::make_move_iterator(lines.end()));
 }
 
-Mixture one_feeder(std::size_t feeder, std::size_t feeders) {
+Mixture mixture_of_one(std::size_t feeder, std::size_t feeders) {
   gcode::Shares shares = gcode::Shares::zeros(feeders);
   shares[feeder] = 1;
   return Mixture(shares);
@@ -133,7 +133,7 @@ class FeedingWriter {
   }
 
   Mixture alone(std::size_t feeder) const {
-    const Mixture mixture = one_feeder(feeder, printer_.feeders);
+    const Mixture mixture = mixture_of_one(feeder, printer_.feeders);
     return order_.kind == FeedingKind::unload ? mixture : mixture.with_floor(printer_.floor_share);
   }
 
