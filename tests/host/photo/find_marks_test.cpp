@@ -82,7 +82,8 @@ Photo photo_of_marks(const View& view, const MarkPlaces& places, bool grid) {
 
 }  // namespace
 
-TEST_CASE("Round marks are found in any turn and slant, also where a grid on the bed crosses them") {
+TEST_CASE("Round marks are found in any turn and slant, also where a grid on the bed crosses them",
+          "[optimised]") {
   const MarkPlaces places = mark_places(frame);
   for (const double angle : {0.0, 0.7, 2.4, 3.1416, 5.0}) {
     for (const double slant : {0.0, 0.2}) {
@@ -111,7 +112,7 @@ TEST_CASE("Disks, squares and rings around bars are not marks") {
   CHECK(find_marks(photo).empty());
 }
 
-TEST_CASE("A sheet knows how the print is turned, by the two marks between the corners") {
+TEST_CASE("A sheet knows how the print is turned, by the two marks between the corners", "[optimised]") {
   SheetPlan plan;
   plan.marks = mark_places(frame);
   plan.line = line_width;

@@ -88,7 +88,8 @@ SeenStrip seen_strip(const HiddenNozzle& nozzle, const Pair& pair, double noise_
 
 }  // namespace
 
-TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under another law of colours") {
+TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under another law of colours",
+          "[optimised]") {
   std::size_t within = 0, tanks_within = 0, all = 0;
   for (const HiddenNozzle& nozzle : test::hidden_nozzles(12, 7)) {
     for (const Pair& pair : pairs) {
@@ -111,7 +112,7 @@ TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under
   CHECK(tanks_within * 100 >= 75 * all);
 }
 
-TEST_CASE("More noise gives more uncertainty") {
+TEST_CASE("More noise gives more uncertainty", "[optimised]") {
   const HiddenNozzle nozzle{4, 10, 3};
   const SeenStrip quiet = seen_strip(nozzle, pairs[0], 0.001), loud = seen_strip(nozzle, pairs[0], 0.02);
   const CurveFit sure = fit_curve(quiet.points, quiet.references, "strip.jpg"),
