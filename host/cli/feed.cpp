@@ -11,6 +11,7 @@
 #include "host/engine/reconnecting.hpp"
 #include "host/feeding/cool_when_back.hpp"
 #include "host/feeding/feeding.hpp"
+#include "host/link/find_port.hpp"
 #include "host/tune/terminal_reader.hpp"
 
 namespace unicursal::host {
@@ -33,11 +34,10 @@ constexpr FeedWords load_words{
     "Feed filament into the hot end until it leaves the nozzle.",
     "unicursal load diamond.toml --feeder 2 --port auto",
     "Feeder to load, counted from 1.",
-    "How far its filament moves, 1 to 2000 mm. Default: 60, and the length of the tube if the profile has "
-    "it.",
-    "Push the filament into the feeder until its gear holds it. The other feeders turn a little as well, so "
-    "that "
-    "their inlets do not clog.",
+    "How far its filament moves, 1 to 2000 mm. Default: 60, and the length of the tube if the profile "
+    "has it.",
+    "Push the filament into the feeder until its gear holds it. The other feeders turn a little as well, "
+    "so that their inlets do not clog.",
     "Is filament in the gear of {}? The axes home, and the nozzle drips: is the bed clear?",
     "{} has fed {:g} mm"};
 constexpr FeedWords purge_words{
@@ -46,9 +46,8 @@ constexpr FeedWords purge_words{
     "unicursal purge diamond.toml --port auto",
     "Feeder to purge, counted from 1. Default: one after the other, then all together.",
     "How far the filament of each feeder moves, 1 to 2000 mm. Default: 20.",
-    "A Diamond hot end clogs at an inlet whose filament stands still. Purge all feeders after loading, and "
-    "before a "
-    "print if the printer has stood for days.",
+    "A Diamond hot end clogs at an inlet whose filament stands still. Purge all feeders after loading, "
+    "and before a print if the printer has stood for days.",
     "Are all feeders loaded? The axes home, and the nozzle drips: is the bed clear?",
     "{} has fed {:g} mm"};
 constexpr FeedWords unload_words{
@@ -56,13 +55,25 @@ constexpr FeedWords unload_words{
     "Pull filament out of the hot end.",
     "unicursal unload diamond.toml --feeder 2 --port auto",
     "Feeder to unload, counted from 1.",
-    "How far its filament is pulled back, 1 to 2000 mm. Default: 100, or the length of the tube and 80 if "
-    "the "
-    "profile has it.",
-    "All feeders push 5 mm together first; then only this one moves. Load its inlet again before the next "
-    "print.",
+    "How far its filament is pulled back, 1 to 2000 mm. Default: 100, or the length of the tube and 80 "
+    "if the profile has it.",
+    "All feeders push 5 mm together first; then only this one moves. Load its inlet again before the "
+    "next print.",
     "May {} let its filament go? The axes home, and the nozzle drips: is the bed clear?",
     "{} has pulled {:g} mm back"};
+
+/// What a user reads whose cable was pulled.
+std::string outcome_of(const Cooling& cooling) {
+  switch (cooling.ending) {
+    case Cooling::Ending::cooled:
+      return "the printer is back, and its nozzle cools; begin again";
+    case Cooling::Ending::time_over:
+      return "the printer did not come back: switch it off by its own switch";
+    case Cooling::Ending::gave_up:
+      break;
+  }
+  return cooling.reason + "; the nozzle may still be hot: switch the printer off by its own switch";
+}
 
 const FeedWords& words_for(FeedingKind kind) {
   if (kind == FeedingKind::load) return load_words;
@@ -139,15 +150,16 @@ Exit Feed::feed(const Feeding& made, const Profile& profile) const {
   look.feeds = true;
   const std::string port = port_.value_or(profile.port);
   const int descriptor = open_port(port, profile.baud, settings.link);
-  const std::string device = device_of(descriptor);
+  // The device's own name may be another one, or another printer's, when it is plugged in again.
+  const std::string device = device_of(descriptor), stable_name = stable_name_of(device);
   const StreamResult result = stream_with_progress(descriptor, source, {}, settings, look).stream;
   if (result.unfit) throw PrinterUnfit(result.reason);
   if (may_reconnect(result)) {
-    show(stderr, "{}; plug it in again: its nozzle is switched off when it is back, for up to {} minutes\n",
-         result.reason, reconnecting_patience.count());
-    const bool cooled = cool_when_back(port == "auto" ? device : port, profile.baud, settings.link);
-    throw PrintError(cooled ? "the printer is back, and its nozzle cools; begin again"
-                            : "the printer did not come back: switch it off by its own switch");
+    show(stderr, "{}; plug it in again within {} minutes, and its nozzle is switched off\n", result.reason,
+         reconnecting_patience.count());
+    const std::string known = port == "auto" ? device : port;
+    throw PrintError(
+        outcome_of(cool_when_back(stable_name.empty() ? known : stable_name, profile.baud, settings.link)));
   }
   if (result.ending == Ending::failed) throw PrintError(result.reason);
   if (result.ending == Ending::stopped) {

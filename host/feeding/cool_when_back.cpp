@@ -47,9 +47,17 @@ asio::awaitable<bool> cool_in_time(asio::any_io_executor executor, const std::st
   co_return false;
 }
 
+std::string reason_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::exception& failure) {
+    return failure.what();
+  }
+}
+
 }  // namespace
 
-bool cool_when_back(const std::string& port, unsigned baud, LinkOptions options) {
+Cooling cool_when_back(const std::string& port, unsigned baud, LinkOptions options) {
   options.temperatures = {};
   asio::io_context loop{1};
   asio::signal_set signals(loop);
@@ -57,14 +65,18 @@ bool cool_when_back(const std::string& port, unsigned baud, LinkOptions options)
   signals.async_wait([&loop](const asio::error_code& error, int) {
     if (!error) loop.stop();
   });
-  bool cooled = false;
+  Cooling cooling{Cooling::Ending::gave_up, "the waiting was stopped"};
   asio::co_spawn(loop, cool_in_time(loop.get_executor(), port, baud, options),
                  [&](const std::exception_ptr& error, bool back) {
-                   cooled = !error && back;
+                   if (error) {
+                     cooling.reason = reason_of(error);
+                   } else {
+                     cooling = {back ? Cooling::Ending::cooled : Cooling::Ending::time_over, ""};
+                   }
                    loop.stop();
                  });
   loop.run();
-  return cooled;
+  return cooling;
 }
 
 }  // namespace unicursal::host

@@ -7,8 +7,15 @@
 
 namespace unicursal::host {
 
-/// Opens the port as soon as it is there again, and switches the nozzle off; blocks. Returns false if the
-/// printer does not come back within five minutes, or one of the signals that end a print ends the waiting.
-bool cool_when_back(const std::string& port, unsigned baud, LinkOptions options);
+struct Cooling {
+  enum class Ending { cooled, time_over, gave_up };
+
+  Ending ending = Ending::time_over;
+  std::string reason;  ///< of giving up
+};
+
+/// Opens the port as soon as it is there again, and switches the nozzle off; blocks. The time is over after
+/// five minutes. It gives up at one of the signals that end a print, and at an error that is not the link's.
+Cooling cool_when_back(const std::string& port, unsigned baud, LinkOptions options);
 
 }  // namespace unicursal::host

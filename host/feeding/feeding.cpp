@@ -30,7 +30,7 @@ constexpr double unload_length = 100;  ///< mm, out of the hot end
 constexpr double beyond_tube = 80;     ///< mm, out of the hot end, through the tube and out of the gears
 constexpr double unsure_length = 30;   ///< mm by which a tube may be shorter than its profile says
 constexpr double tip_length = 5;       ///< mm, all feeders together
-constexpr double tube_speed = 20;      ///< mm/s; every feeder pushes so fast through a tube
+constexpr double tube_speed = 20;      ///< mm/s; a feeder pushes at most so fast through a tube
 constexpr double flow_part = 0.5;      ///< of max_flow, which only all inlets together melt
 constexpr double piece_seconds = 0.5;  ///< of a line; the lines in the printer's queue run on after a Ctrl-C
 constexpr double lifted_nozzle = 50;   ///< mm above the bed, for a hand and a string of plastic
@@ -114,6 +114,12 @@ class FeedingWriter {
   double fast() const {
     return std::min({tube_speed, printer_.retraction_speed, printer_.motion.extruder_speed});
   }
+  /// What the other feeders push meanwhile must melt, unlike that of this one, which is not at the nozzle.
+  double through_tube(std::size_t which) const {
+    const double others = 1 - share_[which];
+    const double melting = flow_part * printer_.max_flow / filament_area();
+    return others * fast() > melting ? melting / others : fast();
+  }
   double pull() const { return std::min(printer_.retraction_speed, printer_.motion.extruder_speed); }
 
   Chunk start() {
@@ -149,11 +155,11 @@ class FeedingWriter {
       push(tip_length, slow());
       return one(0, -made_.length, pull());
     }
-    const bool through_tube = order_.kind == FeedingKind::load && tube_;
+    const bool from_far = order_.kind == FeedingKind::load && tube_;
     const double quick =
-        through_tube ? std::max(0.0, std::min(*tube_ - unsure_length, made_.length - fill_length)) : 0;
+        from_far ? std::max(0.0, std::min(*tube_ - unsure_length, made_.length - fill_length)) : 0;
     for (std::size_t i = 0; i < feeders_.size(); ++i) {
-      one(i, quick, fast());
+      one(i, quick, through_tube(i));
       one(i, made_.length - quick, slow());
     }
     if (!order_.feeder) push(made_.length, slow());

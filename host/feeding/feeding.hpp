@@ -6,14 +6,14 @@
 // the filament is drawn back at first; so it is at the end.
 //
 // load, purge   One feeder turns, and each of the others with the profile's floor share: where an inlet
-// stands
-//               still under pressure, melt creeps up in it and clogs it. `load` is fast as far as the tube
-//               certainly reaches. `purge` of all feeders is one after the other, and then all together.
-// unload        All feeders push a little together, which leaves a tip that does not catch in the tube. Then
-// one
-//               feeder pulls alone, at once and fast, before the tip sticks. Here the others have no floor
-//               share: the sign of E is that of all feeders, so that a share would pull their melt out of
-//               their inlets, and draw air in. They stand still only for as long as the pull lasts.
+//               stands still under pressure, melt creeps up in it and clogs it. `load` is fast as far as
+//               the tube certainly reaches, if the others' filament melts as fast. `purge` of all feeders
+//               is one after the other, and then all together.
+// unload        All feeders push a little together, which leaves a tip that does not catch in the tube.
+//               Then one feeder pulls alone, at once and fast, before the tip sticks. Here the others have
+//               no floor share: the sign of E is that of all feeders, so that a share would pull their
+//               melt out of their inlets, and draw air in. They stand still only for as long as the pull
+//               lasts.
 #pragma once
 
 #include <cstddef>

@@ -81,6 +81,12 @@ class Workshop {
   nlohmann::json seen_;
 };
 
+bool catches(pid_t process, int signal) {
+  const std::string status = test::read_text("/proc/" + std::to_string(process) + "/status");
+  const std::size_t mask = status.find("SigCgt:");
+  return mask != std::string::npos && std::stoull(status.substr(mask + 7), nullptr, 16) >> (signal - 1) & 1;
+}
+
 bool feeds(const std::string& line) {
   return line.starts_with("G1 ") && line.find('E') != std::string::npos;
 }
@@ -162,6 +168,10 @@ TEST_CASE("the way through a tube of known length is fast, except for its end") 
   CHECK(seconds(host::FeedingKind::load).length == 490);
   CHECK(seconds(host::FeedingKind::load).seconds ==
         Approx(400 / share / 20 + 90 / share / slow).epsilon(0.01));
+  // 2.5 mm³/s of the others have to melt, whatever goes through the tube.
+  profile.printer.floor_share = 0.1;
+  CHECK(seconds(host::FeedingKind::load).seconds ==
+        Approx(400 / 0.8 / (slow / 0.2) + 90 / 0.8 / slow).epsilon(0.01));
   CHECK(seconds(host::FeedingKind::unload).length == 510);
   CHECK(seconds(host::FeedingKind::purge).length == 20);
 }
@@ -192,6 +202,22 @@ TEST_CASE("a nozzle whose cable was pulled is switched off when the printer is b
              Contains("plug it in again") && Contains("the printer is back, and its nozzle cools"));
   check_left_safe(shop);
   CHECK(shop.turned(0) < 150);
+}
+
+TEST_CASE("who ends the waiting for a printer whose cable was pulled reads that it may be hot",
+          "[optimised]") {
+  Workshop shop(profile_of("marlin"), "400", {"--fault", "disconnect@line=40"});
+  Child child(shop.words("load", {"--feeder", "1", "--length", "200"}));
+  Workshop::wait_for(child, [&] {
+    return child.err().find("plug it in again") != std::string::npos && catches(child.id(), SIGINT);
+  });
+  kill(child.id(), SIGINT);
+  const Outcome outcome = child.wait();
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK_THAT(outcome.err, Contains("within 5 minutes, and its nozzle is switched off\n") &&
+                              Contains("the waiting was stopped; the nozzle may still be hot") &&
+                              !Contains("did not come back"));
 }
 
 TEST_CASE("a printer that resets has failed, and is cold", "[optimised]") {
