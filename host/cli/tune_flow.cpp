@@ -4,9 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "host/cli/arguments.hpp"
@@ -23,6 +26,7 @@ namespace {
 
 constexpr const char* lines_name = "the test print";
 constexpr double least_mark = 110, farthest_mark = 1000;  ///< mm
+constexpr double most_fed = 1.05;                         ///< of what is asked for
 constexpr double doubt = 0.7;                             ///< mm, of two readings of a ruler
 
 /// What is left between inlet and mark, a number for each feeder.
@@ -41,6 +45,16 @@ gcode::PerFeeder left_in(const std::string& text, std::size_t feeders) {
                           fmt::format("has {} numbers, but there are {} feeders", left.size(), feeders),
                           remedy);
   return gcode::PerFeeder::of(left);
+}
+
+/// A mark that has gone into its feeder cannot be read; a feeder may feed more than it is asked for.
+void check_mark(double mark, const gcode::PerFeeder& asked) {
+  const double most = *std::max_element(asked.begin(), asked.end());
+  const double least = std::ceil(most_fed * most);
+  if (mark >= most_fed * most) return;
+  throw core::DataError(
+      "", "--mark", fmt::format("{:g} mm is too near: the print takes {:.0f} mm of filament", mark, most),
+      fmt::format("put the marks {:g} mm before the feeders, and add --mark {:g}", least, least));
 }
 
 gcode::PerFeeder ask_left(std::size_t feeders, double mark) {
@@ -114,12 +128,15 @@ Exit TuneFlow::run() const {
   std::optional<gcode::PerFeeder> left;
   if (measured_) left = left_in(*measured_, feeders);
   const FlowTest test = make_flow_test(profile.printer);
+  check_mark(mark_, test.asked);
   const FinishedPrint print = gcode_of(test.print, test.printer);
   const auto [volume, seconds] = amount_of(print);
   show(stdout, "lines:     {} feeders, {:.0f} mm³ and about {} in all\n", feeders, volume,
        duration_words(seconds));
-  if (test.start_shortened)
-    show(stdout, "Lines of gcode.start that feed filament are left out, since they would be measured too.\n");
+  if (test.scripts_shortened)
+    show(stdout,
+         "Lines of gcode.start and gcode.end that feed filament are left out, since they would be measured "
+         "too.\n");
   try {
     if (output_) write_gcode(print, *output_);
     const bool printed = simulate_ || port_;

@@ -95,7 +95,9 @@ FlowTest make_flow_test(const gcode::Printer& printer) {
   FlowTest test{printer, false, {}, {}};
   test.printer.flow_factors = gcode::PerFeeder::all(printer.feeders, 1);
   test.printer.start_gcode = without_feeding(printer.start_gcode);
-  test.start_shortened = test.printer.start_gcode != printer.start_gcode;
+  test.printer.end_gcode = without_feeding(printer.end_gcode);
+  test.scripts_shortened =
+      test.printer.start_gcode != printer.start_gcode || test.printer.end_gcode != printer.end_gcode;
   const StripSizes sizes(printer);
   const BandLayout layout(printer, sizes);
   if (!layout.fits(printer.feeders))

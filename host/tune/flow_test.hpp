@@ -2,7 +2,7 @@
 // some 100 mm of its filament. How much the print asks of each feeder is known exactly, numbers and floor
 // shares included, and a mark on each filament shows how much went in. The quotient is the feeder's flow
 // factor (firmware_gcode/mixing/calibration.hpp). The print is made without flow factors, and without lines
-// of the user's gcode.start that feed filament. mm of filament.
+// of the user's gcode.start and gcode.end that feed filament. mm of filament.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@
 namespace unicursal::host {
 
 struct FlowTest {
-  gcode::Printer printer;  ///< with which it is printed
-  bool start_shortened = false;
+  gcode::Printer printer;          ///< with which it is printed
+  bool scripts_shortened = false;  ///< gcode.start or gcode.end
   TestPrint print;
   gcode::PerFeeder asked;  ///< of each feeder, mm
 };

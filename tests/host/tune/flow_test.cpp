@@ -32,6 +32,10 @@ start = """
 G29
 G1 X5 E8 F600 ; purge
 """
+end = """
+G1 E-5 F300
+M300
+"""
 )";
 
 /// What the lines of a print feed through each of three feeders, as Marlin understands them, mm.
@@ -63,7 +67,7 @@ TEST_CASE("The print feeds exactly what it says it does, whatever the profile's 
   const test::TempFolder folder;
   const host::Profile profile = host::load_profile(folder.write("p.toml", machine_text));
   const host::FlowTest test = host::make_flow_test(profile.printer);
-  CHECK(test.start_shortened);
+  CHECK(test.scripts_shortened);
   const std::vector<double> fed = fed_by(host::gcode_of(test.print, test.printer));
   for (std::size_t f = 0; f < 3; ++f) {
     // The numbers and the retractions, of which the last undoes the first, are in it.
@@ -98,16 +102,16 @@ TEST_CASE("Factors are asked for or given, and only they change in the profile",
     more.insert(more.begin(), {"tune", "flow", profile});
     return test::Child(more, {}, folder.write("answers", answers).string()).wait();
   };
-  const host::FlowTest test = host::make_flow_test(host::load_profile(profile).printer);
+  const host::FlowTest lines = host::make_flow_test(host::load_profile(profile).printer);
   SECTION("asked") {
     const Outcome outcome = flow("21.5\nmuch\n19,0\n20\ny\n", {});
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out.find("a number from 0 to 120") != std::string::npos);
     const gcode::PerFeeder factors = host::load_profile(profile).printer.flow_factors;
-    CHECK(factors[0] == Approx(test.asked[0] / 98.5).margin(0.0006));
-    CHECK(factors[1] == Approx(test.asked[1] / 101).margin(0.0006));
-    CHECK(factors[2] == Approx(test.asked[2] / 100).margin(0.0006));
+    CHECK(factors[0] == Approx(lines.asked[0] / 98.5).margin(0.0006));
+    CHECK(factors[1] == Approx(lines.asked[1] / 101).margin(0.0006));
+    CHECK(factors[2] == Approx(lines.asked[2] / 100).margin(0.0006));
     const std::string text = test::read_text(profile);
     CHECK(text.find("feeders = 3       # a Diamond\nflow_factors = [") != std::string::npos);
     CHECK(text.find("filament_diameter = 1.75\n") != std::string::npos);
@@ -116,7 +120,7 @@ TEST_CASE("Factors are asked for or given, and only they change in the profile",
     const Outcome outcome = flow("", {"--mark", "150", "--measured", "50, 51,49.5", "--yes"});
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
-    CHECK(host::load_profile(profile).printer.flow_factors[1] == Approx(test.asked[1] / 99).margin(0.0006));
+    CHECK(host::load_profile(profile).printer.flow_factors[1] == Approx(lines.asked[1] / 99).margin(0.0006));
   }
   SECTION("cancelled") {
     for (const char* answers : {"", "q\n", "21\n", "21\n19\nq\n", "21\n19\n20\n", "21\n19\n20\nn\n"}) {
@@ -139,6 +143,16 @@ TEST_CASE("Factors are asked for or given, and only they change in the profile",
       CHECK(test::read_text(profile) == machine_text);
     }
   }
+  SECTION("a mark that would go into its feeder") {
+    std::string wide = test::replaced(machine_text, "nozzle = 0.6", "nozzle = 1.2");
+    wide = test::replaced(wide, "[0.36, 1.6]", "[0.8, 3.0]");
+    folder.write("p.toml", wide);
+    const Outcome outcome = flow("", {"--mark", "110", "--measured", "2,2,2", "--yes"});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("and add --mark 114") != std::string::npos);
+    CHECK(test::read_text(profile) == wide);
+    CHECK(flow("", {"--mark", "114", "--measured", "6,6,6", "--yes"}).code == 0);
+  }
   SECTION("written to a file") {
     const std::string file = (folder / "flow.gcode").string();
     const Outcome outcome = flow("", {"-o", file});
@@ -147,6 +161,8 @@ TEST_CASE("Factors are asked for or given, and only they change in the profile",
     const std::string gcode = test::read_text(file);
     CHECK(gcode.find("\nG29\n") != std::string::npos);
     CHECK(gcode.find("X5 E8") == std::string::npos);
+    CHECK(gcode.find("\nM300\n") != std::string::npos);
+    CHECK(gcode.find("E-5 F300") == std::string::npos);
   }
 }
 
