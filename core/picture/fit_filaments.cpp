@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -11,7 +10,7 @@ namespace unicursal::picture {
 namespace {
 
 constexpr std::size_t channels = 3;
-constexpr double together = 0.1;  ///< least shares of two filaments by which a mixture tells of their loss
+constexpr double together = 0.1;  ///< least shares of two filaments that show their loss
 constexpr double doubtful = 2.5;  ///< ΔE by which a mixture counts half
 /// How far the numbers usually lie from their usual values. Those of one filament or two are alike in all
 /// channels; how far they lie from their mean is the second number.
@@ -53,10 +52,10 @@ class Numbers {
       : pure_(pure.begin(), pure.end()), fitted_(colours == PureColours::fitted) {
     for (std::size_t one = 0; one < pure.size(); ++one) {
       for (std::size_t other = one + 1; other < pure.size(); ++other) {
-        const auto tells = [&](const MeasuredMixture& mixture) {
+        const auto shows_loss = [&](const MeasuredMixture& mixture) {
           return mixture.shares[one] >= together && mixture.shares[other] >= together;
         };
-        if (std::any_of(measured.begin(), measured.end(), tells)) pairs_.emplace_back(one, other);
+        if (std::any_of(measured.begin(), measured.end(), shows_loss)) pairs_.emplace_back(one, other);
       }
     }
   }

@@ -46,6 +46,12 @@ const char* line_break_of(const std::string& text) {
   return text.find("\r\n") == std::string::npos ? "\n" : "\r\n";
 }
 
+std::string with_line_breaks(const std::string& value, const std::string& line_break) {
+  std::string result;
+  for (const char c : value) result += c == '\n' ? line_break : std::string(1, c);
+  return result;
+}
+
 /// Replaces a value; a comment behind it keeps its column if there are enough spaces.
 void replace_value(std::string& text, const toml::source_region& where, const std::string& value) {
   const std::size_t begin = offset_of(text, where.begin), end = offset_of(text, where.end);
@@ -175,7 +181,10 @@ std::string with_changes(const std::string& text, std::span<const ProfileChange>
                          const std::filesystem::path& file) {
   parse_toml(text, file);
   std::string changed = text;
-  for (const ProfileChange& change : changes) make(change, changed, file);
+  for (ProfileChange change : changes) {
+    change.value = with_line_breaks(change.value, line_break_of(text));
+    make(change, changed, file);
+  }
   if (!differs_only_there(text, changed, changes, file)) {
     throw JobError(file.string(), changes.front().table, "is written in a way that cannot be changed here",
                    fmt::format("write {} yourself", in_words(changes)));

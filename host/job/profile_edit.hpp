@@ -14,7 +14,7 @@ struct ProfileChange {
   std::string table;                 ///< such as "transition"
   std::optional<std::size_t> index;  ///< in a list of tables, such as [[filament]]
   std::string key;
-  std::string value;   ///< in TOML
+  std::string value;   ///< in TOML; its line ends become those of the profile
   std::string beside;  ///< the key behind which a new key is put, if the table has it
 };
 

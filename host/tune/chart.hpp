@@ -28,7 +28,7 @@ inline constexpr double usual_thickness = 0.8;
 
 struct ChartPatch {
   gcode::Mixture mixture;             ///< as it is delivered
-  std::optional<std::size_t> feeder;  ///< that is alone, but for the floor share of the others
+  std::optional<std::size_t> feeder;  ///< that is alone, except for the floor share of the others
   core::Box square;
   core::Box middle;  ///< where its colour is pure, and no edge is near
 };

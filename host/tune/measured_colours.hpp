@@ -1,6 +1,5 @@
-// Colours of a chart's patches that a person has measured, as a file: a line for each patch with its number
-// and
-// "#rrggbb", or its number, L*, a* and b*, with commas, semicolons or tabs between them:
+// Colours of a chart's patches that a person has measured, as a file: a line for each patch with its
+// number and "#rrggbb", or its number, L*, a* and b*, with commas, semicolons or tabs between them:
 //
 //   patch, L, a, b
 //   1, 47.2, 12.5, -40.1

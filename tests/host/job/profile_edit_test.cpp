@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "core/error.hpp"
@@ -58,6 +59,19 @@ TEST_CASE("The two numbers are replaced and everything else stays, in every way 
     CAPTURE(before);
     CHECK(edited(before) == after);
     CHECK(edited(after) == after);
+  }
+}
+
+TEST_CASE("A value of several lines gets the line ends of the profile") {
+  const std::vector<ProfileChange> change{{"colours", {}, "losses", "[\n  [1, 2, 3, 4, 5],\n]", "power"}};
+  const std::string losses = "losses = [\r\n  [1, 2, 3, 4, 5],\r\n]\r\n";
+  for (const std::string before : {"", "[colours]\r\n", "[colours]\r\npower = 2\r\n",
+                                   "[colours]\r\nlosses = [\r\n  [1, 2, 0, 0, 0],\r\n]\r\n"}) {
+    const std::string text = "[printer]\r\nnozzle = 0.6\r\n" + before;
+    const std::string after = with_changes(text, change, "profile.toml");
+    CAPTURE(after);
+    CHECK(after.ends_with(losses));
+    CHECK(std::count(after.begin(), after.end(), '\n') == std::count(after.begin(), after.end(), '\r'));
   }
 }
 
