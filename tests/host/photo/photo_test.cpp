@@ -93,7 +93,7 @@ TEST_CASE("A photo that claims to be huge is refused before it is read") {
   bytes[16] = bytes[20] = 0;
   bytes[17] = bytes[21] = 1;  // 65 536 and more on each side
   const unsigned long sum =
-      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()) + 12, 17);  // of the header's chunk
+      ::crc32(0, reinterpret_cast<const Bytef*>(bytes.data()) + 12, 17);  // of the header's chunk
   for (std::size_t i = 0; i < 4; ++i) bytes[29 + i] = static_cast<char>(sum >> (24 - 8 * i));
   folder.write("huge.png", bytes);
   CHECK_THROWS_WITH(read_photo(folder / "huge.png"), Catch::Contains("200 million pixels"));
