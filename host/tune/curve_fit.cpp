@@ -197,15 +197,37 @@ class CurveFitter {
     return nozzle;
   }
 
+  /// By small steps for the nozzle and for what the camera bends; the other colours are simply added. A
+  /// colour's channel changes the same channel of the points only, so that one step serves all three.
   Eigen::MatrixXd slopes_at(const Nozzle& nozzle, const Eigen::VectorXd& rest) const {
     constexpr double by = 1e-3;
-    Eigen::MatrixXd slopes(rest.size(), freedoms);
-    for (Eigen::Index i = 0; i < freedoms; ++i) {
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rest.size(), freedoms);
+    for (Eigen::Index i = 0; i < 3; ++i) {
       Eigen::VectorXd to = Eigen::VectorXd::Zero(freedoms);
       to(i) = i == 2 && nozzle.tanks + by >= largest_tanks ? -by : by;
       slopes.col(i) = (rests(sum_of(nozzle, to)) - rest) / to(i);
     }
+    Nozzle bent = nozzle;
+    for (double& channel : bent.bent) channel += by;
+    const Eigen::VectorXd bending = (rests(bent) - rest) / by;
+    for (Eigen::Index row = 0; row < count_; ++row) {
+      const CurvePoint& point = points_[static_cast<std::size_t>(row / 3)];
+      const double share = responded(nozzle, point.passed);
+      const auto lane = static_cast<Eigen::Index>(std::min(point.lane, CurveFit::most_lanes - 1));
+      const Eigen::Index channel = row % 3, first = 3 + channel;
+      slopes(row, first) = bending(row);
+      slopes(row, first + 3) = 1 - share;
+      slopes(row, first + 6) = share;
+      slopes(row, first + 9 + 3 * lane) = share;
+    }
+    for (Eigen::Index i = 0; i < ends; ++i) slopes(count_ + i, 3 + i) = belief(i);
     return slopes;
+  }
+
+  /// What a prior's row of the rests is for a colour of 1.
+  double belief(Eigen::Index i) const {
+    const double doubt = i < 3 ? usual_bend : i < 9 ? end_doubt : lane_doubt;
+    return believed * scatter_ / doubt;
   }
 
   /// The last ones say how much cameras usually bend, and that the pure colours are known to `end_doubt`.
@@ -217,11 +239,13 @@ class CurveFitter {
       for (std::size_t c = 0; c < 3; ++c)
         rest(static_cast<Eigen::Index>(3 * i + c)) = colour[c] - point.colour[c];
     }
-    Eigen::Index at = count_;
+    Eigen::Index at = 0;
     Nozzle copy = nozzle;
     for (const Seen* seen : loose(copy)) {
-      const double doubt = at < count_ + 3 ? usual_bend : at < count_ + 9 ? end_doubt : lane_doubt;
-      for (const double channel : *seen) rest(at++) = believed * channel / doubt * scatter_;
+      for (const double channel : *seen) {
+        rest(count_ + at) = belief(at) * channel;
+        ++at;
+      }
     }
     return rest;
   }

@@ -91,7 +91,7 @@ SeenStrip seen_strip(const HiddenNozzle& nozzle, const Pair& pair, double noise_
 TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under another law of colours",
           "[optimised]") {
   std::size_t within = 0, tanks_within = 0, all = 0;
-  for (const HiddenNozzle& nozzle : test::hidden_nozzles(12, 7)) {
+  for (const HiddenNozzle& nozzle : test::hidden_nozzles(6, 7)) {
     for (const Pair& pair : pairs) {
       CAPTURE(nozzle.dead, nozzle.mixing, nozzle.tanks, pair.strength);
       const SeenStrip strip = seen_strip(nozzle, pair, 0.004);
