@@ -10,7 +10,7 @@ namespace {
 constexpr double most_margin = 10, least_margin = 6, margin_part = 0.05;
 /// Of the nozzle's opening: sticks to the bed and spreads fine beads.
 constexpr double height_part = 1.0 / 3;
-constexpr double finest = 0.8;          ///< nozzle openings; thinner beads are hard to see in a photo
+constexpr double finest = 0.75;         ///< nozzle openings; thinner beads are hard to see in a photo
 constexpr double fattest = 2;           ///< nozzle openings; fatter beads are no longer even
 constexpr double lines_per_tick = 0.6;  ///< greatest opening for ticks at a distance of 1 mm, mm
 

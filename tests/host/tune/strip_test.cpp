@@ -71,7 +71,9 @@ TEST_CASE("A tick is worth no more than its share of what has passed, and the bo
     const StripSizes sizes(printer);
     const Strip strip = make_strip(printer, {});
     double after_switch = 0;
-    for (const StripMove& move : strip.bead) after_switch += move.shade == Shade::to ? move.volume : 0;
+    // The line of 100 % is laid before the strip, and lanes of the first mixture lie between.
+    for (const StripMove& move : strip.bead)
+      after_switch = move.shade == Shade::to ? after_switch + move.volume : 0;
     CHECK(after_switch == Approx(strip.volume()));
     CHECK(strip.volume() >= 60);
     CHECK(strip.points.front().passed == 0);
