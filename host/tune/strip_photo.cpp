@@ -23,8 +23,6 @@ constexpr double core_part = 0.3;          ///< half of the bead's width that is
 constexpr double least_colour_step = 0.1;  ///< between both pure colours, encoded
 constexpr double least_difference = 10;    ///< between both pure colours, ΔE2000
 constexpr double clipped_at_most = 0.5;    ///< share of pixels of a pure colour
-constexpr double least_reference_step =
-    0.015;  ///< between neighbouring reference lines, as a change of colour
 
 Seen encoded(const Light& light) {
   return {picture::encoded(light[0]), picture::encoded(light[1]), picture::encoded(light[2])};
