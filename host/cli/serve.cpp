@@ -37,6 +37,9 @@ class Serve final : public Command {
     app.add_flag("--no-token", options_.no_token,
                  "Let every user of this computer control the printer. Only with a loopback address.")
         ->group(network);
+    add_value(app, "--web-folder", options_.web_folder, "DIR",
+              "Take the files of the page from this folder instead of the program, while they are developed.")
+        .group(network);
     add_value(app, "--check-memory", memory_, "MB",
               "Memory that the check of an uploaded job may take. Default: 1024.")
         .check(integer_between(64, most_megabytes));

@@ -46,13 +46,6 @@ bool any_host(const AccessRules& rules, Wanted wanted) {
   return std::any_of(present.begin(), present.end(), wanted);
 }
 
-void check_host(const RequestHead& head, const AccessRules& rules) {
-  const auto host = head.header("host");
-  if (!host) throw HttpError(400, "the request does not say which host it is for");
-  if (!any_host(rules, [given = core::lower(*host)](const std::string& one) { return one == given; }))
-    throw HttpError(421, "this computer does not go by that name; allow it with --name");
-}
-
 void check_origin(const RequestHead& head, const AccessRules& rules) {
   const std::string site = head.header("sec-fetch-site").value_or("none");
   const bool own_site = site == "none" || site == "same-origin";
@@ -65,6 +58,14 @@ void check_origin(const RequestHead& head, const AccessRules& rules) {
 }
 
 }  // namespace
+
+void check_host(const RequestHead& head, const AccessRules& rules) {
+  if (head.by_socket) return;
+  const auto host = head.header("host");
+  if (!host) throw HttpError(400, "the request does not say which host it is for");
+  if (!any_host(rules, [given = core::lower(*host)](const std::string& one) { return one == given; }))
+    throw HttpError(421, "this computer does not go by that name; allow it with --name");
+}
 
 void check_site(const RequestHead& head, const AccessRules& rules) {
   if (head.by_socket) return;

@@ -37,6 +37,8 @@ std::optional<Visitor> seek_access(const RequestHead& head, const AccessRules& r
 /// The part of it that strangers, too, must pass: the checks of Host and Origin. Throws HttpError 400, 403 or
 /// 421.
 void check_site(const RequestHead& head, const AccessRules& rules);
+/// The check of Host alone, for what a link of another site may lead to. Throws HttpError 400 or 421.
+void check_host(const RequestHead& head, const AccessRules& rules);
 
 /// The allowed values of Host for a daemon at this address: the address and localhost, with the port; and
 /// `names`. A name with a port is taken as it is; one without also stands for the ports 80 and 443, where a

@@ -91,7 +91,7 @@ struct Api::Route {
   bool open = false;                                           ///< strangers, too, may ask
 
   bool matches(const std::string& asked) const {
-    if (path.back() != '/') return asked == path;
+    if (path.back() != '/' || path == "/") return asked == path;
     return asked.size() > path.size() && asked.starts_with(path);
   }
   static std::span<const Route> all();
@@ -148,6 +148,8 @@ std::span<const Api::Route> Api::Route::all() {
       {"POST", "/api/printer/command", &Api::octo_send, steer},
       {"GET", "/api/job", &Api::octo_job},
       {"POST", "/api/job", &Api::octo_steer, steer},
+      {"GET", "/", &Api::show_page, watch, for_strangers},
+      {"GET", Page::assets_path, &Api::show_page, watch, for_strangers},
       {"GET", push_path, nullptr, watch, for_strangers},
       {"GET", "/plugin/appkeys/probe", &Api::octo_probe_keys, watch, for_strangers},
       {"POST", "/plugin/appkeys/request", &Api::octo_request_key, watch, for_strangers},
@@ -178,8 +180,12 @@ bool Api::is_open(const RequestHead& head) {
 
 Admission Api::admit(const RequestHead& head) {
   if (is_open(head)) {
-    const bool follows = !route_of(head).handler;
-    if (!follows) check_site(head, rules_);
+    const Route& route = route_of(head);
+    const bool follows = !route.handler;
+    if (route.handler == &Api::show_page)
+      check_host(head, rules_);  // a link of another site may lead to the page
+    else if (!follows)
+      check_site(head, rules_);
     return {longest_request_for_key, follows && seek_access(head, rules_), nullptr};
   }
   const Visitor visitor = check_access(head, rules_);
@@ -254,6 +260,10 @@ asio::awaitable<Response> Api::metrics(Request) {
   response.type = "text/plain; version=0.0.4";
   response.body = metrics_text(daemon_.status());
   co_return response;
+}
+
+asio::awaitable<Response> Api::show_page(Request request) {
+  co_return page_.answer(request);
 }
 
 // ---- the queue and the files

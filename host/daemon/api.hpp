@@ -9,6 +9,7 @@
 #include "host/daemon/daemon.hpp"
 #include "host/daemon/keys.hpp"
 #include "host/daemon/octoprint_push.hpp"
+#include "host/daemon/page.hpp"
 #include "host/daemon/secret.hpp"
 #include "host/http/http_server.hpp"
 
@@ -28,6 +29,7 @@ class Api : public HttpHandler {
   /// Keys of single programs; `disconnect` lets the clients of the network go, whose key may be void. `keys`
   /// must outlive this object.
   void set_keys(Keys& keys, std::function<void()> disconnect);
+  void set_page(Page page) { page_ = std::move(page); }
   /// A UUID that stays the same for this state folder.
   void set_identity(std::string uuid) { identity_ = std::move(uuid); }
   /// Makes new tokens, and lets those go who knew the old ones. Throws core::DataError.
@@ -70,6 +72,8 @@ class Api : public HttpHandler {
   asio::awaitable<Response> remove_key(Request request);
   asio::awaitable<Response> decide_key(Request request);
 
+  asio::awaitable<Response> show_page(Request request);
+
   // OctoPrint's (octoprint_api.cpp)
   asio::awaitable<Response> octo_version(Request request);
   asio::awaitable<Response> octo_server(Request request);
@@ -104,6 +108,7 @@ class Api : public HttpHandler {
   std::function<Tokens()> renew_;
   Keys* keys_ = nullptr;
   std::string identity_;
+  Page page_;
   PushSessions sessions_;
   std::function<void()> disconnect_;
 };

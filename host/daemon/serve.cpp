@@ -83,6 +83,7 @@ class Service {
     api_.on_renewal([this] { return renew_tokens(); });
     api_.set_identity(uuid_from(state_.secret("identity")));
     api_.set_keys(keys_, [this] { server_.disconnect_network(); });
+    api_.set_page(Page(options.web_folder));
     api_.set_rules(std::move(rules));
     address_ = words(at);
     state_.write_address(address_);

@@ -15,6 +15,7 @@ struct ServeOptions {
   std::vector<std::string> names;         ///< further host names that clients may use
   bool no_token = false;                  ///< everyone on this computer may steer the printer
   bool lan = false;                       ///< clients may use this computer's present addresses and its name
+  std::optional<std::filesystem::path> web_folder;  ///< the page's files; absent: those of the program
 };
 
 /// Runs until SIGTERM, SIGINT, SIGQUIT or SIGHUP. The first signal parks and cools the current print, a

@@ -165,14 +165,21 @@ Response error_response(const HttpError& error) {
 
 std::string to_text(const Response& response, bool keep_alive, bool with_body) {
   std::string text = fmt::format("HTTP/1.1 {} {}\r\n", response.status, status_words(response.status));
-  if (response.status >= 200 && response.status != 204) {
+  const auto usual = [&](const char* name, const char* value) {
+    const auto same = [name](const auto& header) { return header.first == name; };
+    if (std::none_of(response.headers.begin(), response.headers.end(), same))
+      text += fmt::format("{}: {}\r\n", name, value);
+  };
+  const bool has_content = response.status >= 200 && response.status != 204 && response.status != 304;
+  if (has_content) {
     text += fmt::format("Content-Type: {}\r\nContent-Length: {}\r\n", response.type, response.body.size());
-    text += "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n";
-    text += "Content-Security-Policy: default-src 'none'\r\n";
+    usual("Cache-Control", "no-store");
+    usual("X-Content-Type-Options", "nosniff");
+    usual("Content-Security-Policy", "default-src 'none'");
   }
   if (response.status >= 200) text += keep_alive ? "Connection: keep-alive\r\n" : "Connection: close\r\n";
   for (const auto& [name, value] : response.headers) text += fmt::format("{}: {}\r\n", name, value);
-  return text + "\r\n" + (with_body ? response.body : "");
+  return text + "\r\n" + (with_body && has_content ? response.body : "");
 }
 
 const char* status_words(int status) {
@@ -181,6 +188,7 @@ const char* status_words(int status) {
                                                    {201, "Created"},
                                                    {202, "Accepted"},
                                                    {204, "No Content"},
+                                                   {304, "Not Modified"},
                                                    {400, "Bad Request"},
                                                    {401, "Unauthorized"},
                                                    {403, "Forbidden"},
@@ -197,7 +205,9 @@ const char* status_words(int status) {
                                                    {426, "Upgrade Required"},
                                                    {431, "Request Header Fields Too Large"},
                                                    {500, "Internal Server Error"},
+                                                   {502, "Bad Gateway"},
                                                    {503, "Service Unavailable"},
+                                                   {504, "Gateway Timeout"},
                                                    {505, "HTTP Version Not Supported"},
                                                    {507, "Insufficient Storage"}};
   for (const auto& [number, words] : known) {

@@ -69,6 +69,8 @@ struct Response {
   int status = 200;
   std::string type = "application/json";
   std::string body;
+  /// Beside the usual ones, or instead of them: an answer is not kept, its type is not guessed, and a browser
+  /// that shows it runs nothing in it.
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
