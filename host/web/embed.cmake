@@ -2,7 +2,7 @@
 #   SOURCES   this folder
 #   FOLDER    where the files go, ready for `unicursal serve --web-folder FOLDER`
 #   ESBUILD   the program; empty: the page is left out
-#   TEMPLATE  embedded.cpp.in
+#   TEMPLATE  of the C++ file, in this folder
 #   OUTPUT    the C++ file
 # The same sources give the same bytes: gzip writes neither a name nor a time.
 
