@@ -132,6 +132,8 @@ std::span<const Api::Route> Api::Route::all() {
       {"POST", "/api/keys", &Api::add_key, Right::all},
       {"POST", "/api/keys/", &Api::decide_key, Right::all},
       {"DELETE", "/api/keys/", &Api::remove_key, Right::all},
+      {"GET", "/api/temperatures", &Api::temperatures},
+      {"GET", "/api/log", &Api::log},
       {"GET", "/api/version", &Api::octo_version},
       {"GET", "/api/server", &Api::octo_server},
       {"POST", "/api/login", &Api::octo_login},

@@ -74,6 +74,10 @@ class Api : public HttpHandler {
 
   asio::awaitable<Response> show_page(Request request);
 
+  // Of a print that goes on (live_api.cpp)
+  asio::awaitable<Response> temperatures(Request request);
+  asio::awaitable<Response> log(Request request);
+
   // OctoPrint's (octoprint_api.cpp)
   asio::awaitable<Response> octo_version(Request request);
   asio::awaitable<Response> octo_server(Request request);

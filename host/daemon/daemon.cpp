@@ -207,9 +207,12 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
 asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, std::string reason) {
   queue_.enter(id, state, reason);
   const QueuedJob* entered = queue_.find(id);
-  if (entered)
-    log_line(
-        fmt::format("job {} {}: {}{}{}", id, entered->name, name(state), reason.empty() ? "" : ": ", reason));
+  if (entered) {
+    const std::string text =
+        fmt::format("job {} {}: {}{}{}", id, entered->name, name(state), reason.empty() ? "" : ": ", reason);
+    log_line(text);
+    log_record_.note(LogRecord::From::host, text);
+  }
   if (entered && last_.contains("job") && last_["job"].value("id", id + 1) == id)
     last_["job"] = to_json(*entered);
   std::string trouble;
@@ -242,13 +245,19 @@ void Daemon::broadcast_status() {
 }
 
 void Daemon::on_session_event(const SessionEvent& event) {
+  const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
+  if (event.kind == SessionEvent::Kind::heat && session)
+    temperature_record_.note(session->status().temperatures);
   if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
     return show_progress_soon();
-  const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
   if (!session) return;
+  if (event.kind == SessionEvent::Kind::printer) log_record_.note(LogRecord::From::printer, event.text);
+  if (event.kind == SessionEvent::Kind::notice) log_record_.note(LogRecord::From::notice, event.text);
   if (event.kind == SessionEvent::Kind::state) {
     const nlohmann::json status = to_json(session->status());
-    log_line("print: " + status.value("state", "") + " " + status.value("reason", ""));
+    const std::string entered = "print: " + status.value("state", "") + " " + status.value("reason", "");
+    log_line(entered);
+    log_record_.note(LogRecord::From::host, entered);
   }
   if (followers_.empty()) return;
   SessionEvent shown = event;

@@ -24,7 +24,9 @@
 #include "host/daemon/interrupted.hpp"
 #include "host/daemon/job_check.hpp"
 #include "host/daemon/job_files.hpp"
+#include "host/daemon/log_record.hpp"
 #include "host/daemon/queue.hpp"
+#include "host/daemon/temperature_record.hpp"
 #include "host/engine/print.hpp"
 
 namespace unicursal::host {
@@ -63,6 +65,8 @@ class Daemon {
   const gcode::Printer* profile() const;
   const Queue& queue() const { return queue_; }
   const JobFiles& files() const { return files_; }
+  TemperatureRecord& temperature_record() { return temperature_record_; }
+  LogRecord& log_record() { return log_record_; }
 
   /// The session of the current print. Throws Refused when there is none.
   Session& session();
@@ -167,6 +171,8 @@ class Daemon {
   std::string problem_;     ///< with the state folder, a sentence; empty: none
   std::function<void()> when_idle_;
   std::vector<std::unique_ptr<Follower>> followers_;
+  TemperatureRecord temperature_record_;
+  LogRecord log_record_;
   asio::steady_timer progress_;
   bool progress_waits_ = false;
   asio::thread_pool disk_{1}, preparing_{1};
