@@ -132,6 +132,10 @@ json chamber(const Machine& machine, const Outcome& outcome) {
           {"content_mm3", first_of(outcome.nozzle.chamber().content(), machine.feeders)}};
 }
 
+json place(const PicturePlace& pictures) {
+  return {{"left_mm", pictures.left}, {"top_mm", pictures.top}, {"pixel_mm", pictures.pixel}};
+}
+
 }  // namespace
 
 std::string report_json(const Machine& machine, const Printer& printer, const Outcome& outcome) {
@@ -139,41 +143,42 @@ std::string report_json(const Machine& machine, const Printer& printer, const Ou
   const FeedLog& feed = outcome.feed;
   const Deposit& deposit = outcome.deposit;
   const Coordinates& coordinates = firmware.coordinates();
-  const json report{{"lines", lines(firmware)},
-                    {"executed_lines_in_order", firmware.counts().executed_in_order},
-                    {"last_line", firmware.last_line()},
-                    {"personality", firmware.personality().name},
-                    {"faults", printer.faults().counts()},
-                    {"resets", firmware.counts().resets},
-                    {"printer_seconds", firmware.now()},
-                    {"printing_seconds", deposit.last_end() - deposit.first_start()},
-                    {"feeders", feeders(machine, firmware.planner())},
-                    {"mixtures", mixtures(machine, feed)},
-                    {"extruded_mm", feed.extruded()},
-                    {"not_printed",
-                     {{"fed_mm", feed.fed_in_place()},
-                      {"retracted_mm", feed.retracted()},
-                      {"feeder_steps", first_of(feed.idle_steps(), machine.feeders)}}},
-                    {"motion", motion(outcome.motion)},
-                    {"chamber", chamber(machine, outcome)},
-                    {"deposited_mm3", deposit.volume()},
-                    {"dropped_mm3", deposit.dropped()},
-                    {"deposited_length_mm", deposit.length()},
-                    {"layers", layers(deposit)},
-                    {"extents", extents(deposit.extents())},
-                    {"struck", struck(outcome.strikes)},
-                    {"warnings", warnings(firmware)},
-                    {"display", screen(firmware.screen())},
-                    {"temperatures",
-                     {{"nozzle", heater(firmware.nozzle(), firmware.now())},
-                      {"bed", heater(firmware.bed(), firmware.now())}}},
-                    {"position",
-                     {{"x", coordinates.logical(axis_x)},
-                      {"y", coordinates.logical(axis_y)},
-                      {"z", coordinates.logical(axis_z)},
-                      {"e", coordinates.e()}}},
-                    {"killed", firmware.killed()},
-                    {"hung", firmware.hung()}};
+  json report{{"lines", lines(firmware)},
+              {"executed_lines_in_order", firmware.counts().executed_in_order},
+              {"last_line", firmware.last_line()},
+              {"personality", firmware.personality().name},
+              {"faults", printer.faults().counts()},
+              {"resets", firmware.counts().resets},
+              {"printer_seconds", firmware.now()},
+              {"printing_seconds", deposit.last_end() - deposit.first_start()},
+              {"feeders", feeders(machine, firmware.planner())},
+              {"mixtures", mixtures(machine, feed)},
+              {"extruded_mm", feed.extruded()},
+              {"not_printed",
+               {{"fed_mm", feed.fed_in_place()},
+                {"retracted_mm", feed.retracted()},
+                {"feeder_steps", first_of(feed.idle_steps(), machine.feeders)}}},
+              {"motion", motion(outcome.motion)},
+              {"chamber", chamber(machine, outcome)},
+              {"deposited_mm3", deposit.volume()},
+              {"dropped_mm3", deposit.dropped()},
+              {"deposited_length_mm", deposit.length()},
+              {"layers", layers(deposit)},
+              {"extents", extents(deposit.extents())},
+              {"struck", struck(outcome.strikes)},
+              {"warnings", warnings(firmware)},
+              {"display", screen(firmware.screen())},
+              {"temperatures",
+               {{"nozzle", heater(firmware.nozzle(), firmware.now())},
+                {"bed", heater(firmware.bed(), firmware.now())}}},
+              {"position",
+               {{"x", coordinates.logical(axis_x)},
+                {"y", coordinates.logical(axis_y)},
+                {"z", coordinates.logical(axis_z)},
+                {"e", coordinates.e()}}},
+              {"killed", firmware.killed()},
+              {"hung", firmware.hung()}};
+  if (outcome.pictures) report["pictures"] = place(*outcome.pictures);
   return report.dump(2);
 }
 

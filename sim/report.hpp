@@ -3,8 +3,10 @@
 // seconds.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "sim/bed/bead_pictures.hpp"
 #include "sim/bed/deposit.hpp"
 #include "sim/motion/motion_log.hpp"
 #include "sim/nozzle/feed_log.hpp"
@@ -20,6 +22,7 @@ struct Outcome {
   const Deposit& deposit;
   const MotionLog& motion;
   const Strikes& strikes;
+  std::optional<PicturePlace> pictures = {};  ///< of the layers, if they are drawn
 };
 
 std::string report_json(const Machine& machine, const Printer& printer, const Outcome& outcome);

@@ -169,7 +169,9 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
   deposit.finish();
 
   if (options.report) {
-    report << report_json(machine_for(options), printer, {feed, nozzle, deposit, motion, strikes}) << '\n';
+    Outcome outcome{feed, nozzle, deposit, motion, strikes};
+    if (pictures) outcome.pictures = place_of_layers(*pictures, options.pixel);
+    report << report_json(machine_for(options), printer, outcome) << '\n';
     report.close();
     if (!report)
       throw std::system_error(EIO, std::generic_category(), "cannot write " + options.report->string());

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/dry_run/dry_run_view.hpp"
 #include "host/dry_run/lockstep_clock.hpp"
 #include "host/dry_run/simulator_process.hpp"
 #include "host/engine/planned_production.hpp"
@@ -146,9 +147,10 @@ DryRunResult dry_run(Production& production, const DryRunOptions& options, const
   production.check();
   const Job& job = production.job();
   const std::unique_ptr<Books> books = open_books(production, "dry-run", outputs_of(options));
+  const auto& pictures = options.outputs.pictures;
+  if (pictures) remove_view(*pictures);
   // Declared before the simulator: it waits for the end of the stream, which comes when the simulator ends.
-  DepositCheck check(books->intended_materials(), options.outputs.pictures,
-                     books->job().profile.filaments.colours());
+  DepositCheck check(books->intended_materials(), pictures, books->job().profile.filaments.colours());
   SimulatorProcess simulator(simulator_arguments(options, job), is_virtual(options)
                                                                     ? SimulatorProcess::Time::lockstep
                                                                     : SimulatorProcess::Time::own);
@@ -172,6 +174,7 @@ DryRunResult dry_run(Production& production, const DryRunOptions& options, const
             {"comparison", to_json(comparison)},
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
+  if (pictures) write_view(*pictures, view_of({*books, result, seen, check, motion, comparison}));
   production.check_made();
   std::vector<std::string> warnings = production.late_warnings();
   for (std::string& warning : warnings_of_strikes(seen)) warnings.push_back(std::move(warning));

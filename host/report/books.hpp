@@ -49,6 +49,8 @@ class Books {
   /// Speed, flow, travels and starvations.
   virtual std::string summary(const MotionFindings& motion) const;
 
+  /// Where pictures of curves lie; absent if none are drawn.
+  virtual std::optional<PicturePlace> place_of_curves() const { return std::nullopt; }
   /// Waits for the last picture and, if a report was asked for, writes it with the keys of `extra` added.
   void write_report(const nlohmann::json& extra);
 

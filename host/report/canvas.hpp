@@ -20,6 +20,8 @@ class Canvas {
   Canvas(const CanvasSize& size, picture::Colour background);
 
   double scale() const { return scale_; }
+  /// mm, the picture's upper left corner.
+  const core::Vec2& origin() const { return origin_; }
   picture::Image& image() { return image_; }
   const picture::Image& image() const { return image_; }
   /// In pixels.

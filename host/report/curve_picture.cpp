@@ -13,6 +13,11 @@ constexpr picture::Colour background{255, 255, 255};
 constexpr picture::Colour inside{238, 238, 234};
 constexpr picture::Colour border{120, 120, 120};
 
+Canvas empty_canvas(const CurveStyle& style) {
+  return {{style.extent, scale_for(style.extent, style.bead_width, pixels_per_bead, longest_side)},
+          background};
+}
+
 }  // namespace
 
 void draw_path(Canvas& canvas, const core::BeadPath& path, const CurveStyle& style) {
@@ -21,9 +26,13 @@ void draw_path(Canvas& canvas, const core::BeadPath& path, const CurveStyle& sty
     canvas.line(path.start(i), path.end(i), thickness, style.zone_colours.at(path.beads[i].zone));
 }
 
+PicturePlace place_of_curves(const CurveStyle& style) {
+  const Canvas canvas = empty_canvas(style);
+  return {canvas.origin(), 1 / canvas.scale()};
+}
+
 picture::Image draw_curves(const PlannedLayer& layer, const CurveStyle& style) {
-  const double scale = scale_for(style.extent, style.bead_width, pixels_per_bead, longest_side);
-  Canvas canvas({style.extent, scale}, background);
+  Canvas canvas = empty_canvas(style);
   for (const core::Island& island : layer.layer.islands) canvas.fill(island.outline, inside);
   for (const core::Island& island : layer.layer.islands) canvas.outline(island.outline, 1, border);
   for (const core::IslandPlan& plan : layer.plans) {

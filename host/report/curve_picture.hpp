@@ -7,6 +7,7 @@
 #include "firmware_gcode/print/print_settings.hpp"
 #include "host/lookahead/planned_layer.hpp"
 #include "host/report/canvas.hpp"
+#include "host/report/picture_place.hpp"
 
 namespace unicursal::host {
 
@@ -19,6 +20,9 @@ struct CurveStyle {
 
 /// The closed line, each stretch in its zone's colour.
 void draw_path(Canvas& canvas, const core::BeadPath& path, const CurveStyle& style);
+
+/// Of draw_curves(), in the part's frame.
+PicturePlace place_of_curves(const CurveStyle& style);
 
 /// Islands light with a thin outline, curves on top, y up.
 picture::Image draw_curves(const PlannedLayer& layer, const CurveStyle& style);

@@ -9,6 +9,8 @@
 namespace unicursal::host {
 namespace {
 
+constexpr std::size_t most_worst = 3;
+
 /// Removes old pictures: a longer print may have left more layers than this one has.
 void remove_old_pictures(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> old;
@@ -74,7 +76,8 @@ void DepositCheck::take(const sim::RasterFrame& frame, sim::RasterReader& reader
     return;
   }
   JudgedLayer layer = judge(*target, frame, rows, materials_, pictures_.has_value(), filaments_);
-  if (pictures_) write_pictures(target->index, layer);
+  if (pictures_) write_pictures(*target, layer);
+  worst_.insert(worst_.end(), layer.worst.begin(), layer.worst.end());
   layers_[target->index] += layer.findings;
   total_ += layer.findings;
 }
@@ -91,9 +94,14 @@ std::optional<TargetLayer> DepositCheck::target_at(double z) {
   return target;
 }
 
-void DepositCheck::write_pictures(std::size_t index, const JudgedLayer& layer) {
-  picture::write_png(*pictures_ / fmt::format("gaps-{:04}.png", index), *layer.gaps);
-  picture::write_png(*pictures_ / fmt::format("mixtures-{:04}.png", index), *layer.mixtures);
+void DepositCheck::write_pictures(const TargetLayer& target, const JudgedLayer& layer) {
+  picture::write_png(*pictures_ / fmt::format("gaps-{:04}.png", target.index), *layer.gaps);
+  picture::write_png(*pictures_ / fmt::format("mixtures-{:04}.png", target.index), *layer.mixtures);
+  drawn_[target.index] = {target.top, target.height, layer.place};
+}
+
+std::vector<WorstPlace> DepositCheck::worst() const {
+  return choose_worst(worst_, most_worst);
 }
 
 nlohmann::json DepositCheck::to_json() const {
@@ -103,7 +111,9 @@ nlohmann::json DepositCheck::to_json() const {
     layer["layer"] = index;
     layers.push_back(std::move(layer));
   }
-  nlohmann::json report = {{"layers", layers}, {"total", host::to_json(total_)}};
+  nlohmann::json worst_places = nlohmann::json::array();
+  for (const WorstPlace& place : worst()) worst_places.push_back(host::to_json(place));
+  nlohmann::json report = {{"layers", layers}, {"total", host::to_json(total_)}, {"worst", worst_places}};
   if (problem_) report["problem"] = *problem_;
   return report;
 }

@@ -42,6 +42,16 @@ class DepositCheck {
   const DepositFindings& total() const { return total_; }
   /// The layers that were laid, also unfinished ones, with their findings.
   nlohmann::json to_json() const;
+  /// At most three.
+  std::vector<WorstPlace> worst() const;
+  /// Each layer that was laid, with its findings.
+  const std::map<std::size_t, DepositFindings>& layers() const { return layers_; }
+  struct Drawn {
+    double top = 0, height = 0;  ///< of the layer; top above the bed
+    PicturePlace place;          ///< of both pictures
+  };
+  /// The layers whose pictures were drawn.
+  const std::map<std::size_t, Drawn>& drawn() const { return drawn_; }
   /// Why judging ended early, if it did.
   const std::optional<std::string>& problem() const { return problem_; }
 
@@ -49,7 +59,7 @@ class DepositCheck {
   void read_all(int descriptor);
   void take(const sim::RasterFrame& frame, sim::RasterReader& reader);
   std::optional<TargetLayer> target_at(double z);
-  void write_pictures(std::size_t index, const JudgedLayer& layer);
+  void write_pictures(const TargetLayer& target, const JudgedLayer& layer);
 
   std::vector<IntendedMaterial> materials_;
   std::optional<std::filesystem::path> pictures_;
@@ -57,6 +67,8 @@ class DepositCheck {
   std::mutex mutex_;  ///< guards expected_
   std::vector<TargetLayer> expected_;
   std::map<std::size_t, DepositFindings> layers_;
+  std::map<std::size_t, Drawn> drawn_;
+  std::vector<WorstPlace> worst_;  ///< of each layer
   DepositFindings total_;
   std::optional<std::string> problem_;
   std::thread thread_;

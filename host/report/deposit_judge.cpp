@@ -151,6 +151,9 @@ class Judge {
         materials_(materials_of(target)),
         grid_(grid),
         labels_(scan(target.zones, grid)),
+        missing_(grid),
+        heaped_(grid),
+        mixed_up_(grid),
         rim_(labels_, grid, std::min(target.bead_width / 2, margin)) {}
 
   DepositFindings findings(const std::vector<sim::RasterPixel>& pixels, Outside& outside) {
@@ -166,8 +169,11 @@ class Judge {
         continue;
       }
       f.area += place;
-      f.gaps += std::max(0.0, 1 - fill) * place;
-      f.overfill += std::max(0.0, fill - 1) * place;
+      const double missing = std::max(0.0, 1 - fill) * place, heaped = std::max(0.0, fill - 1) * place;
+      f.gaps += missing;
+      f.overfill += heaped;
+      missing_.add(i, missing);
+      heaped_.add(i, heaped);
       f.fill.add(fill, place);
       f.fill_moment += fill * place;
       f.fill_squares += fill * fill * place;
@@ -180,6 +186,16 @@ class Judge {
 
   const std::vector<RegionLabel>& labels() const { return labels_; }
   const std::vector<bool>& wrong() const { return wrong_; }
+  std::vector<WorstPlace> worst(std::size_t layer) const {
+    std::vector<WorstPlace> places;
+    const auto add = [&](WorstPlace::Kind kind, const AmissCells& cells) {
+      if (const auto window = cells.worst()) places.push_back({kind, layer, window->at, window->area});
+    };
+    add(WorstPlace::Kind::gap, missing_);
+    add(WorstPlace::Kind::overfill, heaped_);
+    add(WorstPlace::Kind::mixture, mixed_up_);
+    return places;
+  }
 
  private:
   void judge_mixture(std::size_t i, const Shares& arrived, DepositFindings& f) {
@@ -200,7 +216,9 @@ class Judge {
                 const IntendedMaterial& rival = intended_.at(other);
                 return !rival.gradient && gcode::squared_distance(arrived, rival.mixture.shares()) < distance;
               });
-    if (wrong_[i]) f.wrong += place;
+    if (!wrong_[i]) return;
+    f.wrong += place;
+    mixed_up_.add(i, place);
   }
 
   void measure_distances(DepositFindings& f) const {
@@ -217,6 +235,7 @@ class Judge {
   std::vector<RegionLabel> materials_;
   const PixelGrid& grid_;
   std::vector<RegionLabel> labels_;
+  AmissCells missing_, heaped_, mixed_up_;
   Rim rim_;
   std::vector<bool> wrong_;
 };
@@ -240,10 +259,12 @@ JudgedLayer judge(const TargetLayer& target, const sim::RasterFrame& frame, cons
   Judge judge(target, materials, grid);
   JudgedLayer result;
   result.findings = judge.findings(pixels, outside);
+  result.worst = judge.worst(target.index);
   if (draw) {
     const DepositView view{grid, judge.labels(), pixels, judge.wrong(), filaments};
     result.gaps = draw_gaps(view);
     result.mixtures = draw_mixtures(view);
+    result.place = place_of(grid);
   }
   return result;
 }

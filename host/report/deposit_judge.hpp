@@ -11,7 +11,9 @@
 #include "core/picture/image.hpp"
 #include "firmware_gcode/mixing/palette.hpp"
 #include "host/report/deposit_findings.hpp"
+#include "host/report/picture_place.hpp"
 #include "host/report/scan.hpp"
+#include "host/report/worst_places.hpp"
 #include "sim/bed/raster.hpp"
 
 namespace unicursal::host {
@@ -50,8 +52,10 @@ using RowSource = std::function<void(std::span<sim::RasterPixel>)>;
 
 struct JudgedLayer {
   DepositFindings findings;
+  std::vector<WorstPlace> worst;           ///< at most one of each kind
   std::optional<picture::Image> gaps;      ///< missing and surplus plastic
   std::optional<picture::Image> mixtures;  ///< in their colours, wrong ones hatched
+  PicturePlace place;                      ///< of both pictures
 };
 
 /// `materials`: as the printer was to mix them. A place of a gradient is wrong if a tenth of its plastic or

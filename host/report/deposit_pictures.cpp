@@ -28,10 +28,15 @@ Colour mix(const Colour& a, const Colour& b, double part) {
   return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b)};
 }
 
+/// Raster pixels to a picture pixel, in each direction.
+std::size_t block_of(const PixelGrid& grid) {
+  return (std::max(grid.columns, grid.rows) + longest_side - 1) / longest_side;
+}
+
 /// Averages blocks of raster pixels to picture pixels, y down.
 picture::Image draw(const PixelGrid& grid,
                     const std::function<Colour(std::size_t pixel, std::size_t x, std::size_t y)>& colour_of) {
-  const std::size_t block = (std::max(grid.columns, grid.rows) + longest_side - 1) / longest_side;
+  const std::size_t block = block_of(grid);
   picture::Image image((grid.columns + block - 1) / block, (grid.rows + block - 1) / block, paper);
   for (std::size_t y = 0; y < image.height(); ++y) {
     for (std::size_t x = 0; x < image.width(); ++x) {
@@ -65,6 +70,11 @@ Colour arrived(const DepositView& view, std::size_t i) {
 }
 
 }  // namespace
+
+PicturePlace place_of(const PixelGrid& grid) {
+  const core::Vec2 up(0, static_cast<double>(grid.rows) * grid.pixel);
+  return {grid.origin + up, grid.pixel * static_cast<double>(block_of(grid))};
+}
 
 picture::Image draw_gaps(const DepositView& view) {
   return draw(view.grid, [&](std::size_t i, std::size_t, std::size_t) {

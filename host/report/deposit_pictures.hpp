@@ -8,6 +8,7 @@
 
 #include "core/picture/filaments.hpp"
 #include "core/picture/image.hpp"
+#include "host/report/picture_place.hpp"
 #include "host/report/scan.hpp"
 #include "sim/bed/raster.hpp"
 
@@ -20,6 +21,9 @@ struct DepositView {
   const std::vector<bool>& wrong;
   const picture::Filaments& filaments;
 };
+
+/// Of both pictures.
+PicturePlace place_of(const PixelGrid& grid);
 
 picture::Image draw_gaps(const DepositView& view);
 picture::Image draw_mixtures(const DepositView& view);

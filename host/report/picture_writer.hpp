@@ -23,6 +23,8 @@ class PictureWriter {
   /// Waits for the last picture.
   void finish();
 
+  /// In the part's frame.
+  PicturePlace place() const { return place_of_curves(style_); }
   /// Why a picture could not be written; absent if all were. After a problem no more pictures are drawn.
   const std::optional<std::string>& problem() const { return problem_; }
 

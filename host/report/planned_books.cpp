@@ -66,6 +66,13 @@ std::string PlannedBooks::summary(const std::optional<Planning>& planning) const
   return host::summary(totals_, planning ? planning->effort : PlanningEffort{});
 }
 
+std::optional<PicturePlace> PlannedBooks::place_of_curves() const {
+  if (!pictures_) return std::nullopt;
+  PicturePlace place = pictures_->place();
+  place.corner += maker_.prepared().offset;
+  return place;
+}
+
 void PlannedBooks::layer_made(PlannedLayer planned, const gcode::PlacedLayer& placed,
                               const gcode::Chunk& chunk) {
   ++totals_.layers;

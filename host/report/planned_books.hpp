@@ -22,6 +22,8 @@ class PlannedBooks final : public Books, public ChunkListener {
   using Books::summary;
   std::string summary(const std::optional<Planning>& planning) const override;
 
+  std::optional<PicturePlace> place_of_curves() const override;
+
   void layer_made(PlannedLayer planned, const gcode::PlacedLayer& placed, const gcode::Chunk& chunk) override;
   void end_made(const gcode::Chunk& chunk) override;
   std::vector<std::string> warnings() const override;

@@ -29,15 +29,20 @@ std::size_t pixels(double count, double most) {
 struct View {
   Projection projection;
   std::size_t width = 1, height = 1;
+  PicturePlace place;
 };
 
 View from_above(const Extents& extents, double pixel, double around) {
   const double width = extents.max_x - extents.min_x + 2 * around;
   const double height = extents.max_y - extents.min_y + 2 * around;
   const double scale = std::min(1 / pixel, longest_side / std::max(width, height));
-  const Projection projection{
-      {-(extents.min_x - around) * scale, (extents.max_y + around) * scale}, {scale, 0}, {0, -scale}};
-  return {projection, pixels(width * scale, longest_side), pixels(height * scale, longest_side)};
+  const PicturePlace place{extents.min_x - around, extents.max_y + around, 1 / scale};
+  const Projection projection{{-place.left * scale, place.top * scale}, {scale, 0}, {0, -scale}};
+  return {projection, pixels(width * scale, longest_side), pixels(height * scale, longest_side), place};
+}
+
+View view_of(const BeadStore& store, double pixel) {
+  return from_above(store.part(), pixel, margin + std::min(store.widest() / 2, margin));
 }
 
 bool holds(const Extents& box, const StoredBead& bead) {
@@ -97,10 +102,14 @@ void clear_pictures(const std::filesystem::path& folder) {
   for (const auto& file : old) std::filesystem::remove(file);
 }
 
+PicturePlace place_of_layers(const BeadStore& store, double pixel) {
+  if (store.layers().empty()) return {0, 0, pixel};
+  return view_of(store, pixel).place;
+}
+
 void draw_layers(BeadStore& store, const std::filesystem::path& folder, double pixel) {
-  const double around = margin + std::min(store.widest() / 2, margin);
   if (store.layers().empty()) return;
-  const View view = from_above(store.part(), pixel, around);
+  const View view = view_of(store, pixel);
   std::optional<picture::Image> image;
   std::optional<Pen> pen;
   std::size_t current = 0;

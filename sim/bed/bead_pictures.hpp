@@ -10,6 +10,12 @@
 
 namespace unicursal::sim {
 
+/// Where the pictures of layers lie on the bed, mm: their upper left corner, and the side of a pixel.
+struct PicturePlace {
+  double left = 0, top = 0, pixel = 0;
+};
+PicturePlace place_of_layers(const BeadStore& store, double pixel);
+
 /// Draws deposit-0000.png and so on. `pixel` is in mm; it grows if a side would exceed 4096 pixels.
 void draw_layers(BeadStore& store, const std::filesystem::path& folder, double pixel);
 
