@@ -31,6 +31,9 @@ CLI::App& DryRun::declare(CLI::App& program) {
                               "Print a job on a simulated printer and show what would come out.",
                               "unicursal dry-run leaf.toml --report leaf.json --picture pictures");
   job_.declare(app);
+  app.get_option("--picture")
+      ->description(
+          "Write pictures of each layer to this folder, and index.html, which shows them in a browser.");
   job_.declare_full_quality(app);
   job_.declare_sliced(app);
   declare_events(app, display_);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "host/engine/session_json.hpp"
 #include "host/files/web_files.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/report/filament_use.hpp"

@@ -6,8 +6,8 @@
 #   OUTPUT    the C++ file
 # The same sources give the same bytes: gzip writes neither a name nor a time.
 
-set(scripts page.ts)
-set(styles page.css)
+set(scripts page.ts viewer.ts)
+set(styles page.css viewer.css)
 set(others index.html en.json de.json icon.svg)
 
 function(unicursal_run)

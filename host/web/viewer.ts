@@ -68,8 +68,8 @@ class Viewer {
     const { time, material, gaps, colours, ended } = this.run;
     const tiles = make('section', { class: 'tiles', 'aria-label': this.t('figures') },
       this.tile('time', time.grade, this.words.duration(time.seconds), this.timeSays()),
-      this.tile('material', material.grade, `${this.words.number(material.total.grams, 1)} g${this.cost()}`,
-        this.t('material.fed', { error: this.words.percent(material.worst_error) }), this.feeders()),
+      this.tile('material', material.grade, `${this.words.number(material.total.grams, 1)} g`,
+        this.t('material.fed', { error: this.words.percent(material.worst_error) }) + this.cost(), this.feeders()),
       this.tile('gaps', gaps.grade, this.words.percent(gaps.fraction),
         this.t('gaps.over', { overfill: this.words.percent(gaps.overfill_fraction), area: this.words.number(gaps.area_mm2, 0) })),
       this.tile('colours', colours.grade, this.words.percent(colours.fraction), this.coloursSay()));
@@ -87,7 +87,7 @@ class Viewer {
 
   private cost(): string {
     const { cost, currency } = this.run.material.total;
-    return cost === undefined || !currency ? '' : ` · ${this.words.number(cost, 2)} ${currency.slice(0, 8)}`;
+    return cost === undefined || !currency ? '' : `; ${this.words.number(cost, 2)} ${currency.slice(0, 8)}`;
   }
 
   private timeSays(): string {
@@ -224,7 +224,7 @@ class Viewer {
     const place = placeOf(this.run, layer, this.kind), file = fileOf(layer, this.kind);
     const missing = () => { controls.notice.textContent = this.t('missing', { file }); };
     if (!place) return missing();
-    void this.stage.show(file, place, `${name}. ${says} ${figures}.`, missing);
+    void this.stage.show(this.kind, file, place, `${name}. ${says} ${figures}.`, missing);
     this.readAhead();
   }
 

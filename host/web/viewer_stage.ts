@@ -1,6 +1,6 @@
 // The frame in which the pictures of a layer are shown, all at the same place of the bed: it moves and grows with
 // the mouse, fingers or keys. mm, y up; pixels, y down.
-import type { Place } from './viewer_data';
+import type { Kind, Place } from './viewer_data';
 
 interface Rectangle { left: number; top: number; width: number; height: number }
 
@@ -30,7 +30,7 @@ export class Stage {
   }
 
   /** Shows a picture when it has been read; the one before stays until then. Calls `missing` if it cannot be read. */
-  async show(file: string, place: Place, alt: string, missing: () => void): Promise<void> {
+  async show(kind: Kind, file: string, place: Place, alt: string, missing: () => void): Promise<void> {
     const turn = ++this.awaited;
     const next = document.createElement('img');
     next.alt = alt;
@@ -50,13 +50,10 @@ export class Stage {
       this.element.style.aspectRatio = `${Math.min(Math.max(this.whole.width / this.whole.height, 0.75), 2.5)}`;
       this.showWhole();
     }
+    this.element.classList.toggle('deposit', kind === 'deposit');
     this.image.replaceWith(next);
     this.image = next;
     this.place();
-  }
-
-  describe(alt: string): void {
-    this.image.alt = alt;
   }
 
   showWhole(): void {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "host/files/web_files.hpp"
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
@@ -58,6 +59,13 @@ bool simulator_runs_on(const std::string& folder) {
     if (test::read_text(entry.path() / "cmdline").find(folder) != std::string::npos) return true;
   }
   return false;
+}
+
+/// The middle of a picture on the bed, mm; `place`: left, top and side of a pixel.
+std::pair<double, double> middle_of(const std::filesystem::path& file, const json& place) {
+  const auto [width, height] = png_size(file);
+  return {place[0].get<double>() + width * place[2].get<double>() / 2,
+          place[1].get<double>() - height * place[2].get<double>() / 2};
 }
 
 }  // namespace
@@ -123,6 +131,27 @@ TEST_CASE("A dry run prints the whole part on the simulator, and its report says
     INFO(name);
     CHECK(is_png(shop.folder / ("pics/" + std::string(name))));
   }
+  for (const json& place : laid["worst"]) CHECK(place["area_mm2"].get<double>() > 0);
+  CHECK(laid["worst"].size() == 3);
+  if (!host::web_files().empty()) {
+    const std::string page = test::read_text(shop.path("pics/index.html"));
+    const std::size_t begin = page.find('{');
+    const json view = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    CHECK(view["gaps"]["fraction"] == laid["total"]["gap_fraction"]);
+    REQUIRE(view["layers"].size() == 2);
+    // All four pictures have the part in their middle.
+    for (const json& layer : view["layers"]) {
+      const std::string number = "-000" + std::to_string(layer["layer"].get<int>()) + ".png";
+      CHECK(layer["deposit"] == layer["layer"]);
+      const auto [x, y] = middle_of(shop.path("pics/gaps" + number), layer["place"]);
+      for (const std::string kind : {"curve", "deposit"}) {
+        const auto middle = middle_of(shop.path("pics/" + kind + number), view["places"][kind]);
+        CHECK(middle.first == Approx(x).margin(0.5));
+        CHECK(middle.second == Approx(y).margin(0.5));
+      }
+    }
+  }
+  CHECK(std::filesystem::exists(shop.path("pics/index.html")) == !host::web_files().empty());
   CHECK(outcome.out.find("0 lines lost") != std::string::npos);
   CHECK_FALSE(simulator_runs_on(shop.folder.path().string()));
 }

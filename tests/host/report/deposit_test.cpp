@@ -188,6 +188,51 @@ TEST_CASE("The maps show what is wrong where it is") {
   CHECK(marked);
 }
 
+TEST_CASE("The worst places are windows around what is amiss, and the maps say where they lie") {
+  const auto within = [](double x, double y, double x0, double y0, double side) {
+    return x > x0 && x < x0 + side && y > y0 && y < y0 + side;
+  };
+  const JudgedLayer layer = judged(
+      [&](double x, double y) {
+        if (within(x, y, 14, 13, 1) || within(x, y, 26, 18, 0.5)) return sim::RasterPixel{};
+        if (within(x, y, 27, 12, 1.5)) return plastic(1, red);
+        return perfect(x, y);
+      },
+      frame, true);
+  REQUIRE(layer.worst.size() == 2);
+  const WorstPlace &gap = layer.worst[0], &mixture = layer.worst[1];
+  CHECK(gap.kind == WorstPlace::Kind::gap);
+  CHECK(gap.layer == 3);
+  CHECK(gap.area == Approx(1).epsilon(0.15));
+  CHECK(gap.at.x() == Approx(14.5).margin(1));
+  CHECK(gap.at.y() == Approx(13.5).margin(1));
+  CHECK(mixture.kind == WorstPlace::Kind::mixture);
+  CHECK(mixture.at.x() == Approx(27.75).margin(1));
+  // The pixel of the map at the middle of the gap is dark, 0.7 mm beside it pale.
+  const auto at = [&](double x, double y) {
+    return layer.gaps->at(static_cast<std::size_t>((x - layer.place.corner.x()) / layer.place.pixel),
+                          static_cast<std::size_t>((layer.place.corner.y() - y) / layer.place.pixel));
+  };
+  CHECK(at(14.5, 13.5).r < 60);
+  CHECK(at(15.2, 13.5).r > 200);
+  CHECK(at(14.5, 14.2).r > 200);
+}
+
+TEST_CASE("The worst places are different ones, the worst first") {
+  using Kind = WorstPlace::Kind;
+  const auto chosen = choose_worst({{Kind::gap, 0, {10, 10}, 1},
+                                    {Kind::gap, 1, {11, 10}, 3},  // above the first
+                                    {Kind::mixture, 1, {11, 10}, 2},
+                                    {Kind::gap, 2, {30, 10}, 0.5},
+                                    {Kind::overfill, 2, {30, 10}, 0.4}},
+                                   3);
+  REQUIRE(chosen.size() == 3);
+  CHECK(chosen[0].layer == 1);
+  CHECK(chosen[1].kind == Kind::mixture);
+  CHECK(chosen[2].area == 0.5);
+  CHECK(choose_worst({}, 3).empty());
+}
+
 TEST_CASE("Regions are scanned with their holes, and the later ones cover") {
   const PixelGrid grid{{-1, -2}, 0.1, 200, 150};
   core::Polygon ring = box(0, 0, 10, 10);
