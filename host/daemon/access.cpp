@@ -54,7 +54,7 @@ void check_origin(const RequestHead& head, const AccessRules& rules) {
     return core::lower(*origin) == "http://" + host || core::lower(*origin) == "https://" + host;
   };
   if (!own_site || (origin && !any_host(rules, own)))
-    throw HttpError(403, "requests of other sites' pages are not obeyed");
+    throw HttpError(403, "other_site", "requests of other sites' pages are not obeyed");
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void check_origin(const RequestHead& head, const AccessRules& rules) {
 void check_host(const RequestHead& head, const AccessRules& rules) {
   if (head.by_socket) return;
   const auto host = head.header("host");
-  if (!host) throw HttpError(400, "the request does not say which host it is for");
+  if (!host) throw HttpError(400, "wrong_host", "the request does not say which host it is for");
   if (!any_host(rules, [given = core::lower(*host)](const std::string& one) { return one == given; }))
     throw HttpError(421, "this computer does not go by that name; allow it with --name");
 }
@@ -86,7 +86,7 @@ Visitor check_access(const RequestHead& head, const AccessRules& rules) {
   // OctoPrint's clients, who send a key so, know 403 (docs/api/general.rst).
   const bool octoprint = !head.header("authorization") && head.header("x-api-key");
   throw HttpError(
-      octoprint ? 403 : 401,
+      octoprint ? 403 : 401, given ? "wrong_token" : "no_token",
       "the token or key is missing or wrong: `unicursal keys --new NAME` makes a key on the daemon's "
       "computer, and `unicursal token` shows the token");
 }

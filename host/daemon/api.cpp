@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 
 #include "host/daemon/api_body.hpp"
 #include "host/daemon/log.hpp"
@@ -11,6 +10,7 @@
 #include "host/daemon/octoprint.hpp"
 #include "host/daemon/plain_name.hpp"
 #include "host/daemon/refused.hpp"
+#include "host/daemon/route.hpp"
 #include "host/daemon/upload_taker.hpp"
 #include "host/engine/temperature_limits.hpp"
 
@@ -21,8 +21,7 @@ using nlohmann::json;
 
 constexpr std::uint64_t longest_json = 64 * 1024;            ///< bytes
 constexpr std::uint64_t longest_request_for_key = 4 * 1024;  ///< bytes; strangers send it
-constexpr std::string_view jobs_path = "/api/jobs/", keys_path = "/api/keys/", files_path = "/api/files/",
-                           push_path = "/sockjs/websocket";
+constexpr std::string_view jobs_path = "/api/jobs/", keys_path = "/api/keys/", files_path = "/api/files/";
 
 std::optional<double> number(const json& body, const char* key) {
   const auto found = body.find(key);
@@ -84,82 +83,6 @@ class StreamFollower final : public Follower {
 
 }  // namespace
 
-struct Api::Route {
-  std::string_view method, path;  ///< a path that ends with a slash is followed by a name
-  asio::awaitable<Response> (Api::*handler)(Request request);  ///< null: the stream of events
-  Right right = Right::watch;                                  ///< that it takes
-  bool open = false;                                           ///< strangers, too, may ask
-
-  bool matches(const std::string& asked) const {
-    if (path.back() != '/' || path == "/") return asked == path;
-    return asked.size() > path.size() && asked.starts_with(path);
-  }
-  static std::span<const Route> all();
-};
-
-std::span<const Api::Route> Api::Route::all() {
-  using enum Right;
-  constexpr auto for_strangers = true;
-  static constexpr Route routes[] = {
-      {"GET", "/api/status", &Api::status},
-      {"GET", "/api/printer", &Api::printer},
-      {"GET", "/api/events", nullptr},
-      {"GET", "/metrics", &Api::metrics},
-      {"GET", "/api/jobs", &Api::list_jobs},
-      {"POST", "/api/jobs", &Api::add_job, queue},
-      {"GET", "/api/jobs/", &Api::show_job},
-      {"DELETE", "/api/jobs/", &Api::remove_job, queue},
-      {"GET", "/api/files", &Api::list_files},
-      {"GET", "/api/files/local", &Api::octo_files},
-      {"GET", "/api/files/local/", &Api::octo_file},
-      {"POST", "/api/files/local", &Api::octo_upload, queue},
-      {"POST", "/api/files/local/", &Api::octo_select, queue},
-      {"DELETE", "/api/files/local/", &Api::octo_delete, queue},
-      {"PUT", "/api/files/", &Api::keep_file, queue},
-      {"DELETE", "/api/files/", &Api::remove_upload, queue},
-      {"POST", "/api/print/start", &Api::start, steer},
-      {"POST", "/api/print/pause", &Api::pause, steer},
-      {"POST", "/api/print/resume", &Api::resume, steer},
-      {"POST", "/api/print/answer", &Api::answer_prompt, steer},
-      {"POST", "/api/print/cancel", &Api::cancel, steer},
-      {"POST", "/api/print/stop", &Api::stop, steer},
-      {"POST", "/api/bed", &Api::confirm_bed, steer},
-      {"POST", "/api/temperature", &Api::set_temperature, steer},
-      {"POST", "/api/flow", &Api::set_flow, steer},
-      {"POST", "/api/speed", &Api::set_speed, steer},
-      {"POST", "/api/token/renew", &Api::renew_token, Right::all},
-      {"GET", "/api/keys", &Api::list_keys, Right::all},
-      {"POST", "/api/keys", &Api::add_key, Right::all},
-      {"POST", "/api/keys/", &Api::decide_key, Right::all},
-      {"DELETE", "/api/keys/", &Api::remove_key, Right::all},
-      {"GET", "/api/temperatures", &Api::temperatures},
-      {"GET", "/api/log", &Api::log},
-      {"GET", "/api/version", &Api::octo_version},
-      {"GET", "/api/server", &Api::octo_server},
-      {"POST", "/api/login", &Api::octo_login},
-      {"GET", "/api/currentuser", &Api::octo_user},
-      {"GET", "/api/settings", &Api::octo_settings},
-      {"GET", "/api/printerprofiles", &Api::octo_profiles},
-      {"GET", "/api/connection", &Api::octo_connection},
-      {"POST", "/api/connection", &Api::octo_connect, steer},
-      {"GET", "/api/printer/tool", &Api::octo_tool},
-      {"POST", "/api/printer/tool", &Api::octo_set_tool, steer},
-      {"GET", "/api/printer/bed", &Api::octo_bed},
-      {"POST", "/api/printer/bed", &Api::octo_set_bed, steer},
-      {"POST", "/api/printer/printhead", &Api::octo_move, steer},
-      {"POST", "/api/printer/command", &Api::octo_send, steer},
-      {"GET", "/api/job", &Api::octo_job},
-      {"POST", "/api/job", &Api::octo_steer, steer},
-      {"GET", "/", &Api::show_page, watch, for_strangers},
-      {"GET", Page::assets_path, &Api::show_page, watch, for_strangers},
-      {"GET", push_path, nullptr, watch, for_strangers},
-      {"GET", "/plugin/appkeys/probe", &Api::octo_probe_keys, watch, for_strangers},
-      {"POST", "/plugin/appkeys/request", &Api::octo_request_key, watch, for_strangers},
-      {"GET", "/plugin/appkeys/request/", &Api::octo_poll_key, watch, for_strangers},
-  };
-  return routes;
-}
-
 /// Throws HttpError 404 or 405.
 const Api::Route& Api::route_of(const RequestHead& head) {
   const std::string_view asked = head.method == "HEAD" ? "GET" : std::string_view(head.method);
@@ -170,7 +93,7 @@ const Api::Route& Api::route_of(const RequestHead& head) {
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method);
     if (route.method == "GET") allowed += ", HEAD";
   }
-  if (!allowed.empty()) throw HttpError(405, "that cannot be done with this address", allowed);
+  if (!allowed.empty()) throw HttpError::wrong_method("that cannot be done with this address", allowed);
   throw HttpError(404, "there is no such address; the API is described in API.md");
 }
 

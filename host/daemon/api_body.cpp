@@ -13,30 +13,42 @@ using nlohmann::json;
 
 namespace {
 
-int status_of(Refused::Why why) {
+struct Answered {
+  int status;
+  const char* code;  ///< API.md
+};
+
+Answered answered_as(Refused::Why why) {
   switch (why) {
     case Refused::Why::bad_name:
-      return 400;
+      return {400, "bad_name"};
     case Refused::Why::not_found:
-      return 404;
+      return {404, "not_found"};
     case Refused::Why::conflict:
-      return 409;
+      return {409, "conflict"};
+    case Refused::Why::printing:
+      return {409, "busy"};
+    case Refused::Why::absent:
+      return {409, "printer_absent"};
+    case Refused::Why::bad_value:
+      return {422, "out_of_range"};
     case Refused::Why::bad_job:
-      return 422;
+      return {422, "bad_job"};
     case Refused::Why::bad_kind:
-      return 415;
+      return {415, "bad_kind"};
     case Refused::Why::busy:
-      return 503;
+      return {503, "too_many"};
     case Refused::Why::no_room:
       break;
   }
-  return 507;
+  return {507, "no_room"};
 }
 
 }  // namespace
 
 HttpError http_error(const Refused& refused) {
-  return {status_of(refused.why()), refused.what()};
+  const auto [status, code] = answered_as(refused.why());
+  return {status, code, refused.what()};
 }
 
 Response plain_reply(const json& body, int status) {
@@ -58,7 +70,7 @@ json read_object(const Request& request) {
   type.resize(type.find_last_not_of(" \t") + 1);
   if (type != "application/json") throw HttpError(415, "send JSON, as Content-Type: application/json");
   json body = json::parse(request.body, nullptr, false);
-  if (!body.is_object()) throw HttpError(400, "the body is not a JSON object");
+  if (!body.is_object()) throw HttpError(400, "not_json", "the body is not a JSON object");
   return body;
 }
 
@@ -66,7 +78,7 @@ json read_object(const Request& request, std::initializer_list<const char*> keys
   json body = read_object(request);
   for (const auto& [key, value] : body.items()) {
     const bool known = std::any_of(keys.begin(), keys.end(), [&](const char* one) { return key == one; });
-    if (!known) throw HttpError(400, "a key is not known here: \"" + key.substr(0, 40) + "\"");
+    if (!known) throw HttpError(400, "unknown_key", "a key is not known here: \"" + key.substr(0, 40) + "\"");
   }
   return body;
 }

@@ -43,7 +43,7 @@ QueuedJob::State state_after(Ending ending) {
 
 std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
   if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
-  if (current_) throw Refused(Why::conflict, "a print is going on");
+  if (current_) throw Refused(Why::printing, "a print is going on");
   const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
   if (!job)
     throw Refused(id ? Why::not_found : Why::conflict,
@@ -66,7 +66,7 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
 
 std::uint64_t Daemon::continue_interrupted(bool sure) {
   if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
-  if (current_) throw Refused(Why::conflict, "a print is going on");
+  if (current_) throw Refused(Why::printing, "a print is going on");
   if (interrupted_ && !interrupted_print(options_.state)) interrupted_.reset();
   if (!interrupted_) throw Refused(Why::conflict, "nothing is being printed, and no print was interrupted");
   if (sure && interrupted_->question.empty())
@@ -104,13 +104,13 @@ bool Daemon::port_exists() const {
 /// Throws Refused if the printer's port is a device that is not there; then the job has not left the queue.
 void Daemon::check_port_exists() const {
   if (!port_exists())
-    throw Refused(Why::conflict,
+    throw Refused(Why::absent,
                   "the printer's port " + core::printable(port()) +
                       " is not there: plug the printer in and switch it on; the job stays in the queue");
 }
 
 void Daemon::confirm_bed_clear() {
-  if (current_) throw Refused(Why::conflict, "a print is going on; confirm it when the part was taken off");
+  if (current_) throw Refused(Why::printing, "a print is going on; confirm it when the part was taken off");
   bed_clear_ = true;
   broadcast_status();
   start_sent();

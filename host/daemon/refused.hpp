@@ -12,7 +12,10 @@ class Refused : public std::runtime_error {
   enum class Why {
     bad_name,   ///< not a name that a job or an upload can have
     not_found,  ///< there is no such job or upload
-    conflict,   ///< not now: something else is being printed or waits
+    conflict,   ///< not now: something else waits, or what it takes is missing
+    printing,   ///< not while a print goes on
+    absent,     ///< the printer is not there
+    bad_value,  ///< a number beyond its limits
     bad_job,    ///< the job's text has a mistake
     bad_kind,   ///< a file of a sort that is not printed
     no_room,    ///< a limit or the disk is full

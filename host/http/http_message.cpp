@@ -147,16 +147,31 @@ RequestHead parse_request(std::string_view text) {
   return head;
 }
 
-Response error_response(int status, const std::string& sentence) {
-  const nlohmann::json body = {{"version", 1}, {"error", sentence}};
-  Response response;
-  response.status = status;
-  response.body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  return response;
+HttpError HttpError::wrong_method(const std::string& sentence, std::string allowed) {
+  HttpError error(405, sentence);
+  error.allow_ = std::move(allowed);
+  return error;
+}
+
+const char* HttpError::usual_code(int status) {
+  constexpr std::pair<int, const char*> known[] = {
+      {400, "bad_request"},  {401, "wrong_token"}, {403, "no_right"},   {404, "not_found"},
+      {405, "wrong_method"}, {408, "too_slow"},    {409, "conflict"},   {411, "no_length"},
+      {413, "too_large"},    {414, "too_large"},   {415, "wrong_type"}, {421, "wrong_host"},
+      {422, "bad_job"},      {426, "no_upgrade"},  {429, "too_many"},   {431, "too_large"},
+      {502, "no_answer"},    {503, "too_many"},    {504, "no_answer"},  {505, "bad_request"},
+      {507, "no_room"}};
+  for (const auto& [number, code] : known) {
+    if (number == status) return code;
+  }
+  return "internal";
 }
 
 Response error_response(const HttpError& error) {
-  Response response = error_response(error.status(), error.what());
+  const nlohmann::json body = {{"version", 1}, {"error", error.what()}, {"code", error.code()}};
+  Response response;
+  response.status = error.status();
+  response.body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (error.status() == 401) response.headers.emplace_back("WWW-Authenticate", "Bearer");
   if (error.status() == 405) response.headers.emplace_back("Allow", error.allow());
   if (error.status() == 426) response.headers.emplace_back("Upgrade", "websocket");
@@ -203,6 +218,7 @@ const char* status_words(int status) {
                                                    {421, "Misdirected Request"},
                                                    {422, "Unprocessable Content"},
                                                    {426, "Upgrade Required"},
+                                                   {429, "Too Many Requests"},
                                                    {431, "Request Header Fields Too Large"},
                                                    {500, "Internal Server Error"},
                                                    {502, "Bad Gateway"},

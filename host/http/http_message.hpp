@@ -25,17 +25,26 @@ inline constexpr std::size_t longest_head = 16 * 1024;
 inline constexpr std::size_t longest_target = 2048;  ///< bytes; more is refused with 414
 inline constexpr std::size_t most_headers = 64;
 
-/// A refused request: the status to answer with, and a sentence. `allow`: for 405, the methods of the
-/// address.
+/// A refused request: the status to answer with, a code for programs, which stays the same, and a sentence.
+/// Without a code it is the status's usual one.
 class HttpError : public std::runtime_error {
  public:
-  HttpError(int status, const std::string& sentence, std::string allow = {})
-      : std::runtime_error(sentence), status_(status), allow_(std::move(allow)) {}
+  HttpError(int status, const std::string& sentence) : HttpError(status, usual_code(status), sentence) {}
+  /// `code`: lower case with underscores, for example "not_json".
+  HttpError(int status, const char* code, const std::string& sentence)
+      : std::runtime_error(sentence), status_(status), code_(code) {}
+  /// For 405: the methods of the address.
+  static HttpError wrong_method(const std::string& sentence, std::string allowed);
+
   int status() const { return status_; }
+  const char* code() const { return code_; }
   const std::string& allow() const { return allow_; }
 
  private:
+  static const char* usual_code(int status);
+
   int status_;
+  const char* code_;  ///< a literal
   std::string allow_;
 };
 
@@ -77,9 +86,7 @@ struct Response {
 /// Everything before the blank line. Throws HttpError 400, 411, 414, 431, 501 or 505.
 RequestHead parse_request(std::string_view head);
 
-/// {"version": 1, "error": "…"}
-Response error_response(int status, const std::string& sentence);
-/// The same with the headers that RFC 9110 asks for beside 401, 405 and 426.
+/// {"version": 1, "error": "…", "code": "…"} with the headers that RFC 9110 asks for beside 401, 405 and 426.
 Response error_response(const HttpError& error);
 
 /// As bytes on the wire. `with_body`: false for the answer to HEAD, which has the headers alone.

@@ -277,7 +277,7 @@ asio::awaitable<Response> HttpServer::Connection::answered(Request request) {
   } catch (const HttpError& refused) {
     failed = error_response(refused);
   } catch (const std::exception& error) {
-    failed = error_response(500, error.what());
+    failed = error_response(HttpError(500, error.what()));
   }
   co_return std::move(*failed);
 }

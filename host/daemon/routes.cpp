@@ -1,0 +1,155 @@
+// All addresses of the API. A new one needs a row here with its text, a schema (schemas.json) if it answers
+// with JSON of its own, and a row in API.md.
+#include <algorithm>
+
+#include "host/daemon/route.hpp"
+
+namespace unicursal::host {
+namespace {
+
+/// Removes the first segment from `path`, without its slash, and returns it.
+std::string_view next_segment(std::string_view& path) {
+  path.remove_prefix(1);
+  const std::string_view segment = path.substr(0, path.find('/'));
+  path.remove_prefix(segment.size());
+  return segment;
+}
+
+}  // namespace
+
+bool Api::Route::matches(std::string_view asked) const {
+  if (path == "/") return asked == path;
+  if (path.back() == '/') return asked.size() > path.size() && asked.starts_with(path);
+  std::string_view pattern = path;
+  while (!pattern.empty() && !asked.empty()) {
+    const std::string_view wanted = next_segment(pattern), given = next_segment(asked);
+    if (wanted.starts_with('{') ? given.empty() : wanted != given) return false;
+  }
+  return pattern.empty() && asked.empty();
+}
+
+std::span<const Api::Route> Api::Route::all() {
+  using enum Right;
+  constexpr auto for_strangers = true;
+  static constexpr Route routes[] = {
+      // clang-format off
+      {"GET", "/", &Api::show_page, watch,
+       {.says = "the page for a browser", .type = "text/html"}, for_strangers},
+      {"GET", Page::assets_path, &Api::show_page, watch,
+       {.says = "its parts", .refuses = {404}, .behind = "{name}",
+        .type = "application/octet-stream"}, for_strangers},
+      {"GET", "/api/status", &Api::status, watch, {.says = "what the daemon is doing", .gives = "Status"}},
+      {"GET", "/api/printer", &Api::printer, watch,
+       {.says = "the printer", .gives = "Printer", .refuses = {409}}},
+      {"GET", "/api/events", nullptr, watch,
+       {.says = "a WebSocket of events", .status = 101, .refuses = {426}}},
+      {"GET", "/metrics", &Api::metrics, watch, {.says = "numbers for Prometheus", .type = "text/plain"}},
+      {"GET", "/api/jobs", &Api::list_jobs, watch, {.says = "the queue", .gives = "Jobs"}},
+      {"POST", "/api/jobs", &Api::add_job, queue,
+       {.says = "queues a job", .takes = "NewJob", .gives = "Id", .status = 201,
+        .refuses = {404, 409, 422, 507}}},
+      {"GET", "/api/jobs/", &Api::show_job, watch, {.says = "one job", .gives = "Job", .refuses = {404}}},
+      {"DELETE", "/api/jobs/", &Api::remove_job, queue,
+       {.says = "removes a job", .gives = "Removed", .refuses = {404, 409}}},
+      {"GET", "/api/files", &Api::list_files, watch, {.says = "what can be queued", .gives = "Files"}},
+      {"GET", "/api/files/local", &Api::octo_files, watch,
+       {.says = "OctoPrint: files", .gives = "OctoFiles"}},
+      {"GET", "/api/files/local/", &Api::octo_file, watch,
+       {.says = "OctoPrint: one file", .gives = "OctoFile", .refuses = {404}, .behind = "{name}"}},
+      {"POST", "/api/files/local", &Api::octo_upload, queue,
+       {.says = "OctoPrint: sends a file as a form", .gives = "OctoUploaded", .status = 201,
+        .refuses = {413, 415, 422, 507}}},
+      {"POST", "/api/files/local/", &Api::octo_select, queue,
+       {.says = "OctoPrint: queues a file", .takes = "Command", .status = 204, .refuses = {404, 409, 422},
+        .behind = "{name}"}},
+      {"DELETE", "/api/files/local/", &Api::octo_delete, queue,
+       {.says = "OctoPrint: removes an upload", .status = 204, .refuses = {404, 409}, .behind = "{name}"}},
+      {"PUT", "/api/files/", &Api::keep_file, queue,
+       {.says = "uploads a file of a job", .takes = "Bytes", .gives = "Uploaded", .status = 201,
+        .refuses = {409, 413, 507}, .behind = "{folder}/{file}"}},
+      {"DELETE", "/api/files/", &Api::remove_upload, queue,
+       {.says = "removes an upload", .gives = "Removed", .refuses = {404, 409}, .behind = "{folder}"}},
+      {"POST", "/api/print/start", &Api::start, steer,
+       {.says = "prints a job that waits", .takes = "Start", .gives = "Id", .status = 202,
+        .refuses = {404, 409}}},
+      {"POST", "/api/print/pause", &Api::pause, steer,
+       {.says = "pauses", .takes = "Nothing", .gives = "Status", .status = 202, .refuses = {409}}},
+      {"POST", "/api/print/resume", &Api::resume, steer,
+       {.says = "goes on, also with an interrupted print", .takes = "Sure", .gives = "Status",
+        .status = 202, .refuses = {409}}},
+      {"POST", "/api/print/answer", &Api::answer_prompt, steer,
+       {.says = "answers the printer's question", .takes = "Button", .gives = "Status", .status = 202,
+        .refuses = {409}}},
+      {"POST", "/api/print/cancel", &Api::cancel, steer,
+       {.says = "parks and cools", .takes = "Nothing", .gives = "Status", .status = 202, .refuses = {409}}},
+      {"POST", "/api/print/stop", &Api::stop, steer,
+       {.says = "stops at once (M112)", .takes = "Nothing", .gives = "Status", .status = 202,
+        .refuses = {409}}},
+      {"POST", "/api/bed", &Api::confirm_bed, steer,
+       {.says = "confirms that the bed is clear", .takes = "Clear", .gives = "Status", .status = 202,
+        .refuses = {409}}},
+      {"POST", "/api/temperature", &Api::set_temperature, steer,
+       {.says = "sets the heat of the print", .takes = "Heat", .gives = "Status", .status = 202,
+        .refuses = {409}}},
+      {"POST", "/api/flow", &Api::set_flow, steer,
+       {.says = "sets the flow", .takes = "Percent", .gives = "Status", .status = 202, .refuses = {409}}},
+      {"POST", "/api/speed", &Api::set_speed, steer,
+       {.says = "sets the speed", .takes = "Percent", .gives = "Status", .status = 202, .refuses = {409}}},
+      {"POST", "/api/token/renew", &Api::renew_token, Right::all,
+       {.says = "makes new tokens; through the socket only", .takes = "Nothing", .gives = "Done",
+        .refuses = {409}}},
+      {"GET", "/api/keys", &Api::list_keys, Right::all, {.says = "keys of single programs", .gives = "Keys"}},
+      {"POST", "/api/keys", &Api::add_key, Right::all,
+       {.says = "makes a key", .takes = "NewKey", .gives = "NewKeyMade", .status = 201,
+        .refuses = {409, 507}}},
+      {"POST", "/api/keys/", &Api::decide_key, Right::all,
+       {.says = "grants or denies a request for a key", .takes = "Decision", .gives = "Decided",
+        .refuses = {404, 409, 507}}},
+      {"DELETE", "/api/keys/", &Api::remove_key, Right::all,
+       {.says = "removes a key", .gives = "Removed", .refuses = {404, 507}}},
+      {"GET", "/api/temperatures", &Api::temperatures, watch,
+       {.says = "the last hour's heat", .gives = "Temperatures", .query = "since"}},
+      {"GET", "/api/log", &Api::log, watch,
+       {.says = "the last lines to and from the printer", .gives = "Log", .query = "since"}},
+      {"GET", "/api/version", &Api::octo_version, watch, {.says = "OctoPrint: versions", .gives = "Octo"}},
+      {"GET", "/api/server", &Api::octo_server, watch, {.says = "OctoPrint: the server", .gives = "Octo"}},
+      {"POST", "/api/login", &Api::octo_login, watch,
+       {.says = "OctoPrint: who has this key", .takes = "Login", .gives = "Octo"}},
+      {"GET", "/api/currentuser", &Api::octo_user, watch,
+       {.says = "OctoPrint: who has this key", .gives = "Octo"}},
+      {"GET", "/api/settings", &Api::octo_settings, watch, {.says = "OctoPrint: settings", .gives = "Octo"}},
+      {"GET", "/api/printerprofiles", &Api::octo_profiles, watch,
+       {.says = "OctoPrint: profiles", .gives = "Octo"}},
+      {"GET", "/api/connection", &Api::octo_connection, watch,
+       {.says = "OctoPrint: the connection", .gives = "Octo"}},
+      {"POST", "/api/connection", &Api::octo_connect, steer,
+       {.says = "OctoPrint: opens or closes the port", .takes = "Command", .status = 204, .refuses = {409}}},
+      {"GET", "/api/printer/tool", &Api::octo_tool, watch,
+       {.says = "OctoPrint: the nozzle", .gives = "Octo"}},
+      {"POST", "/api/printer/tool", &Api::octo_set_tool, steer,
+       {.says = "OctoPrint: heats the nozzle", .takes = "Command", .status = 204, .refuses = {409}}},
+      {"GET", "/api/printer/bed", &Api::octo_bed, watch, {.says = "OctoPrint: the bed", .gives = "Octo"}},
+      {"POST", "/api/printer/bed", &Api::octo_set_bed, steer,
+       {.says = "OctoPrint: heats the bed", .takes = "Command", .status = 204, .refuses = {409}}},
+      {"POST", "/api/printer/printhead", &Api::octo_move, steer,
+       {.says = "OctoPrint: moves the head", .takes = "Command", .status = 204, .refuses = {409}}},
+      {"POST", "/api/printer/command", &Api::octo_send, steer,
+       {.says = "OctoPrint: M112", .takes = "Command", .status = 204, .refuses = {409}}},
+      {"GET", "/api/job", &Api::octo_job, watch, {.says = "OctoPrint: the print", .gives = "Octo"}},
+      {"POST", "/api/job", &Api::octo_steer, steer,
+       {.says = "OctoPrint: steers the print", .takes = "Command", .status = 204, .refuses = {409}}},
+      {"GET", push_path, nullptr, watch,
+       {.says = "OctoPrint: a WebSocket of events", .status = 101, .refuses = {426}}, for_strangers},
+      {"GET", "/plugin/appkeys/probe", &Api::octo_probe_keys, watch,
+       {.says = "OctoPrint: whether keys can be asked for", .status = 204}, for_strangers},
+      {"POST", "/plugin/appkeys/request", &Api::octo_request_key, watch,
+       {.says = "OctoPrint: asks for a key", .takes = "App", .gives = "Octo", .status = 201}, for_strangers},
+      {"GET", "/plugin/appkeys/request/", &Api::octo_poll_key, watch,
+       {.says = "OctoPrint: what has become of it", .gives = "Octo", .refuses = {404},
+        .behind = "{ticket}"}, for_strangers},
+      // clang-format on
+  };
+  return routes;
+}
+
+}  // namespace unicursal::host
