@@ -1,0 +1,43 @@
+// What the Print and the Queue page do with waiting jobs.
+import { api } from './api';
+import { ask } from './controls';
+import { live } from './live';
+import type { Job } from './types';
+import { t } from './words';
+
+/** Begins a job; the person has said that the bed is clear. Asks again if an interrupted print may stand on it. */
+export async function printNow(job: Job): Promise<void> {
+  if (live.status?.interrupted) {
+    const sure = await ask(t('idle.clear_title'), t('idle.clear_text'), [{ label: t('idle.clear_yes'), kind: 'main' }]);
+    if (sure !== 0) return;
+    await api.post('/api/print/start', { id: job.id, bed_clear: true });
+  } else {
+    await api.post('/api/print/start', { id: job.id });
+  }
+  await live.refresh();
+}
+
+/** A name that an upload's folder may have: letters, digits, dots, dashes and underscores. */
+export function plainName(name: string): string {
+  const plain = name.normalize('NFKD').replace(/[^A-Za-z0-9._-]+/g, '-').replace(/^[-.]+/, '').slice(-80);
+  return plain || 'file';
+}
+
+/** Uploads files that belong together into one folder, and returns the jobs' names, in their order. */
+export async function upload(files: File[]): Promise<string[]> {
+  const folder = plainName(files[0].name.replace(/\.[^.]*$/, '')) + '-' + Date.now().toString(36);
+  const jobs: string[] = [];
+  for (const file of files) {
+    const answer = await api.upload<{ job: string }>(`/api/files/${folder}/${plainName(file.name)}`, file);
+    jobs.push(answer.job);
+  }
+  return jobs;
+}
+
+/** Large G-code goes as a form, which the daemon writes to the disk as it comes. */
+export async function uploadSliced(file: File): Promise<void> {
+  const form = new FormData();
+  form.append('print', 'true');
+  form.append('file', file, plainName(file.name));
+  await api.form('/api/files/local', form);
+}

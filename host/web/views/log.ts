@@ -1,0 +1,60 @@
+// Notices and lines of the printer, newest last.
+import { api, ApiError } from '../api';
+import { fillList, h, setHidden, View } from '../dom';
+import { live } from '../live';
+import type { LogLine } from '../types';
+import { moment, t } from '../words';
+
+const most = 200;
+
+export class LogPanel extends View {
+  /** How many lines are shown; and whether those of the serial line are, too. */
+  constructor(private readonly all = false) {
+    super();
+  }
+
+  protected show(): void {
+    let lines: LogLine[] = [], next = 0, numbered = false;
+    const list = h('ol', { class: 'log', tabindex: 0, 'aria-label': t('log.title') }), none = h('p', { class: 'soft' }, t('log.none'));
+    const draw = () => {
+      const shown = lines.filter((line) => this.all || line.from !== 'printer').slice(-most);
+      const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 8;
+      fillList(list, shown, (line) => line.id, (line) =>
+        h('li', { class: line.from }, h('time', {}, moment(line.time)), h('span', {}, line.text)), () => undefined);
+      setHidden(none, shown.length > 0);
+      setHidden(list, shown.length === 0);
+      if (atEnd) list.scrollTop = list.scrollHeight;
+    };
+    const refresh = async () => {
+      if (!live.ready || document.hidden) return;
+      try {
+        const answer = await api.get<{ next: number; lines: LogLine[] }>(`/api/log?since=${next}`);
+        if (!numbered) lines = [];
+        numbered = true;
+        next = answer.next;
+        lines = lines.concat(answer.lines).slice(-1000);
+      } catch (error) {
+        if (!(error instanceof ApiError)) return;
+      }
+      draw();
+    };
+    this.className = 'card';
+    this.setAttribute('role', 'region');
+    this.setAttribute('aria-label', t('log.title'));
+    this.append(h('h2', {}, t(this.all ? 'log.serial' : 'log.title')), list, none);
+    let soon = 0;
+    this.until(live.on('up', () => { lines = []; next = 0; numbered = false; void refresh(); }), live.on('line', (line: LogLine) => {
+      if (!numbered) {
+        lines.push(line);
+        return draw();
+      }
+      if (line.from === 'printer' && !this.all) return;
+      window.clearTimeout(soon);
+      soon = window.setTimeout(() => void refresh(), 400);
+    }));
+    this.every(10_000, () => void refresh());
+    void refresh();
+  }
+}
+
+customElements.define('log-panel', LogPanel);

@@ -1,0 +1,80 @@
+// Print while nothing is printed: an interrupted print first, then what waits, with one button to begin; and how
+// the last print ended.
+import { api } from '../api';
+import { ask, card, command, empty } from '../controls';
+import { fill, h, setText, View } from '../dom';
+import { live } from '../live';
+import { printNow } from '../queue_data';
+import type { Job } from '../types';
+import { duration, moment, percent, plural, shortName, t, word } from '../words';
+import { gramsOf, picture } from './job_parts';
+
+export class PrintIdle extends View {
+  private jobs: Job[] = [];
+  private drawn = '';
+
+  protected show(): void {
+    const refresh = async () => {
+      if (!live.ready) return;
+      this.jobs = (await api.get<{ jobs: Job[] }>('/api/jobs').catch(() => ({ jobs: this.jobs }))).jobs;
+      this.draw();
+    };
+    this.until(live.on('queue', () => void refresh()), live.on('up', () => void refresh()), live.on('status', () => this.draw()));
+    this.draw();
+    void refresh();
+  }
+
+  private draw(): void {
+    const status = live.status;
+    const waiting = this.jobs.filter((job) => job.state === 'queued');
+    const now = JSON.stringify([status?.interrupted, status?.last?.job, status?.last?.print?.state, status?.problem, waiting]);
+    if (now === this.drawn) return;
+    this.drawn = now;
+    fill(this, status?.problem ? h('p', { class: 'warning' }, status.problem) : null, status?.interrupted ? this.interrupted() : null,
+         this.next(waiting), this.last());
+  }
+
+  private interrupted(): HTMLElement {
+    const print = live.status?.interrupted;
+    const resume = command({ label: t('resume.continue'), icon: 'play', kind: 'main', run: () => this.resume(print?.question ?? '') });
+    return card(t('resume.title'), 'attention', h('p', { class: 'strong' }, shortName(print?.job)),
+                h('p', {}, print?.question ?? t('resume.text')), h('div', { class: 'row' }, resume));
+  }
+
+  private async resume(question: string): Promise<void> {
+    if (!question) {
+      await api.post('/api/print/resume');
+      return live.refresh();
+    }
+    const sure = await ask(t('resume.title'), question, [{ label: t('resume.sure'), kind: 'main' }]);
+    if (sure !== 0) return;
+    await api.post('/api/print/resume', { sure: true });
+    await live.refresh();
+  }
+
+  private next(waiting: Job[]): HTMLElement {
+    const job = waiting[0];
+    if (!job)
+      return card(t('idle.title'), 'next', empty(t('idle.none'), t('idle.none_text')), h('div', { class: 'row' }, h('a', { class: 'button main', href: '#/queue' }, t('idle.add'))));
+    const start = command({ label: t('idle.clear_print'), icon: 'play', kind: 'main big', run: () => printNow(job) });
+    const facts = [job.seconds === undefined ? '' : duration(job.seconds), gramsOf(job)].filter(Boolean).join(' · ');
+    const more = waiting.length > 1 ? h('a', { href: '#/queue', class: 'more' }, plural('idle.more', waiting.length - 1)) : null;
+    const name = h('h3', { class: 'job', title: job.job }, shortName(job.job));
+    return card(t('idle.next'), 'next', picture(job.id, job.job, 'large'),
+                h('div', { class: 'stack' }, name, facts ? h('p', { class: 'soft' }, facts) : null,
+                  job.reason ? h('p', { class: 'warning' }, job.reason) : null, h('div', { class: 'row' }, start), more));
+  }
+
+  private last(): HTMLElement | null {
+    const last = live.status?.last;
+    if (!last?.job) return null;
+    const state = last.print?.state ?? last.job.state, text = h('p', { class: 'strong' });
+    setText(text, shortName(last.job.job));
+    const how = h('p', {}, h('span', { class: `badge ${state}` }, word('state', state)), ' ', last.print?.percent === undefined ? '' : percent(last.print.percent));
+    const ended = (last.job as Job & { ended?: number }).ended;
+    return card(t('idle.last'), 'last', text, how, last.job.reason ? h('p', { class: 'prose' }, last.job.reason) : null,
+                ended ? h('p', { class: 'soft' }, moment(ended)) : null, h('a', { href: '#/history', class: 'more' }, t('idle.history')));
+  }
+}
+
+customElements.define('print-idle', PrintIdle);

@@ -1,0 +1,57 @@
+// The page's languages: flat JSON files, fetched once; numbers and times by Intl.
+import * as formats from './formats';
+
+let texts: Record<string, string> = {};
+let fallback: Record<string, string> = {};
+let chosen = 'en';
+
+export const languages = ['en', 'de'];
+
+/** The language of the person: the one chosen on this device, the daemon's, or the browser's. */
+export function preferred(daemon = ''): string {
+  const wanted = [localStorage.getItem('language') ?? '', daemon, ...navigator.languages];
+  for (const tag of wanted) {
+    const language = languages.find((known) => tag.toLowerCase().split('-')[0] === known);
+    if (language) return language;
+  }
+  return 'en';
+}
+
+export async function speak(language: string): Promise<void> {
+  const load = async (name: string) => (await fetch(`/assets/${name}.json`)).json();
+  if (!Object.keys(fallback).length) fallback = await load('en');
+  texts = language === 'en' ? fallback : await load(language);
+  chosen = language;
+  document.documentElement.lang = language;
+}
+
+export function language(): string {
+  return chosen;
+}
+
+/** The text of a key, with {values}. */
+export function t(key: string, values: Record<string, string | number> = {}): string {
+  const text = texts[key] ?? fallback[key] ?? key;
+  return text.replace(/\{(\w+)\}/g, (all, name) => (name in values ? String(values[name]) : all));
+}
+
+/** The text of a word of the daemon, such as a state; a word that is not known is shown as it is. */
+export function word(group: string, value: string | undefined): string {
+  if (!value) return formats.unknown;
+  const key = `${group}.${value}`;
+  return texts[key] ?? fallback[key] ?? value;
+}
+
+/** "1 job", "3 jobs": the keys are `key.one` and `key.other`. */
+export function plural(key: string, n: number): string {
+  return word(key, new Intl.PluralRules(chosen).select(n)).replace('{n}', number(n));
+}
+
+export const number = (value: number | null | undefined, digits = 0) => formats.number(chosen, value, digits);
+export const duration = (seconds: number | null | undefined) => formats.duration(seconds, t);
+export const moment = (when: number | null | undefined) => formats.moment(chosen, when);
+export const shares = (values: number[] | undefined) => formats.shares(chosen, values);
+export const percent = (value: number | null | undefined) => formats.percent(chosen, value);
+export const celsius = (value: number | null | undefined) =>
+  (value === null || value === undefined ? formats.unknown : `${number(value)} °C`);
+export { colour, shortName, unknown } from './formats';
