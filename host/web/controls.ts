@@ -135,7 +135,7 @@ export function stepper(options: StepOptions): Stepper {
   const more = command({ label: t('more', { what: options.label }), icon: 'plus', bare: true, kind: 'quiet', run: () => change(1) });
   const draw = () => {
     const shown = wanted ?? known;
-    setText(value, shown === undefined ? '–' : `${number(shown)} ${options.unit}`);
+    setText(value, shown === undefined ? '–' : shown === 0 && options.unit === '°C' ? t('heat.is_off') : `${number(shown)} ${options.unit}`);
     value.classList.toggle('pending', wanted !== undefined);
   };
   const box = h('div', { class: 'stepper', role: 'group', 'aria-label': options.label },
@@ -181,10 +181,10 @@ export function empty(title: string, text: string): HTMLElement {
 
 /** Shows `make()`'s result, or says that it waits or why it failed, with a button to try again. */
 export async function load<T>(place: HTMLElement, get: () => Promise<T>, show: (value: T) => void): Promise<void> {
-  if (!place.childElementCount) fill(place, h('p', { class: 'waiting' }, t('loading')));
+  if (!place.childElementCount) fill(place, h('p', { class: 'loading' }, t('loading')));
   try {
     const value = await get();
-    if (place.querySelector(':scope > .waiting, :scope > .failed')) fill(place);
+    if (place.querySelector(':scope > .loading, :scope > .failed')) fill(place);
     show(value);
   } catch (error) {
     if (place.isConnected && live.ready)

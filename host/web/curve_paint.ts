@@ -68,10 +68,31 @@ function thickness(width: number, scale: number): number {
   return pixels < 8 ? Math.max(0.7, Math.round(pixels * 2) / 2) : Math.round(pixels);
 }
 
-/** The frame in which `bounds` fill a canvas of that size but for a margin. */
-export function fitting(bounds: number[], size: Size, margin: number): Frame {
-  const [x0, y0, x1, y1] = bounds;
-  const scale = Math.max(0.01, Math.min((size.width - 2 * margin) / Math.max(1, x1 - x0),
-                                        (size.height - 2 * margin) / Math.max(1, y1 - y0)));
-  return { scale, left: (size.width - (x0 + x1) * scale) / 2, top: (size.height + (y0 + y1) * scale) / 2 };
+/** The frame in which `bounds` fill a canvas of that size but for a margin, and more of it below. */
+export function fitting(bounds: number[], size: Size, margin: number, below = margin): Frame {
+  const [x0, y0, x1, y1] = bounds, height = size.height - margin - below;
+  const scale = Math.max(0.01, Math.min((size.width - 2 * margin) / Math.max(1, x1 - x0), height / Math.max(1, y1 - y0)));
+  return { scale, left: (size.width - (x0 + x1) * scale) / 2, top: margin + (height + (y0 + y1) * scale) / 2 };
+}
+
+/** Relative luminance as WCAG 2.2 has it, 0 to 1. */
+export function luminance(colour: number): number {
+  const part = (shift: number) => {
+    const value = ((colour >> shift) & 255) / 255;
+    return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+  };
+  return 0.2126 * part(16) + 0.7152 * part(8) + 0.0722 * part(0);
+}
+
+function contrast(a: number, b: number): number {
+  const [light, dark] = [luminance(a), luminance(b)].sort((x, y) => y - x);
+  return (light + 0.05) / (dark + 0.05);
+}
+
+/** The theme's own ground if every colour is seen on it, otherwise the one that serves the worst of them best. */
+export function groundFor(colours: number[], dark: boolean): number {
+  const grounds = dark ? [0x131716, 0x3a4340, 0xb9c2be] : [0xf3f3ef, 0x2a3230, 0xb9c2be];
+  const worst = grounds.map((ground) => Math.min(99, ...colours.map((colour) => contrast(colour, ground))));
+  const good = worst.findIndex((value) => value >= 1.5);
+  return grounds[good >= 0 ? good : worst.indexOf(Math.max(...worst))];
 }

@@ -1,7 +1,7 @@
 // The layer's curve: what is laid in its true colours, the rest pale, the nozzle as a dot. What is drawn stays on
 // a bitmap onto which only new beads are painted. Zooming moves the bitmap at once, while a second one is painted
 // in slices of a few milliseconds, and then takes its place.
-import { fitting, Frame, paintStroke, pale, Size } from './curve_paint';
+import { cssColour, fitting, Frame, groundFor, luminance, paintStroke, pale, Size } from './curve_paint';
 import { h, icon, setText } from './dom';
 import { LayerPath } from './path';
 import { t } from './words';
@@ -20,6 +20,8 @@ export class CurveView extends HTMLElement {
   private readonly note = h('p', { class: 'note' });
   private readonly stage = h('div', { class: 'stage', role: 'img', tabindex: 0 });
   private path: LayerPath | null = null;
+  private colours: number[] = [];
+  private ground = 0;
   private size: Size = { width: 0, height: 0 };
   private bed = [0, 0, 200, 200];
   private frame: Frame = { scale: 1, left: 0, top: 0 };       ///< wanted, in pixels of the bitmap
@@ -47,6 +49,7 @@ export class CurveView extends HTMLElement {
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(this.stage);
     document.addEventListener('theme', this.redraw);
+    this.redraw();
   }
 
   disconnectedCallback(): void {
@@ -66,6 +69,12 @@ export class CurveView extends HTMLElement {
 
   setBed(bed: number[]): void {
     this.bed = [0, 0, bed[0], bed[1]];
+  }
+
+  /** The ground is chosen so that all of these are seen on it: white filament, or black. */
+  setColours(colours: string[]): void {
+    this.colours = colours.filter((text) => /^#[0-9a-f]{6}$/i.test(text)).map((text) => parseInt(text.slice(1), 16));
+    this.redraw();
   }
 
   /** Shows a layer of which `laid` beads are laid; null: none. */
@@ -94,11 +103,16 @@ export class CurveView extends HTMLElement {
     this.begin();
   }
 
-  readonly redraw = () => this.begin();
+  readonly redraw = () => {
+    this.ground = groundFor(this.colours, document.documentElement.dataset.theme === 'dark');
+    this.stage.style.background = cssColour(this.ground);
+    this.stage.toggleAttribute('data-dark', luminance(this.ground) < 0.18);
+    this.begin();
+  };
 
   private fitFrame(): void {
     const known = this.path && this.path.bounds[2] > this.path.bounds[0];
-    this.frame = fitting(known && this.path ? this.path.bounds : this.bed, this.size, 18 * this.ratio);
+    this.frame = fitting(known && this.path ? this.path.bounds : this.bed, this.size, 18 * this.ratio, 58 * this.ratio);
   }
 
   private resize(): void {
@@ -148,7 +162,7 @@ export class CurveView extends HTMLElement {
     const work = this.work, path = this.path, began = performance.now();
     if (!work) return;
     const brush = brushOf(this.hiddenOne);
-    const ground = groundOf(this);
+    const ground = this.ground;
     while (path && performance.now() - began < sliceTime) {
       const end = work.pass === 'pale' ? path.count : work.laid;
       if (work.at < end) {
@@ -307,10 +321,6 @@ function flush(brush: CanvasRenderingContext2D): void {
 /** Beads of a stroke, so that it takes about a millisecond. */
 function adapted(beads: number, took: number): number {
   return Math.min(2000, Math.max(24, took > 2 ? Math.floor(beads / 1.5) : took < 0.7 ? Math.ceil(beads * 1.3) : beads));
-}
-
-function groundOf(element: Element): number {
-  return parseInt(getComputedStyle(element).getPropertyValue('--ground').trim().slice(1), 16) || 0;
 }
 
 const channel = new MessageChannel();

@@ -67,7 +67,7 @@ class Shell extends View {
   }
 
   private route(): void {
-    const wanted = location.hash.replace(/^#\//, '') || localStorage.getItem('view') || 'print';
+    const wanted = /^#\/([a-z-]+)/.exec(location.hash)?.[1] || localStorage.getItem('view') || 'print';
     const page = pages.find((one) => one.name === wanted) ?? pages[0];
     const name = live.link === 'locked' ? 'login' : page.name;
     if (name === this.shown) return;

@@ -1,6 +1,7 @@
 // What the Print and the Queue page do with waiting jobs.
 import { api } from './api';
 import { ask } from './controls';
+import { plainName } from './inputs';
 import { live } from './live';
 import type { Job } from './types';
 import { t } from './words';
@@ -15,12 +16,6 @@ export async function printNow(job: Job): Promise<void> {
     await api.post('/api/print/start', { id: job.id });
   }
   await live.refresh();
-}
-
-/** A name that an upload's folder may have: letters, digits, dots, dashes and underscores. */
-export function plainName(name: string): string {
-  const plain = name.normalize('NFKD').replace(/[^A-Za-z0-9._-]+/g, '-').replace(/^[-.]+/, '').slice(-80);
-  return plain || 'file';
 }
 
 /** Uploads files that belong together into one folder, and returns the jobs' names, in their order. */

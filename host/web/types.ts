@@ -4,7 +4,7 @@
 export interface Heater { actual_c?: number; target_c?: number }
 
 export interface Job {
-  id: number; job: string; state: string; added?: number; layers?: [number, number]; reason?: string;
+  id: number; job: string; state: string; added?: number; ended?: number; layers?: [number, number]; reason?: string;
   seconds?: number; grams?: { name: string; colour?: string; grams: number }[]; layer_count?: number;
 }
 

@@ -4,6 +4,7 @@ import * as formats from './formats';
 let texts: Record<string, string> = {};
 let fallback: Record<string, string> = {};
 let chosen = 'en';
+let locale = 'en';  ///< with the region of the browser, as far as it speaks the language
 
 export const languages = ['en', 'de'];
 
@@ -22,11 +23,12 @@ export async function speak(language: string): Promise<void> {
   if (!Object.keys(fallback).length) fallback = await load('en');
   texts = language === 'en' ? fallback : await load(language);
   chosen = language;
+  locale = navigator.languages.find((tag) => tag.toLowerCase().split('-')[0] === language) ?? language;
   document.documentElement.lang = language;
 }
 
 export function language(): string {
-  return chosen;
+  return locale;
 }
 
 /** The text of a key, with {values}. */
@@ -47,11 +49,11 @@ export function plural(key: string, n: number): string {
   return word(key, new Intl.PluralRules(chosen).select(n)).replace('{n}', number(n));
 }
 
-export const number = (value: number | null | undefined, digits = 0) => formats.number(chosen, value, digits);
+export const number = (value: number | null | undefined, digits = 0) => formats.number(locale, value, digits);
 export const duration = (seconds: number | null | undefined) => formats.duration(seconds, t);
-export const moment = (when: number | null | undefined) => formats.moment(chosen, when);
-export const shares = (values: number[] | undefined) => formats.shares(chosen, values);
-export const percent = (value: number | null | undefined) => formats.percent(chosen, value);
+export const moment = (when: number | null | undefined) => formats.moment(locale, when);
+export const shares = (values: number[] | undefined) => formats.shares(locale, values);
+export const percent = (value: number | null | undefined) => formats.percent(locale, value);
 export const celsius = (value: number | null | undefined) =>
   (value === null || value === undefined ? formats.unknown : `${number(value)} °C`);
 export { colour, shortName, unknown } from './formats';

@@ -13,9 +13,9 @@ export function findingList(findings: Finding[]): HTMLElement {
 
 export class ChecksPanel extends View {
   protected show(): void {
-    const findings = h('div', {}), ports = h('div', {});
+    const findings = h('div', { class: 'stack' }), ports = h('div', { class: 'stack' });
     const doctor = command({ label: t('doctor.ask'), run: async () => {
-      fill(findings, h('p', { class: 'waiting' }, t('doctor.runs')));
+      fill(findings, h('p', { class: 'loading' }, t('doctor.runs')));
       try {
         fill(findings, findingList((await api.post<{ findings: Finding[] }>('/api/doctor')).findings));
       } catch (error) {

@@ -10,6 +10,9 @@ import { LayerPath } from '../path';
 import type { KnownLayer, Position } from '../types';
 import { number, plural, shares, t } from '../words';
 
+/** States in which the daemon knows where the nozzle is. */
+const moving = ['printing', 'pausing', 'paused', 'resuming', 'finishing'];
+
 const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
 export class CurvePanel extends View {
@@ -25,51 +28,65 @@ export class CurvePanel extends View {
   private readonly leaving = swatch();
   private readonly next = swatch();
   private fedText!: HTMLElement;
+  private fedShares!: HTMLElement;
+  private leavingShares!: HTMLElement;
   private leavingText!: HTMLElement;
   private nextText!: HTMLElement;
   private nextBox!: HTMLElement;
   private changeAt = 0;
+  private print = -1;
 
   protected show(): void {
-    this.curve = document.createElement('curve-view') as CurveView;
+    this.curve = new CurveView();
     this.slider = h('input', { type: 'range', min: 0, max: 0, value: 0, class: 'layers', 'aria-label': t('curve.layer'), input: () => this.choose() });
     this.label = h('output', { class: 'layer-label' });
-    this.follow = h('button', { type: 'button', class: 'button quiet follow', 'aria-pressed': true, click: () => this.setFollowing(!this.following) },
+    this.follow = h('button', { type: 'button', class: 'button quiet follow', 'aria-pressed': 'true', click: () => this.setFollowing(!this.following) },
                     icon('follow'), h('span', {}, t('curve.follow')));
     const line = (name: string, dot: HTMLElement) => {
-      const text = h('span', { class: 'what' });
-      return [h('div', { class: 'flowing' }, dot, h('div', {}, h('span', { class: 'label' }, name), text)), text];
+      const text = h('span', { class: 'what' }), more = h('span', { class: 'soft' });
+      return [h('div', { class: 'flowing' }, dot, h('div', {}, h('span', { class: 'label' }, name), text, more)), text, more];
     };
-    const [fed, fedText] = line(t('colour.fed'), this.fed);
-    const [leaving, leavingText] = line(t('colour.leaving'), this.leaving);
+    const [fed, fedText, fedShares] = line(t('colour.fed'), this.fed);
+    const [leaving, leavingText, leavingShares] = line(t('colour.leaving'), this.leaving);
     const [next, nextText] = line(t('colour.next'), this.next);
-    Object.assign(this, { fedText, leavingText, nextText, nextBox: next });
+    Object.assign(this, { fedText, fedShares, leavingText, leavingShares, nextText, nextBox: next });
     this.append(this.curve, h('div', { class: 'layer-row' }, this.label, this.slider, this.follow),
                 h('div', { class: 'colours' }, leaving, fed, next));
     this.until(live.on('position', () => this.move()), live.on('layer', (layer: KnownLayer) => void this.learn(layer)),
-               live.on('up', () => void this.begin()), live.on('printer', () => this.showBed()));
+               live.on('up', () => void this.begin()), live.on('status', () => this.noticePrint()), live.on('printer', () => this.showBed()));
     this.every(500, () => this.showNext());
     this.showBed();
     this.showColours();
-    void this.begin();
+    this.curve.say(t('curve.waits'));
+    this.noticePrint();
   }
 
   /** Fetches everything anew: a page that opens, a print that begins, a connection that is back. */
   async begin(): Promise<void> {
-    if (!live.ready) return;
+    if (!live.ready || !live.status?.print) return;
     this.curve.say(t('curve.waits'));
     try {
       await this.layers.refresh();
-      if (this.layers.info && !live.position) {
+      if (this.layers.info && !live.position && moving.includes(live.state)) {
         live.position = await api.get<Position>('/api/print/position').catch(() => null);
       }
     } catch {
       return;  // the connection is gone; `up` calls again
     }
     if (!this.isConnected) return;
+    const used = this.layers.info?.mixtures?.length ? this.layers.info.mixtures : this.layers.info?.filaments ?? [];
+    this.curve.setColours(used.map((one) => one.colour ?? ''));
     this.showSlider();
     this.move();
     await this.fetchShown();
+  }
+
+  /** A print that begins while the page is open: its layers are asked for once it has a state. */
+  private noticePrint(): void {
+    const print = live.status?.print ? live.status.job?.id ?? 0 : -1;
+    if (print === this.print) return;
+    this.print = print;
+    if (print >= 0) void this.begin();
   }
 
   private get shownLayer(): number {
@@ -162,16 +179,18 @@ export class CurvePanel extends View {
     const position = live.position;
     this.fed.show(position?.fed?.colour);
     this.leaving.show(position?.leaving?.colour);
-    const named = (name: string | undefined, values: number[] | undefined) =>
-      (name || values ? [name ?? '', values ? shares(values) : ''].filter(Boolean).join('  ') : t('unknown'));
-    setText(this.fedText, named(position?.fed?.name, position?.fed?.shares));
-    setText(this.leavingText, named(position?.leaving?.nearest, position?.leaving?.shares));
+    setText(this.fedText, position?.fed?.name ?? t('unknown'));
+    setText(this.fedShares, position?.fed?.shares ? shares(position.fed.shares) : '');
+    const leaving = position?.leaving;
+    setText(this.leavingText, leaving?.nearest ? t(leaving.nearest === position?.fed?.name ? 'colour.is' : 'colour.nearest', { name: leaving.nearest }) : t('unknown'));
+    setText(this.leavingShares, leaving?.shares ? shares(leaving.shares) : '');
     this.next.show(position?.change?.colour);
     this.changeAt = position?.change ? Date.now() + position.change.seconds * 1000 : 0;
     this.showNext();
   }
 
   private showNext(): void {
+    if (live.state !== 'printing' && this.nextText.textContent) return;
     const change = live.position?.change;
     setHidden(this.nextBox, !live.position);
     if (!change) return setText(this.nextText, t('colour.no_change'));

@@ -2,10 +2,10 @@
 import { api } from '../api';
 import { ask, card, command, empty, load } from '../controls';
 import { fill, h, View } from '../dom';
+import { layerRange } from '../inputs';
 import { live } from '../live';
 import type { DryRun } from '../types';
 import { duration, moment, number, shortName, t } from '../words';
-import { layerRange } from './queue';
 
 export class DryRunView extends View {
   private list!: HTMLElement;

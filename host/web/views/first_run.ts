@@ -79,7 +79,7 @@ export class FirstRun extends View {
   private doctor(place: HTMLElement): void {
     const findings = h('div', {});
     const run = command({ label: t('doctor.ask'), kind: 'main', run: async () => {
-      fill(findings, h('p', { class: 'waiting' }, t('doctor.runs')));
+      fill(findings, h('p', { class: 'loading' }, t('doctor.runs')));
       try {
         fill(findings, findingList((await api.post<{ findings: Finding[] }>('/api/doctor')).findings));
       } catch (error) {

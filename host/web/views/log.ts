@@ -14,7 +14,7 @@ export class LogPanel extends View {
   }
 
   protected show(): void {
-    let lines: LogLine[] = [], next = 0, numbered = false;
+    let lines: LogLine[] = [], next = 0, numbered = false, running = false;
     const list = h('ol', { class: 'log', tabindex: 0, 'aria-label': t('log.title') }), none = h('p', { class: 'soft' }, t('log.none'));
     const draw = () => {
       const shown = lines.filter((line) => this.all || line.from !== 'printer').slice(-most);
@@ -26,15 +26,18 @@ export class LogPanel extends View {
       if (atEnd) list.scrollTop = list.scrollHeight;
     };
     const refresh = async () => {
-      if (!live.ready || document.hidden) return;
+      if (!live.ready || document.hidden || running) return;
+      running = true;
       try {
         const answer = await api.get<{ next: number; lines: LogLine[] }>(`/api/log?since=${next}`);
-        if (!numbered) lines = [];
+        if (!numbered || answer.next < next) lines = [];
         numbered = true;
         next = answer.next;
         lines = lines.concat(answer.lines).slice(-1000);
       } catch (error) {
         if (!(error instanceof ApiError)) return;
+      } finally {
+        running = false;
       }
       draw();
     };

@@ -12,7 +12,7 @@ export class PrintFacts extends View {
   private asked = '';
 
   protected show(): void {
-    const state = h('p', { class: 'state' }), job = h('h1', { class: 'job' }), done = h('p', { class: 'percent' });
+    const state = h('p', { class: 'state' }), job = h('h1', { class: 'job' }), done = h('p', { class: 'percent' }), short = h('p', { class: 'soft short' });
     const bar = h('div', { class: 'bar', role: 'progressbar', 'aria-label': t('print.progress'), 'aria-valuemin': 0, 'aria-valuemax': 100 }, h('i'));
     const fact = (name: string) => {
       const value = h('dd', {});
@@ -36,7 +36,9 @@ export class PrintFacts extends View {
       if (print?.percent === undefined) bar.removeAttribute('aria-valuenow');
       else bar.setAttribute('aria-valuenow', String(Math.floor(print.percent)));
       setText(left, duration(print?.left_seconds));
-      setText(ready, print?.left_seconds === undefined || live.state === 'paused' ? unknown : moment(Date.now() / 1000 + print.left_seconds));
+      const end = print?.left_seconds === undefined || live.state === 'paused' ? unknown : moment(Date.now() / 1000 + print.left_seconds);
+      setText(ready, end);
+      setText(short, print?.left_seconds === undefined ? '' : t(end === unknown ? 'print.left_short' : 'print.left_ready', { left: duration(print.left_seconds), ready: end }));
       setText(layer, print?.layers ? t('print.layer_of', { layer: print.layer === undefined ? unknown : number(print.layer), layers: number(print.layers) }) : unknown);
       setText(ahead, duration(print?.lookahead_seconds));
       width(aheadBar, print?.lookahead_seconds === undefined ? undefined : (print.lookahead_seconds / wellAhead) * 100);
@@ -47,7 +49,7 @@ export class PrintFacts extends View {
       setHidden(warning, !reason);
       this.showQuestion(question);
     };
-    this.append(question, h('div', { class: 'headline' }, h('div', {}, state, job), done), bar, warning,
+    this.append(question, h('div', { class: 'headline' }, h('div', {}, state, job, short), done), bar, warning,
                 h('dl', { class: 'facts' }, leftBox, readyBox, layerBox, aheadBox, heatBox));
     this.until(live.on('status', draw), live.on('up', draw));
     draw();

@@ -2,7 +2,7 @@
 // the last print ended.
 import { api } from '../api';
 import { ask, card, command, empty } from '../controls';
-import { fill, h, setText, View } from '../dom';
+import { fill, h, View } from '../dom';
 import { live } from '../live';
 import { printNow } from '../queue_data';
 import type { Job } from '../types';
@@ -31,7 +31,11 @@ export class PrintIdle extends View {
     if (now === this.drawn) return;
     this.drawn = now;
     fill(this, status?.problem ? h('p', { class: 'warning' }, status.problem) : null, status?.interrupted ? this.interrupted() : null,
-         this.next(waiting), this.last());
+         ...(this.failed ? [this.last(), this.next(waiting)] : [this.next(waiting), this.last()]));
+  }
+
+  private get failed(): boolean {
+    return (live.status?.last?.print?.state ?? live.status?.last?.job?.state) === 'failed';
   }
 
   private interrupted(): HTMLElement {
@@ -68,12 +72,12 @@ export class PrintIdle extends View {
   private last(): HTMLElement | null {
     const last = live.status?.last;
     if (!last?.job) return null;
-    const state = last.print?.state ?? last.job.state, text = h('p', { class: 'strong' });
-    setText(text, shortName(last.job.job));
-    const how = h('p', {}, h('span', { class: `badge ${state}` }, word('state', state)), ' ', last.print?.percent === undefined ? '' : percent(last.print.percent));
-    const ended = (last.job as Job & { ended?: number }).ended;
-    return card(t('idle.last'), 'last', text, how, last.job.reason ? h('p', { class: 'prose' }, last.job.reason) : null,
-                ended ? h('p', { class: 'soft' }, moment(ended)) : null, h('a', { href: '#/history', class: 'more' }, t('idle.history')));
+    const state = last.print?.state ?? last.job.state, ended = last.job.ended;
+    const facts = [last.print?.percent === undefined || state === 'done' ? '' : percent(last.print.percent), ended ? moment(ended) : ''];
+    return card(t('idle.last'), 'last',
+                h('div', { class: 'run-head' }, h('h3', { class: 'job', title: last.job.job }, shortName(last.job.job)),
+                  h('span', { class: `badge ${state}` }, word('state', state)), h('span', { class: 'soft' }, facts.filter(Boolean).join(' · '))),
+                last.job.reason ? h('p', { class: 'prose' }, last.job.reason) : null, h('a', { href: '#/history', class: 'more' }, t('idle.history')));
   }
 }
 

@@ -12,7 +12,7 @@ export class ProfilePanel extends View {
   private saved = '';
 
   protected show(): void {
-    const place = h('div', {});
+    const place = h('div', { class: 'stack' });
     this.className = 'card profile';
     this.append(h('h2', {}, t('profile.title')), place);
     const refresh = () => load(place, () => api.get<Profile>('/api/profile'), (profile) => this.fill(place, profile));

@@ -3,6 +3,7 @@ import { api } from '../api';
 import { ask, card, command, complain, empty, say } from '../controls';
 import { fill, fillList, h, icon, setHidden, setText, View } from '../dom';
 import { live } from '../live';
+import { layerRange } from '../inputs';
 import { printNow, upload, uploadSliced } from '../queue_data';
 import type { Job } from '../types';
 import { duration, number, plural, shortName, t } from '../words';
@@ -166,15 +167,6 @@ export class QueueView extends View {
     return card(t('queue.add_title'), 'adding', h('label', { for: 'job' }, t('queue.job')), jobs, h('label', { for: 'layers' }, t('queue.layers')), layers,
                 h('p', { class: 'soft' }, t('queue.layers_help')), h('div', { class: 'row' }, add));
   }
-}
-
-/** "2-5" or "3" as people count, from 1; nothing: all. Throws what to write instead. */
-export function layerRange(text: string): [number, number] | null {
-  if (!text.trim()) return null;
-  const found = /^\s*(\d+)\s*(?:[-–:]\s*(\d+))?\s*$/.exec(text);
-  const first = found ? Number(found[1]) : 0, last = found?.[2] ? Number(found[2]) : first;
-  if (!found || first < 1 || last < first) throw new Error(t('queue.layers_wrong'));
-  return [first - 1, last - 1];
 }
 
 customElements.define('queue-view', QueueView);
