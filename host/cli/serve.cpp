@@ -29,7 +29,8 @@ class Serve final : public Command {
         .group(network);
     app.add_flag("--lan", options_.lan,
                  "Let other computers of this network in, with the token, by this computer's addresses, its "
-                 "name, and its name with .local. A terminal shows the address as a QR code.")
+                 "name, and its name with .local. A terminal shows the page's address with the token, as a "
+                 "QR code: whoever sees it can control the printer.")
         ->group(network);
     add_values(app, "--name", options_.names, "HOST",
                "Additional host name to accept in requests. May be repeated.")
@@ -71,16 +72,24 @@ class Serve final : public Command {
       show(stdout, "listening on http://{}{}\n", address,
            options_.no_token ? ", without a token"
                              : "; the token is in " + options_.daemon.state.string() + "/token");
-      if (options_.lan) show_for_others(address);
+      show_page_address(address);
+      if (options_.lan)
+        show(stdout, "on another computer: `unicursal status --daemon http://{} --token TOKEN`\n", address);
       std::fflush(stdout);
     });
     return Exit::success;
   }
 
  private:
-  void show_for_others(const std::string& address) const {
-    if (look_of(STDOUT_FILENO).rewrites) show_as_it_is(stdout, qr_code("http://" + address + "/"));
-    show(stdout, "on another computer: `unicursal status --daemon http://{} --token TOKEN`\n", address);
+  /// With the token behind the `#`, which browsers do not send and servers do not log. A terminal shows it to
+  /// whoever has started the daemon and could read the token anyway; a file or the system's log would keep it
+  /// for others.
+  void show_page_address(const std::string& address) const {
+    if (isatty(STDOUT_FILENO) == 0) return;
+    const auto token = options_.no_token ? std::nullopt : read_line(options_.daemon.state / "token");
+    const std::string page = "http://" + address + "/" + (token ? "#token=" + *token : "");
+    if (options_.lan && look_of(STDOUT_FILENO).rewrites) show_as_it_is(stdout, qr_code(page));
+    show_as_it_is(stdout, "open " + page + "\n");
   }
 
   static constexpr std::uint64_t most_megabytes = 1 << 24;

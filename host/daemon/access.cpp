@@ -21,7 +21,7 @@ std::optional<std::string> offered_token(const RequestHead& head) {
   return std::nullopt;
 }
 
-std::optional<std::string> token_of(const RequestHead& head) {
+std::optional<std::string> given_secret(const RequestHead& head) {
   const auto given = head.header("authorization");
   if (given && core::lower(given->substr(0, bearer.size())) == bearer) {
     const std::size_t begin = given->find_first_not_of(' ', bearer.size());
@@ -29,6 +29,21 @@ std::optional<std::string> token_of(const RequestHead& head) {
   }
   if (const auto key = head.header("x-api-key")) return key;
   return offered_token(head);
+}
+
+struct Proof {
+  std::string secret;
+  bool by_cookie = false;
+};
+
+std::optional<Proof> proof_in(const RequestHead& head, const AccessRules& rules) {
+  if (auto secret = given_secret(head)) return Proof{std::move(*secret)};
+  if (const auto session = session_of(head, rules)) return Proof{*rules.logins->secret_of(*session), true};
+  return std::nullopt;
+}
+
+bool only_looks(const RequestHead& head) {
+  return (head.method == "GET" || head.method == "HEAD") && !head.header("upgrade");
 }
 
 /// Whether a host such as "printer.lan:8443" or "[fe80::1]:80" ends in a port.
@@ -73,26 +88,52 @@ void check_site(const RequestHead& head, const AccessRules& rules) {
   check_origin(head, rules);
 }
 
+std::optional<std::string> session_of(const RequestHead& head, const AccessRules& rules) {
+  const auto cookies = head.header("cookie");
+  if (!cookies || !rules.logins) return std::nullopt;
+  const std::string name = rules.cookie + "=";
+  std::string_view rest = *cookies;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(';'), rest.size());
+    std::string_view cookie = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    cookie.remove_prefix(std::min(cookie.find_first_not_of(' '), cookie.size()));
+    if (!cookie.starts_with(name)) continue;
+    std::string session(cookie.substr(name.size()));
+    if (rules.logins->secret_of(session)) return session;
+  }
+  return std::nullopt;
+}
+
+std::optional<Visitor> visitor_with(const std::string& secret, const AccessRules& rules) {
+  if (!rules.token || is_same_secret(secret, *rules.token)) return Visitor{};
+  const Key* key = rules.keys ? rules.keys->with_secret(secret) : nullptr;
+  if (!key) return std::nullopt;
+  return Visitor{key->right, key->name};
+}
+
 Visitor check_access(const RequestHead& head, const AccessRules& rules) {
   if (head.by_socket) return {};
   check_site(head, rules);
   if (!rules.token) return {};
-  const auto given = token_of(head);
-  if (given && is_same_secret(*given, *rules.token)) return {};
-  if (given && rules.metrics_token && head.path == "/metrics" && is_same_secret(*given, *rules.metrics_token))
+  const std::optional<Proof> proof = proof_in(head, rules);
+  if (proof && proof->by_cookie && !only_looks(head) && !head.header("origin"))
+    throw HttpError(403, "other_site", "a request with a cookie must say from which page it comes (Origin)");
+  if (proof && rules.metrics_token && head.path == "/metrics" &&
+      is_same_secret(proof->secret, *rules.metrics_token))
     return {Right::watch, "metrics"};
-  if (const Key* key = given && rules.keys ? rules.keys->with_secret(*given) : nullptr)
-    return {key->right, key->name};
+  if (const auto visitor = proof ? visitor_with(proof->secret, rules) : std::nullopt) return *visitor;
   // OctoPrint's clients, who send a key so, know 403 (docs/api/general.rst).
   const bool octoprint = !head.header("authorization") && head.header("x-api-key");
+  const bool wrong = proof && !proof->by_cookie;
   throw HttpError(
-      octoprint ? 403 : 401, given ? "wrong_token" : "no_token",
+      octoprint ? 403 : 401, wrong ? "wrong_token" : "no_token",
       "the token or key is missing or wrong: `unicursal keys --new NAME` makes a key on the daemon's "
       "computer, and `unicursal token` shows the token");
 }
 
 std::optional<Visitor> seek_access(const RequestHead& head, const AccessRules& rules) {
-  if (head.by_socket || !rules.token || token_of(head)) return check_access(head, rules);
+  if (head.by_socket || !rules.token || proof_in(head, rules)) return check_access(head, rules);
   check_site(head, rules);
   return std::nullopt;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/daemon/keys.hpp"
+#include "host/daemon/logins.hpp"
 #include "host/http/http_message.hpp"
 
 namespace unicursal::host {
@@ -20,7 +21,10 @@ struct AccessRules {
   std::vector<std::string> hosts;            ///< allowed values of Host, in lower case: "127.0.0.1:8377"
   /// Further ones that may change, such as this computer's present addresses; empty: none.
   std::function<std::vector<std::string>()> present_hosts = {};
-  const Keys* keys = nullptr;  ///< those of single programs; null: none
+  const Keys* keys = nullptr;      ///< those of single programs; null: none
+  const Logins* logins = nullptr;  ///< sessions of browsers; null: none
+  /// Its name holds the port, since a browser sends a computer's cookies to all of its ports.
+  std::string cookie = "unicursal";
 };
 
 /// Who asks.
@@ -29,9 +33,15 @@ struct Visitor {
   std::string name;  ///< of the key; empty: the user of this computer, or who knows the token
 };
 
+/// Who has this token or key; absent: nobody.
+std::optional<Visitor> visitor_with(const std::string& secret, const AccessRules& rules);
 /// Throws HttpError 400, 401, 403 or 421. Who has come through the Unix socket needs no proof. The token or
-/// key stands in `Authorization: Bearer` or in `X-Api-Key`.
+/// key stands in `Authorization: Bearer` or in `X-Api-Key`, or is that of a session in a cookie. A browser
+/// may add a cookie to what another site's page asks for: then anything but GET and HEAD, and a WebSocket,
+/// must come with an Origin.
 Visitor check_access(const RequestHead& head, const AccessRules& rules);
+/// The session in the request's cookies; absent: none, or one that is not known.
+std::optional<std::string> session_of(const RequestHead& head, const AccessRules& rules);
 /// The same for an address that strangers may ask for: absent if the client has shown no token or key.
 std::optional<Visitor> seek_access(const RequestHead& head, const AccessRules& rules);
 /// The part of it that strangers, too, must pass: the checks of Host and Origin. Throws HttpError 400, 403 or

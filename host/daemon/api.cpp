@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr std::uint64_t longest_json = 64 * 1024;            ///< bytes
 constexpr std::uint64_t longest_request_for_key = 4 * 1024;  ///< bytes; strangers send it
-constexpr std::string_view jobs_path = "/api/jobs/", keys_path = "/api/keys/", files_path = "/api/files/";
+constexpr std::string_view jobs_path = "/api/jobs/", files_path = "/api/files/";
 
 std::optional<double> number(const json& body, const char* key) {
   const auto found = body.find(key);
@@ -51,15 +51,6 @@ std::optional<LayerRange> layers_of(const json& body) {
   if (found->at(0).get<std::size_t>() > found->at(1).get<std::size_t>())
     throw HttpError(422, "layers is [first, last]; the first is behind the last");
   return LayerRange{found->at(0).get<std::size_t>(), found->at(1).get<std::size_t>()};
-}
-
-/// Absent: "steer".
-Right right_in(const json& body) {
-  const std::string word = text_in(body, "right");
-  if (word.empty()) return Right::steer;
-  const auto right = right_named(word);
-  if (!right) throw HttpError(400, "right is \"watch\", \"queue\" or \"steer\"");
-  return *right;
 }
 
 /// "upload/file" behind /api/files/; the second is empty if there is no slash.
@@ -103,7 +94,7 @@ bool Api::is_open(const RequestHead& head) {
   return std::any_of(Route::all().begin(), Route::all().end(), open);
 }
 
-Admission Api::admit(const RequestHead& head) {
+Admission Api::let_in(const RequestHead& head) {
   if (is_open(head)) {
     const Route& route = route_of(head);
     const bool follows = !route.handler;
@@ -128,6 +119,14 @@ Admission Api::admit(const RequestHead& head) {
   if (!is_plain_name(upload) || !is_plain_name(file))
     throw HttpError(400, "names of uploads hold letters, digits, dots, dashes and underscores only");
   return {largest_upload, true, nullptr};
+}
+
+Admission Api::admit(const RequestHead& head) {
+  try {
+    return let_in(head);
+  } catch (const HttpError& refused) {
+    throw refusal_to(refused, head.peer);
+  }
 }
 
 bool Api::wants_events(const RequestHead& head) const {
@@ -239,69 +238,6 @@ asio::awaitable<Response> Api::remove_upload(Request request) {
   co_return reply({{"removed", upload}});
 }
 
-// ---- keys
-
-void Api::set_keys(Keys& keys, std::function<void()> disconnect) {
-  keys_ = &keys;
-  rules_.keys = &keys;
-  disconnect_ = std::move(disconnect);
-}
-
-Keys& Api::keys() {
-  if (!keys_) throw HttpError(404, "this daemon has no keys");
-  return *keys_;
-}
-
-/// Only the owner of the state folder may let others in or shut them out.
-void Api::check_owner(const Request& request) {
-  if (!request.by_socket)
-    throw HttpError(403,
-                    "keys are managed through the socket in the state folder only: see `unicursal keys`");
-}
-
-asio::awaitable<Response> Api::list_keys(Request request) {
-  check_owner(request);
-  json all = json::array(), requests = json::array();
-  for (const Key& key : keys().all()) {
-    all.push_back({{"id", key.id},
-                   {"name", key.name},
-                   {"right", name(key.right)},
-                   {"key", key.secret},
-                   {"made", key.made}});
-  }
-  for (const KeyRequest& one : keys().requests())
-    requests.push_back({{"id", one.id}, {"name", one.name}, {"from", one.peer}});
-  co_return reply({{"keys", all}, {"requests", requests}});
-}
-
-asio::awaitable<Response> Api::add_key(Request request) {
-  check_owner(request);
-  const json body = read_object(request, {"name", "right"});
-  const Key& key = keys().add(text_in(body, "name"), right_in(body));
-  co_return reply({{"id", key.id}, {"key", key.secret}}, 201);
-}
-
-asio::awaitable<Response> Api::remove_key(Request request) {
-  check_owner(request);
-  const std::uint64_t id = number_behind(request.path, keys_path);
-  keys().remove(id);
-  sessions_.clear();
-  disconnect_();
-  co_return reply({{"removed", id}});
-}
-
-/// Grants or denies what a program has asked for.
-asio::awaitable<Response> Api::decide_key(Request request) {
-  check_owner(request);
-  const std::uint64_t id = number_behind(request.path, keys_path);
-  const json body = read_object(request, {"grant", "right"});
-  if (yes(body, "grant"))
-    keys().grant(id, right_in(body));
-  else
-    keys().deny(id);
-  co_return reply({{"decided", id}});
-}
-
 // ---- the print
 
 asio::awaitable<Response> Api::confirm_bed(Request request) {
@@ -367,19 +303,6 @@ asio::awaitable<Response> Api::set_flow(Request request) {
   const double percent = required_number(read_object(request, {"percent"}), "percent");
   obeyed(daemon_.session().set_flow(percent));
   co_return reply(daemon_.status(), 202);
-}
-
-/// Only the owner of the state folder may shut others out; the new token does not cross the network.
-asio::awaitable<Response> Api::renew_token(Request request) {
-  read_object(request, {});
-  if (!request.by_socket)
-    throw HttpError(403, "the token is renewed through the socket in the state folder only");
-  if (!rules_.token) throw HttpError(409, "this daemon asks for no token");
-  Tokens tokens = renew_();
-  sessions_.clear();
-  rules_.token = std::move(tokens.all);
-  rules_.metrics_token = std::move(tokens.metrics);
-  co_return reply(json::object());
 }
 
 asio::awaitable<Response> Api::set_speed(Request request) {

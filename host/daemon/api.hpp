@@ -11,6 +11,7 @@
 #include "host/daemon/octoprint_push.hpp"
 #include "host/daemon/page.hpp"
 #include "host/daemon/secret.hpp"
+#include "host/daemon/wrong_tries.hpp"
 #include "host/http/http_server.hpp"
 
 namespace unicursal::host {
@@ -22,13 +23,15 @@ class Api : public HttpHandler {
   void set_rules(AccessRules rules) {
     rules_ = std::move(rules);
     rules_.keys = keys_;
+    rules_.logins = &logins_;
   }
   struct Tokens {
     std::string all, metrics;
   };
-  /// Keys of single programs; `disconnect` lets the clients of the network go, whose key may be void. `keys`
-  /// must outlive this object.
-  void set_keys(Keys& keys, std::function<void()> disconnect);
+  /// Lets the clients of the network go, whose key may be void, but not the connection of this number.
+  using Disconnect = std::function<void(std::uint64_t except)>;
+  /// Keys of single programs, which must outlive this object.
+  void set_keys(Keys& keys, Disconnect disconnect);
   void set_page(Page page) { page_ = std::move(page); }
   /// A UUID that stays the same for this state folder.
   void set_identity(std::string uuid) { identity_ = std::move(uuid); }
@@ -65,14 +68,18 @@ class Api : public HttpHandler {
   asio::awaitable<Response> set_temperature(Request request);
   asio::awaitable<Response> set_flow(Request request);
   asio::awaitable<Response> set_speed(Request request);
-  asio::awaitable<Response> renew_token(Request request);
   asio::awaitable<Response> confirm_bed(Request request);
-  asio::awaitable<Response> list_keys(Request request);
-  asio::awaitable<Response> add_key(Request request);
-  asio::awaitable<Response> remove_key(Request request);
-  asio::awaitable<Response> decide_key(Request request);
 
   asio::awaitable<Response> show_page(Request request);
+
+  // Access (access_api.cpp)
+  asio::awaitable<Response> login(Request request);
+  asio::awaitable<Response> logout(Request request);
+  asio::awaitable<Response> decide_key(Request request);
+  asio::awaitable<Response> remove_key(Request request);
+  asio::awaitable<Response> add_key(Request request);
+  asio::awaitable<Response> list_keys(Request request);
+  asio::awaitable<Response> renew_token(Request request);
 
   // Of a print that goes on (live_api.cpp)
   asio::awaitable<Response> temperatures(Request request);
@@ -105,7 +112,9 @@ class Api : public HttpHandler {
   asio::awaitable<Response> octo_poll_key(Request request);
 
   Keys& keys();
-  static void check_owner(const Request& request);
+  Admission let_in(const RequestHead& head);
+  /// The refusal of a wrong token or key comes late.
+  HttpError refusal_to(const HttpError& refused, const std::string& peer);
 
   Daemon& daemon_;
   AccessRules rules_{random_token(), {}, {}};
@@ -114,7 +123,9 @@ class Api : public HttpHandler {
   std::string identity_;
   Page page_;
   PushSessions sessions_;
-  std::function<void()> disconnect_;
+  Logins logins_;
+  WrongTries wrong_tries_;
+  Disconnect disconnect_;
 };
 
 }  // namespace unicursal::host

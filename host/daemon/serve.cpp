@@ -69,6 +69,7 @@ class Service {
     const auto at = server_.endpoint();
     server_.listen_in(state_.path(), "socket");
     AccessRules rules;
+    rules.cookie = fmt::format("unicursal-{}", at.port());
     if (!options.no_token) {
       rules.token = state_.secret("token");
       rules.metrics_token = state_.secret("metrics-token");
@@ -82,7 +83,7 @@ class Service {
     rules.hosts = hosts_for(at.address().to_string(), at.port(), names);
     api_.on_renewal([this] { return renew_tokens(); });
     api_.set_identity(uuid_from(state_.secret("identity")));
-    api_.set_keys(keys_, [this] { server_.disconnect_network(); });
+    api_.set_keys(keys_, [this](std::uint64_t except) { server_.disconnect_network(except); });
     api_.set_page(Page(options.web_folder));
     api_.set_rules(std::move(rules));
     address_ = words(at);

@@ -92,9 +92,10 @@ void read_header(std::string_view line, RequestHead& head) {
 /// Headers that decide where a request ends, who sent it, or what follows must not occur twice, although RFC
 /// 9110 (5.3) allows it for lists: two readers could understand them differently.
 void check_single(const RequestHead& head) {
-  for (const char* name : {"host", "content-length", "transfer-encoding", "connection", "authorization",
-                           "origin", "content-type", "expect", "upgrade", "sec-fetch-site", "x-api-key",
-                           "sec-websocket-key", "sec-websocket-version", "sec-websocket-protocol"}) {
+  for (const char* name :
+       {"host", "content-length", "transfer-encoding", "connection", "authorization", "origin",
+        "content-type", "expect", "upgrade", "sec-fetch-site", "x-api-key", "cookie", "sec-websocket-key",
+        "sec-websocket-version", "sec-websocket-protocol"}) {
     const auto same = [name](const auto& header) { return header.first == name; };
     if (std::count_if(head.headers.begin(), head.headers.end(), same) > 1)
       throw HttpError(400, fmt::format("the header {} is there twice", name));
@@ -150,6 +151,12 @@ RequestHead parse_request(std::string_view text) {
 HttpError HttpError::wrong_method(const std::string& sentence, std::string allowed) {
   HttpError error(405, sentence);
   error.allow_ = std::move(allowed);
+  return error;
+}
+
+HttpError HttpError::late(std::chrono::milliseconds wait) const {
+  HttpError error = *this;
+  error.wait_ = wait;
   return error;
 }
 

@@ -8,6 +8,7 @@
 // client gets a 4xx before its body is read.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -36,9 +37,13 @@ class HttpError : public std::runtime_error {
   /// For 405: the methods of the address.
   static HttpError wrong_method(const std::string& sentence, std::string allowed);
 
+  /// The same, to be answered after this time.
+  HttpError late(std::chrono::milliseconds wait) const;
+
   int status() const { return status_; }
   const char* code() const { return code_; }
   const std::string& allow() const { return allow_; }
+  std::chrono::milliseconds wait() const { return wait_; }
 
  private:
   static const char* usual_code(int status);
@@ -46,6 +51,7 @@ class HttpError : public std::runtime_error {
   int status_;
   const char* code_;  ///< a literal
   std::string allow_;
+  std::chrono::milliseconds wait_{0};
 };
 
 struct RequestHead {
@@ -56,8 +62,9 @@ struct RequestHead {
   std::vector<std::pair<std::string, std::string>> headers;  ///< names in lower case
   std::uint64_t content_length = 0;                          ///< bytes
   bool keep_alive = true;
-  bool by_socket = false;  ///< it came through the server's Unix socket, from this user or root
-  std::string peer;        ///< the client's address, "192.168.1.5"; empty: unknown, or the Unix socket's
+  bool by_socket = false;        ///< it came through the server's Unix socket, from this user or root
+  std::uint64_t connection = 0;  ///< number of the connection that it came by
+  std::string peer;  ///< the client's address, "192.168.1.5"; empty: unknown, or the Unix socket's
 
   /// `name` in lower case; absent if there is none. Throws HttpError 400 if there are several.
   std::optional<std::string> header(std::string_view name) const;

@@ -82,6 +82,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
         server_(server),
         all_(server.shared_),
         local_(local) {
+    number_ = ++all_->arrivals;
     all_->connections.insert(this);
     await_proof();
   }
@@ -91,6 +92,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
 
   asio::awaitable<void> run();
   bool local() const { return local_; }
+  std::uint64_t number() const { return number_; }
   void close() {
     place_ = Place::none;
     asio::error_code ignored;
@@ -114,6 +116,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   asio::awaitable<Response> answered(Request request);
   asio::awaitable<void> stream_events(RequestHead head, bool proven);
   bool enter_stream();
+  asio::awaitable<void> pause(std::chrono::milliseconds time);
   void expire_after(asio::steady_timer::duration patience);
 
   Socket socket_;
@@ -123,7 +126,7 @@ class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
   const bool local_;  ///< it came over the Unix socket
   std::shared_ptr<EventStream> events_;
   Place place_ = Place::none;
-  std::uint64_t arrival_ = 0;  ///< order of those without proof
+  std::uint64_t number_ = 0, arrival_ = 0;  ///< `arrival_`: order of those without proof
   std::string buffer_;
   bool expired_ = false;
   bool head_only_ = false;  ///< the present request is HEAD
@@ -270,16 +273,23 @@ asio::awaitable<void> HttpServer::Connection::refuse(Response response) {
   deadline_.cancel();
 }
 
+asio::awaitable<void> HttpServer::Connection::pause(std::chrono::milliseconds time) {
+  if (time == time.zero()) co_return;
+  asio::steady_timer timer(socket_.get_executor(), time);
+  co_await timer.async_wait(asio::use_awaitable);
+}
+
 asio::awaitable<Response> HttpServer::Connection::answered(Request request) {
-  std::optional<Response> failed;
+  std::optional<HttpError> failed;
   try {
     co_return co_await server_.handler_.answer(std::move(request));
   } catch (const HttpError& refused) {
-    failed = error_response(refused);
+    failed = refused;
   } catch (const std::exception& error) {
-    failed = error_response(HttpError(500, error.what()));
+    failed = HttpError(500, error.what());
   }
-  co_return std::move(*failed);
+  co_await pause(failed->wait());
+  co_return error_response(*failed);
 }
 
 asio::awaitable<void> HttpServer::Connection::stream_events(RequestHead head, bool proven) {
@@ -326,6 +336,7 @@ asio::awaitable<bool> HttpServer::Connection::serve_one() {
   if (!head) co_return false;
   head->by_socket = local_;
   head->peer = peer_of(socket_);
+  head->connection = number_;
   head_only_ = head->method == "HEAD";
   Admission admission = server_.handler_.admit(*head);
   if (server_.handler_.wants_events(*head)) {
@@ -360,18 +371,19 @@ asio::awaitable<bool> HttpServer::Connection::serve_one() {
 
 asio::awaitable<void> HttpServer::Connection::run() {
   const auto self = shared_from_this();
-  std::optional<Response> refusal;
+  std::optional<HttpError> refusal;
   try {
     bool more = true;
     while (more) more = co_await serve_one();
   } catch (const HttpError& refused) {
-    refusal = error_response(refused);
+    refusal = refused;
   } catch (const std::exception&) {
     // The client is gone.
   }
   try {
     if (refusal && place_ != Place::unproven && place_ != Place::none) await_proof();
-    if (refusal) co_await refuse(std::move(*refusal));
+    if (refusal) co_await pause(refusal->wait());
+    if (refusal) co_await refuse(error_response(*refusal));
   } catch (const std::exception&) {
   }
   deadline_.cancel();
@@ -443,9 +455,9 @@ void HttpServer::stop() {
   for (Connection* connection : shared_->connections) connection->close();
 }
 
-void HttpServer::disconnect_network() {
+void HttpServer::disconnect_network(std::uint64_t except) {
   for (Connection* connection : shared_->connections) {
-    if (!connection->local()) connection->close();
+    if (!connection->local() && connection->number() != except) connection->close();
   }
 }
 

@@ -48,7 +48,7 @@ class HttpHandler {
   virtual ~HttpHandler() = default;
   /// Called before the body is read. Throws HttpError.
   virtual Admission admit(const RequestHead& head) = 0;
-  /// Throws HttpError; any other exception becomes a 500.
+  /// Throws HttpError; any other exception becomes a 500. The answer waits as long as the error says.
   virtual asio::awaitable<Response> answer(Request request) = 0;
   /// Whether an admitted request asks for a stream of events.
   virtual bool wants_events(const RequestHead& head) const = 0;
@@ -72,8 +72,9 @@ class HttpServer {
   asio::ip::tcp::endpoint endpoint() const { return acceptor_.local_endpoint(); }
   /// Accepts no more clients and closes all connections.
   void stop();
-  /// Closes the connections that came over TCP.
-  void disconnect_network();
+  /// Closes the connections that came over TCP, but not this one (RequestHead::connection), which asks for
+  /// it.
+  void disconnect_network(std::uint64_t except = 0);
 
   /// Whether every client has been let go after stop().
   bool deserted() const { return shared_->connections.empty(); }
