@@ -1,6 +1,6 @@
 // The parts from which pages are made: buttons that give commands, steppers, swatches, dialogs and short messages.
 import { access, ApiError } from './api';
-import { Child, fill, h, icon, setText } from './dom';
+import { Child, fill, h, icon, setAttribute, setText } from './dom';
 import { live } from './live';
 import type { Right } from './types';
 import { colour, number, t } from './words';
@@ -36,14 +36,21 @@ export function command(options: CommandOptions): CommandButton {
       return;
     }
     if (button.isConnected) button.dataset.shown = '1';
-    button.disabled = running || !allowed || !live.ready || !access.may(options.right ?? 'steer');
+    const may = live.ready && access.may(options.right ?? 'steer');
+    // The focus stays on a button that is off for a while only, or the keyboard would begin at the top again.
+    const stays = may && document.activeElement === button;
+    button.disabled = !may || (!allowed && !stays);
+    setAttribute(button, 'aria-disabled', may && !allowed && stays ? 'true' : false);
+    setAttribute(button, 'aria-busy', running ? 'true' : false);
   };
   button.allow = (may) => {
     allowed = may;
     commands.add(review);
     review();
   };
+  button.addEventListener('blur', review);
   button.addEventListener('click', async () => {
+    if (running || !allowed) return;
     running = true;
     review();
     try {
@@ -100,7 +107,9 @@ export function swatchOf(value: string | undefined): HTMLElement {
 }
 
 interface StepOptions {
-  label: string; unit: string; step: number; least: number; most: number; send: (value: number) => Promise<unknown>;
+  label: string; unit: string; step: number; least: number; most: number;
+  begin?: number;  ///< from which steps are taken while the value is unknown
+  send: (value: number) => Promise<unknown>;
 }
 
 export interface Stepper extends HTMLElement {
@@ -114,7 +123,7 @@ export function stepper(options: StepOptions): Stepper {
   let known: number | undefined, wanted: number | undefined, timer = 0, most = options.most;
   const value = h('output', { class: 'value' }), beside = h('span', { class: 'beside' });
   const change = (by: number) => {
-    const from = wanted ?? known;
+    const from = wanted ?? known ?? options.begin;
     if (from === undefined) return;
     wanted = Math.min(most, Math.max(options.least, (Math.round(from / options.step) + by) * options.step));
     draw();

@@ -6,7 +6,7 @@ import { h, icon, setText } from './dom';
 import { LayerPath } from './path';
 import { t } from './words';
 
-const sliceTime = 5;  // ms, so that a slice stays below 8 when one stroke is dear
+const sliceTime = 4;  // ms, so that a slice stays below 8 when one stroke is dear
 
 interface Work { frame: Frame; at: number; laid: number; pass: 'pale' | 'laid' }
 
@@ -199,7 +199,7 @@ export class CurveView extends HTMLElement {
     if (!path || !this.drawn) return;
     const began = performance.now(), brush = brushOf(this.shown);
     const end = Math.min(this.target, this.painted + (this.pace === Infinity ? this.target : Math.ceil(this.pace)));
-    while (this.painted < end && performance.now() - began < 3)
+    while (this.painted < end && performance.now() - began < 2)
       this.painted = paintStroke(brush, path, this.painted, end, this.drawn, this.size, (colour) => colour, 40);
     flush(brush);
     this.timing.grow = Math.max(this.timing.grow, performance.now() - began);

@@ -11,7 +11,7 @@ export interface Job {
 export interface PrintState {
   state: string; layer?: number; layers?: number; percent?: number; elapsed_seconds?: number;
   left_seconds?: number; nozzle?: Heater; bed?: Heater; mixture?: string; lookahead_seconds?: number;
-  speed_percent?: number; flow_percent?: number; warnings?: number; reason?: string;
+  speed_percent?: number; flow_percent?: number; warnings?: string[]; reason?: string;
   prompt?: { text: string; answers: string[] };
 }
 

@@ -1,4 +1,4 @@
-// Home and jog, and the fan. Arrow keys move the nozzle while the pad has the focus.
+// Home and jog, and the fan.
 import { command, CommandButton, stepper } from '../controls';
 import { h, setText, View } from '../dom';
 import { live } from '../live';
@@ -9,7 +9,7 @@ const steps = [0.1, 1, 10, 50];  // mm
 
 export class MovePanel extends View {
   private step = 10;
-  private fan = 0;
+  private fan?: number;  ///< as far as this page has set it
 
   protected show(): void {
     const buttons: CommandButton[] = [];
@@ -26,7 +26,7 @@ export class MovePanel extends View {
     const pad = h('div', { class: 'pad', role: 'group', 'aria-label': t('move.title') },
                   go('y', 1, '+Y', 'up'), go('x', -1, '−X', 'left'), go('x', 1, '+X', 'right'), go('y', -1, '−Y', 'down'), go('z', 1, '+Z', 'up'), go('z', -1, '−Z', 'down'),
                   h('span', { class: 'axis-name xy', 'aria-hidden': 'true' }, 'X Y'), h('span', { class: 'axis-name z', 'aria-hidden': 'true' }, 'Z'));
-    const fan = stepper({ label: t('move.fan'), unit: '%', step: 10, least: 0, most: 100, send: async (percent) => { await tell('fan', { percent }); this.fan = percent; } });
+    const fan = stepper({ label: t('move.fan'), unit: '%', step: 10, least: 0, most: 100, begin: 0, send: async (percent) => { await tell('fan', { percent }); this.fan = percent; } });
     const draw = () => {
       const printer = live.printer, where = printer?.at;
       setText(at, where ? t('move.at', { x: number(where[0], 1), y: number(where[1], 1), z: number(where[2], 2) }) : t(printer?.homed ? 'move.unknown' : 'move.not_homed'));

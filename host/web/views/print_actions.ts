@@ -23,8 +23,10 @@ export class PrintActions extends View {
     stop.title = t('print.stop_help');
     const draw = () => {
       const state = live.state, paused = state === 'paused' || state === 'resuming';
+      const focused = document.activeElement === pause || document.activeElement === resume;
       setHidden(pause, paused);
       setHidden(resume, !paused);
+      if (focused) (paused ? resume : pause).focus();
       pause.allow(state === 'printing' || state === 'heating');
       resume.allow(state === 'paused');
       cancel.allow(!['cancelling', 'finishing', 'done', 'stopped', 'failed'].includes(state));
