@@ -42,17 +42,6 @@ std::optional<std::uint64_t> whole_number(const json& body, const char* key) {
   return found->get<std::uint64_t>();
 }
 
-std::optional<LayerRange> layers_of(const json& body) {
-  const auto found = body.find("layers");
-  if (found == body.end()) return std::nullopt;
-  if (!found->is_array() || found->size() != 2 || !found->at(0).is_number_unsigned() ||
-      !found->at(1).is_number_unsigned())
-    throw HttpError(400, "layers is [first, last], counted from 0");
-  if (found->at(0).get<std::size_t>() > found->at(1).get<std::size_t>())
-    throw HttpError(422, "layers is [first, last]; the first is behind the last");
-  return LayerRange{found->at(0).get<std::size_t>(), found->at(1).get<std::size_t>()};
-}
-
 /// "upload/file" behind /api/files/; the second is empty if there is no slash.
 std::pair<std::string, std::string> names_in(const std::string& path) {
   const std::string names = path.substr(files_path.size());
@@ -202,7 +191,7 @@ asio::awaitable<Response> Api::add_job(Request request) {
   const json body = read_object(request, {"job", "layers"});
   const auto job = body.find("job");
   if (job == body.end() || !job->is_string()) throw HttpError(400, "job is missing: the name of the job");
-  const std::uint64_t id = co_await daemon_.add(job->get<std::string>(), layers_of(body));
+  const std::uint64_t id = co_await daemon_.add(job->get<std::string>(), layers_in(body));
   co_return reply({{"id", id}}, 201);
 }
 

@@ -85,6 +85,12 @@ class Api : public HttpHandler {
   asio::awaitable<Response> temperatures(Request request);
   asio::awaitable<Response> log(Request request);
 
+  // dry_runs_api.cpp
+  asio::awaitable<Response> list_dry_runs(Request request);
+  asio::awaitable<Response> start_dry_run(Request request);
+  asio::awaitable<Response> show_dry_run(Request request);
+  asio::awaitable<Response> remove_dry_run(Request request);
+
   // OctoPrint's (octoprint_api.cpp)
   asio::awaitable<Response> octo_version(Request request);
   asio::awaitable<Response> octo_server(Request request);

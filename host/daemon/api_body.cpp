@@ -109,4 +109,15 @@ std::uint64_t number_behind(const std::string& path, std::string_view prefix) {
   return id;
 }
 
+std::optional<LayerRange> layers_in(const nlohmann::json& body) {
+  const auto found = body.find("layers");
+  if (found == body.end()) return std::nullopt;
+  if (!found->is_array() || found->size() != 2 || !found->at(0).is_number_unsigned() ||
+      !found->at(1).is_number_unsigned())
+    throw HttpError(400, "layers is [first, last], counted from 0");
+  if (found->at(0).get<std::size_t>() > found->at(1).get<std::size_t>())
+    throw HttpError(422, "layers is [first, last]; the first is behind the last");
+  return LayerRange{found->at(0).get<std::size_t>(), found->at(1).get<std::size_t>()};
+}
+
 }  // namespace unicursal::host

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "host/daemon/refused.hpp"
+#include "host/engine/prepared_job.hpp"
 #include "host/http/http_message.hpp"
 
 namespace unicursal::host {
@@ -26,6 +27,9 @@ nlohmann::json read_object(const Request& request, std::initializer_list<const c
 std::string text_in(const nlohmann::json& body, const char* key);
 /// Throws HttpError 400 if it is there and not true or false; absent: false.
 bool yes(const nlohmann::json& body, const char* key);
+
+/// `layers`, if it is there. Throws HttpError 400 or 422.
+std::optional<LayerRange> layers_in(const nlohmann::json& body);
 
 /// Throws HttpError 409 if a session has refused.
 void obeyed(const std::optional<std::string>& refusal);

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "host/daemon/dry_runs.hpp"
 #include "host/daemon/interrupted.hpp"
 #include "host/daemon/job_check.hpp"
 #include "host/daemon/job_files.hpp"
@@ -67,6 +68,11 @@ class Daemon {
   const JobFiles& files() const { return files_; }
   TemperatureRecord& temperature_record() { return temperature_record_; }
   LogRecord& log_record() { return log_record_; }
+
+  DryRuns& dry_runs() { return dry_runs_; }
+  /// Begins a dry run of a job, which is checked as by add(), and returns its number. Throws Refused, also while
+  /// a print has hardly anything planned ahead.
+  asio::awaitable<std::uint64_t> try_job(std::string name, std::optional<LayerRange> layers);
 
   /// The session of the current print. Throws Refused when there is none.
   Session& session();
@@ -173,6 +179,7 @@ class Daemon {
   std::vector<std::unique_ptr<Follower>> followers_;
   TemperatureRecord temperature_record_;
   LogRecord log_record_;
+  DryRuns dry_runs_;
   asio::steady_timer progress_;
   bool progress_waits_ = false;
   asio::thread_pool disk_{1}, preparing_{1};

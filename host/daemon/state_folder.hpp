@@ -10,6 +10,7 @@
 //   queue.json      the jobs (queue.hpp)
 //   printing        the print that is going on (interrupted.hpp)
 //   files/          uploads (job_files.hpp)
+//   dry-runs/       what clients have tried (dry_runs.hpp)
 //
 // Only its owner can read it.
 #pragma once

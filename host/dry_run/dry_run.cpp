@@ -168,13 +168,15 @@ DryRunResult dry_run(Production& production, const DryRunOptions& options, const
   const MotionFindings motion = motion_findings(seen, production.flow());
   leave_out_histograms(seen);
   const Comparison comparison = compare_with(seen, *books, result);
+  const nlohmann::json view = view_of({*books, result, seen, check, motion, comparison});
   conclude(*books, result,
            {{"planning", planning},
+            {"grades", grades_in(view)},
             {"simulator", seen},
             {"comparison", to_json(comparison)},
             {"laid", check.to_json()},
             {"motion", to_json(motion)}});
-  if (pictures) write_view(*pictures, view_of({*books, result, seen, check, motion, comparison}));
+  if (pictures) write_view(*pictures, view);
   production.check_made();
   std::vector<std::string> warnings = production.late_warnings();
   for (std::string& warning : warnings_of_strikes(seen)) warnings.push_back(std::move(warning));

@@ -165,6 +165,13 @@ json view_of(const DryRunFindings& f) {
           {"worst", worst}};
 }
 
+json grades_in(const json& view) {
+  json grades = json::object();
+  for (const char* figure : {"time", "material", "gaps", "colours"})
+    grades[figure] = view.at(figure).at("grade");
+  return grades;
+}
+
 void remove_view(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::remove(folder / view_name, ignored);

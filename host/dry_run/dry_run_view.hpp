@@ -27,6 +27,9 @@ struct DryRunFindings {
 /// What the page shows; viewer.ts describes the keys.
 nlohmann::json view_of(const DryRunFindings& findings);
 
+/// `time`, `material`, `gaps` and `colours`: good, doubtful or bad.
+nlohmann::json grades_in(const nlohmann::json& view);
+
 /// Removes the page of an older dry run, whose pictures are going to be replaced.
 void remove_view(const std::filesystem::path& folder);
 

@@ -1,0 +1,360 @@
+#include "host/daemon/dry_runs.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <asio/buffer.hpp>
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/posix/stream_descriptor.hpp>
+#include <asio/redirect_error.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/use_awaitable.hpp>
+#include <charconv>
+#include <fstream>
+#include <utility>
+
+#include "host/daemon/elsewhere.hpp"
+#include "host/daemon/log.hpp"
+#include "host/daemon/plain_name.hpp"
+#include "host/daemon/refused.hpp"
+#include "host/daemon/state_folder.hpp"
+#include "host/daemon/trying_process.hpp"
+
+namespace unicursal::host {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using namespace std::chrono_literals;
+using Why = Refused::Why;
+
+constexpr const char* run_name = "run.json";
+constexpr std::size_t longest_line = 64 * 1024;                 ///< bytes that are taken from a child
+constexpr std::size_t longest_reason = 2000;                    ///< bytes
+constexpr off_t largest_shown = 64 * 1024 * 1024;               ///< bytes of a file
+constexpr std::uintmax_t free_at_least = 512ull * 1024 * 1024;  ///< bytes of the disk, to begin one
+constexpr auto between_events = 1s;
+constexpr auto for_its_end = 5s;  ///< time that a child has to clear up behind it
+
+std::optional<std::uint64_t> number_of(const std::string& name) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size() || std::to_string(number) != name)
+    return std::nullopt;
+  return number;
+}
+
+bool is_shown(const std::string& name) {
+  if (!is_plain_name(name) || name == run_name) return false;
+  return std::any_of(shown_files.begin(), shown_files.end(),
+                     [&](const auto& kind) { return name.ends_with(kind.first); });
+}
+
+Refused no_such_run() {
+  return {Why::not_found, "there is no dry run with that number"};
+}
+Refused no_such_file() {
+  return {Why::not_found, "this dry run has no such file"};
+}
+
+/// A plain file, whose name no link has been put in the place of.
+std::string bytes_of(const fs::path& file) {
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  struct stat found {};
+  if (!descriptor || ::fstat(descriptor.get(), &found) != 0 || !S_ISREG(found.st_mode) ||
+      found.st_size > largest_shown)
+    throw no_such_file();
+  std::string bytes(static_cast<std::size_t>(found.st_size), '\0');
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::read(descriptor.get(), bytes.data() + done, bytes.size() - done);
+    if (count <= 0) throw no_such_file();
+    done += static_cast<std::size_t>(count);
+  }
+  return bytes;
+}
+
+/// What clients see of a report at once. A report that ended early lacks some of it.
+json figures_in(const json& report) {
+  json figures = json::object();
+  const auto take = [&](const char* key, const json::json_pointer& from, double scale) {
+    if (report.contains(from) && report.at(from).is_number())
+      figures[key] = report.at(from).get<double>() * scale;
+  };
+  take("seconds", "/simulator/printer_seconds"_json_pointer, 1);
+  take("gaps_percent", "/laid/total/gap_fraction"_json_pointer, 100);
+  take("wrong_percent", "/laid/total/mixture/wrong_fraction"_json_pointer, 100);
+  for (const auto& [key, from] : {std::pair{"filaments", "/filament/feeders"_json_pointer},
+                                  std::pair{"grades", "/grades"_json_pointer}}) {
+    if (report.contains(from)) figures[key] = report.at(from);
+  }
+  return figures;
+}
+
+json read_json_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return json::parse(stream, nullptr, false);
+}
+
+const char* state_name(DryRun::State state) {
+  switch (state) {
+    case DryRun::State::running:
+      return "running";
+    case DryRun::State::done:
+      return "done";
+    case DryRun::State::failed:
+      return "failed";
+  }
+  return "";
+}
+
+/// Of a file that this program has written.
+std::optional<DryRun> run_in(const fs::path& folder, std::uint64_t id) {
+  const json kept = read_json_file(folder / run_name);
+  if (!kept.is_object() || !kept.value("job", json()).is_string()) return std::nullopt;
+  DryRun run;
+  run.id = id;
+  run.job = kept["job"];
+  run.made = kept.value("made", std::int64_t(0));
+  run.percent = kept.value("percent", 0.0);
+  run.reason = kept.value("reason", std::string());
+  run.state = kept.value("state", "") == state_name(DryRun::State::done) ? DryRun::State::done
+                                                                         : DryRun::State::failed;
+  if (kept.value("state", "") == state_name(DryRun::State::running))
+    run.reason = "the daemon ended before the dry run did; begin it again";
+  if (const auto layers = kept.find("layers");
+      layers != kept.end() && layers->is_array() && layers->size() == 2)
+    run.layers = LayerRange{layers->at(0).get<std::size_t>(), layers->at(1).get<std::size_t>()};
+  for (const char* key : {"seconds", "filaments", "gaps_percent", "wrong_percent", "grades"}) {
+    if (const auto found = kept.find(key); found != kept.end()) run.figures[key] = *found;
+  }
+  return run;
+}
+
+}  // namespace
+
+json to_json(const DryRun& run) {
+  json all = {{"id", run.id},
+              {"job", run.job},
+              {"state", state_name(run.state)},
+              {"percent", run.percent},
+              {"made", run.made}};
+  if (run.layers) all["layers"] = {run.layers->first, run.layers->last};
+  if (!run.reason.empty()) all["reason"] = run.reason;
+  if (run.figures.is_object()) all.update(run.figures);
+  return all;
+}
+
+DryRuns::DryRuns(asio::io_context& loop, fs::path folder, std::function<void(const json& event)> changed)
+    : loop_(loop), folder_(std::move(folder)), changed_(std::move(changed)) {
+  find_older();
+}
+
+DryRuns::~DryRuns() {
+  process_.reset();
+  disk_.join();
+}
+
+void DryRuns::find_older() {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+    const auto id = number_of(entry.path().filename().string());
+    if (!id) continue;
+    try {
+      if (auto run = run_in(entry.path(), *id)) runs_.push_back(std::move(*run));
+    } catch (const json::exception&) {
+      // Somebody has changed the file: the run is not shown.
+    }
+  }
+  std::sort(runs_.begin(), runs_.end(), [](const DryRun& a, const DryRun& b) { return a.id < b.id; });
+}
+
+const DryRun* DryRuns::find(std::uint64_t id) const {
+  return const_cast<DryRuns*>(this)->found(id);
+}
+
+DryRun* DryRuns::found(std::uint64_t id) {
+  const auto here =
+      std::find_if(runs_.begin(), runs_.end(), [id](const DryRun& run) { return run.id == id; });
+  return here == runs_.end() ? nullptr : &*here;
+}
+
+/// A number is never given twice, or a browser would show an older run's pictures.
+std::uint64_t DryRuns::next_id() const {
+  std::uint64_t next = runs_.empty() ? 1 : runs_.back().id + 1;
+  if (const auto line = read_line(folder_ / "next")) next = std::max(next, number_of(*line).value_or(0));
+  return next;
+}
+
+/// Throws Refused.
+void DryRuns::check_disk() {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  const auto space = fs::space(folder_, error);
+  if (!error && space.available < free_at_least)
+    throw Refused(Why::no_room, "the disk has no room for the pictures of a dry run; delete something first");
+}
+
+/// Throws Refused.
+void DryRuns::make_room() {
+  while (runs_.size() >= most_kept) {
+    std::error_code ignored;
+    fs::remove_all(folder_of(runs_.front().id), ignored);
+    changed_({{"event", "task"}, {"removed", runs_.front().id}});
+    runs_.erase(runs_.begin());
+  }
+  check_disk();
+}
+
+void DryRuns::announce(const DryRun& run) {
+  announced_ = std::chrono::steady_clock::now();
+  changed_({{"event", "task"}, {"dry_run", to_json(run)}});
+}
+
+/// Best effort: what cannot be written is not found by the next daemon.
+void DryRuns::note(const DryRun& run) {
+  try {
+    write_state(folder_of(run.id) / run_name,
+                to_json(run).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+  } catch (const core::DataError& error) {
+    log_line(fmt::format("dry run {}: {}", run.id, error.what()));
+  }
+}
+
+std::uint64_t DryRuns::begin(const Wish& wish) {
+  if (running()) throw Refused(Why::conflict, "another dry run is going on; wait for its end, or remove it");
+  make_room();
+  DryRun run;
+  run.id = next_id();
+  run.job = wish.job;
+  run.layers = wish.layers;
+  run.made =
+      std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  const fs::path folder = folder_of(run.id);
+  try {
+    fs::create_directories(folder);
+    write_state(folder_ / "next", std::to_string(run.id + 1) + "\n");
+    std::vector<std::string> words{"unicursal", "dry-run",      fs::absolute(wish.file).string(),
+                                   "--json",    "--report",     (folder / "report.json").string(),
+                                   "--picture", folder.string()};
+    if (wish.profile) words.insert(words.end(), {"--profile", wish.profile->string()});
+    if (wish.layers)
+      words.insert(words.end(), {"--layers", fmt::format("{}:{}", wish.layers->first, wish.layers->last)});
+    process_ = std::make_shared<TryingProcess>(std::move(words));
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    throw Refused(Why::no_room, error.what());
+  }
+  note(run);
+  log_line(fmt::format("dry run {} {}: begins", run.id, run.job));
+  runs_.push_back(run);
+  announce(run);
+  asio::co_spawn(loop_, follow(run.id, process_), asio::detached);
+  return run.id;
+}
+
+/// Reads what the child says, line by line, until it ends.
+asio::awaitable<void> DryRuns::follow(std::uint64_t id, std::shared_ptr<TryingProcess> process) {
+  asio::posix::stream_descriptor output(loop_, process->release_output());
+  std::array<char, 16 * 1024> bytes{};
+  std::string line, reason;
+  for (;;) {
+    asio::error_code ended;
+    const std::size_t count = co_await output.async_read_some(
+        asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, ended));
+    if (ended) break;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (bytes[i] == '\n') {
+        hear(id, line, reason);
+        line.clear();
+      } else if (line.size() < longest_line) {
+        line += bytes[i];
+      }
+    }
+  }
+  const int status = process->wait();
+  process_.reset();
+  if (!process->ended()) co_await conclude(id, status, std::move(reason));
+}
+
+void DryRuns::hear(std::uint64_t id, const std::string& line, std::string& reason) {
+  DryRun* const run = found(id);
+  if (!run || line.empty()) return;
+  if (line.front() != '{') {
+    constexpr std::string_view mark = "unicursal: ";
+    reason = line.substr(line.starts_with(mark) ? mark.size() : 0, longest_reason);
+    return;
+  }
+  if (line.find("\"progress\"") == std::string::npos) return;
+  const json event = json::parse(line, nullptr, false);
+  if (!event.is_object() || !event.contains("status") || !event["status"].is_object()) return;
+  const json percent = event["status"].value("percent", json());
+  if (!percent.is_number()) return;
+  run->percent = percent;
+  if (std::chrono::steady_clock::now() - announced_ >= between_events) announce(*run);
+}
+
+asio::awaitable<void> DryRuns::conclude(std::uint64_t id, int status, std::string reason) {
+  const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  json figures;
+  try {
+    const auto look = [file = folder_of(id) / "report.json"] {
+      const json report = read_json_file(file);
+      return report.is_object() ? figures_in(report) : json();
+    };
+    figures = co_await elsewhere(disk_, look);
+  } catch (const std::exception&) {
+    // The report is not as it should be: the run has no figures.
+  }
+  DryRun* const run = found(id);
+  if (!run) co_return;
+  run->figures = std::move(figures);
+  run->state = good ? DryRun::State::done : DryRun::State::failed;
+  if (good) run->percent = 100;
+  if (!good && WIFSIGNALED(status))
+    reason = fmt::format("the dry run was ended by signal {}; try fewer layers, or a simpler model",
+                         WTERMSIG(status));
+  if (!good) run->reason = reason.empty() ? "the dry run gave no reason" : std::move(reason);
+  log_line(fmt::format("dry run {} {}: {} {}", id, run->job, state_name(run->state), run->reason));
+  note(*run);
+  announce(*run);
+}
+
+asio::awaitable<void> DryRuns::remove(std::uint64_t id) {
+  const DryRun* const run = found(id);
+  if (!run) throw no_such_run();
+  if (run->state == DryRun::State::running && process_) {
+    const std::shared_ptr<TryingProcess> process = process_;
+    process->end();
+    asio::steady_timer timer(loop_);
+    for (const auto end = std::chrono::steady_clock::now() + for_its_end; process_ == process;) {
+      if (std::chrono::steady_clock::now() > end) process->kill();
+      timer.expires_after(20ms);
+      co_await timer.async_wait(asio::use_awaitable);
+    }
+  }
+  std::erase_if(runs_, [id](const DryRun& one) { return one.id == id; });
+  changed_({{"event", "task"}, {"removed", id}});
+  const auto clear = [folder = folder_of(id)] {
+    std::error_code ignored;
+    return fs::remove_all(folder, ignored);
+  };
+  co_await elsewhere(disk_, clear);
+}
+
+asio::awaitable<std::string> DryRuns::file(std::uint64_t id, std::string name) {
+  if (!find(id)) throw no_such_run();
+  if (!is_shown(name)) throw no_such_file();
+  const auto read_all = [file = folder_of(id) / name] { return bytes_of(file); };
+  co_return co_await elsewhere(disk_, read_all);
+}
+
+}  // namespace unicursal::host
