@@ -99,7 +99,7 @@ TEST_CASE("Only the files of a dry run are shown, and only a job that a client m
             bench.request("POST", "/api/dry-runs", "{\"job\": \"plate.toml\", \"layers\": [3, 1]}")) == 422);
 }
 
-TEST_CASE("One dry run at a time; a running one is ended with its removal, and with the daemon") {
+TEST_CASE("One dry run at a time, and a running one is ended with its removal and with the daemon") {
   DaemonBench bench;
   bench.serve();
   const int id = begin(bench, "[0, 99]");
