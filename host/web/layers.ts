@@ -57,8 +57,9 @@ export class PrintLayers {
   private async fetch(layer: number): Promise<LayerPath | null> {
     const about = this.about(layer);
     let path = this.paths.get(layer);
-    // What was only planned has the colours that were asked for; encoded beads come all over again.
-    if (!path || (path.planned && !about?.planned)) path = new LayerPath(layer);
+    // What was only planned comes all over again once it is encoded; so does what was computed again after a pause.
+    const void_ = path && about && (path.planned !== !!about.planned || about.beads < path.count || (path.complete && !about.complete));
+    if (!path || void_) path = new LayerPath(layer);
     else if (path.complete || (about && about.beads <= path.count && !about.complete)) return path;
     try {
       const grows = path.count > 0 && this.paths.get(layer) === path;
@@ -68,6 +69,7 @@ export class PrintLayers {
       if (error instanceof ApiError && (error.status === 404 || error.status === 409)) return this.paths.get(layer) ?? null;
       throw error;
     }
+    if (about) Object.assign(about, { planned: path.planned, beads: Math.max(about.beads, path.count) });
     this.paths.delete(layer);
     this.paths.set(layer, path);
     for (const old of [...this.paths.keys()].slice(0, -keptPaths)) this.paths.delete(old);
@@ -77,6 +79,6 @@ export class PrintLayers {
 
 /** How many of a layer's beads are laid. */
 export function laidOf(layer: number, position: Position | null, beads: number): number {
-  if (!position || layer > position.layer) return 0;
+  if (position?.layer === undefined || layer > position.layer) return 0;
   return layer < position.layer ? beads : Math.min(beads, position.bead);
 }

@@ -34,7 +34,7 @@ class Live {
   }
 
   start(): void {
-    window.setInterval(() => this.watch(), 1000);
+    window.setInterval(() => this.watch(), 500);
     const soon = () => { if (this.link === 'lost' && !document.hidden) void this.open(); };
     window.addEventListener('online', soon);
     document.addEventListener('visibilitychange', soon);

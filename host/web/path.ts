@@ -8,6 +8,7 @@ export interface Chunk {
   x0: number; y0: number;  ///< µm
   top: number;             ///< mm
   complete: boolean; planned: boolean;
+  revision: number;        ///< another one: what was read before is void
   beads: DataView;
 }
 
@@ -22,7 +23,7 @@ export function decodeChunk(bytes: ArrayBuffer): Chunk {
   return {
     layer: view.getUint32(4, true), first: view.getUint32(8, true), count,
     x0: view.getInt32(16, true), y0: view.getInt32(20, true), top: view.getFloat32(24, true),
-    complete: (flags & 1) !== 0, planned: (flags & 2) !== 0,
+    complete: (flags & 1) !== 0, planned: (flags & 2) !== 0, revision: view.getUint8(29),
     beads: new DataView(bytes, headBytes, count * beadBytes),
   };
 }
@@ -33,6 +34,7 @@ export class LayerPath {
   top = 0;
   complete = false;
   planned = false;
+  revision = 0;
   x = new Float32Array(1);        ///< mm
   y = new Float32Array(1);
   width = new Uint8Array(0);      ///< of 20 µm; 0: a travel
@@ -46,7 +48,7 @@ export class LayerPath {
   add(chunk: Chunk): boolean {
     if (chunk.layer !== this.layer) return false;
     if (chunk.first === 0) this.clear();
-    if (chunk.first !== this.count) return false;
+    if (chunk.first !== this.count || (chunk.first !== 0 && chunk.revision !== this.revision)) return false;
     this.reserve(this.count + chunk.count);
     let x = chunk.x0, y = chunk.y0;
     if (this.count === 0) {
@@ -68,6 +70,7 @@ export class LayerPath {
     this.top = chunk.top;
     this.complete = chunk.complete;
     this.planned = chunk.planned;
+    this.revision = chunk.revision;
     return true;
   }
 

@@ -4,8 +4,8 @@
 export interface Heater { actual_c?: number; target_c?: number }
 
 export interface Job {
-  id: number; job: string; state: string; added?: number; ended?: number; layers?: [number, number]; reason?: string;
-  seconds?: number; grams?: { name: string; colour?: string; grams: number }[]; layer_count?: number;
+  id: number; job: string; state: string; added?: number; ended?: number; layers?: [number, number] | number; reason?: string;
+  seconds?: number; grams?: { name: string; colour?: string; grams: number }[];
 }
 
 export interface PrintState {
@@ -34,7 +34,7 @@ export interface Printer {
 export interface Mixture { name?: string; shares?: number[]; colour?: string }
 
 export interface Position {
-  layer: number; bead: number; at?: [number, number]; z?: number; fed?: Mixture;
+  layer?: number; bead: number; at?: [number, number]; z?: number; fed?: Mixture;
   leaving?: { shares?: number[]; colour?: string; nearest?: string };
   change?: { seconds: number; name?: string; colour?: string };
 }
@@ -53,6 +53,7 @@ export interface DryRun {
   id: string; job: string; state: 'running' | 'done' | 'failed'; percent?: number; made?: number;
   seconds?: number; filaments?: { name?: string; colour?: string; grams?: number; metres?: number }[];
   gaps_percent?: number; wrong_percent?: number; reason?: string;
+  layers?: [number, number]; grades?: { time?: string; material?: string; gaps?: string; colours?: string };
 }
 
 export interface UsedFilament extends Filament {

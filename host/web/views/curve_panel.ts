@@ -102,7 +102,7 @@ export class CurvePanel extends View {
     if (layer.layer === this.shownLayer) await this.fetchShown();
   }
 
-  private async fetchShown(): Promise<void> {
+  private async fetchShown(again = true): Promise<void> {
     const layer = this.shownLayer;
     if (layer < 0) return;
     let path: LayerPath | null;
@@ -117,7 +117,7 @@ export class CurvePanel extends View {
     this.curve.show(path, path ? laidOf(layer, live.position, path.count) : 0);
     this.showLabel();
     const about = this.layers.about(layer);
-    if (path && about && about.beads > path.count && !path.complete) await this.fetchShown();
+    if (again && path && about && about.beads > path.count && !path.complete) await this.fetchShown(false);
   }
 
   private move(): void {

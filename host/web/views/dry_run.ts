@@ -5,7 +5,8 @@ import { fill, h, View } from '../dom';
 import { layerRange } from '../inputs';
 import { live } from '../live';
 import type { DryRun } from '../types';
-import { duration, moment, number, shortName, t } from '../words';
+import { duration, moment, number, shortName, t, word } from '../words';
+import { rangeOf } from './queue';
 
 export class DryRunView extends View {
   private list!: HTMLElement;
@@ -44,7 +45,7 @@ export class DryRunView extends View {
       await api.post('/api/jobs', { job: run.job });
       location.hash = '#/queue';
     } });
-    const head = h('div', { class: 'run-head' }, h('h3', { class: 'job', title: run.job }, shortName(run.job)), h('span', { class: 'soft' }, moment(run.made)), remove);
+    const head = h('div', { class: 'run-head' }, h('h3', { class: 'job', title: run.job }, shortName(run.job)), h('span', { class: 'soft' }, [moment(run.made), rangeOf(run.layers)].filter(Boolean).join(' · ')), remove);
     if (run.state === 'running') {
       const bar = h('div', { class: 'bar', role: 'progressbar', 'aria-label': t('dry.runs'), 'aria-valuenow': run.percent === undefined ? undefined : Math.floor(run.percent) }, h('i'));
       (bar.firstElementChild as HTMLElement).style.width = `${run.percent ?? 0}%`;
@@ -56,14 +57,14 @@ export class DryRunView extends View {
   }
 
   private tiles(run: DryRun): HTMLElement[] {
-    const tile = (name: string, value: string, grade = '') =>
-      h('div', { class: `tile ${grade}` }, h('dt', {}, name), h('dd', {}, value), grade ? h('span', { class: 'grade' }, t(`grade.${grade}`)) : null);
+    const tile = (name: string, value: string, grade?: string) =>
+      h('div', { class: `tile ${grade ?? ''}` }, h('dt', {}, name), h('dd', {}, value), grade ? h('span', { class: 'grade' }, word('grade', grade)) : null);
     const material = (run.filaments ?? []).filter((one) => one.grams !== undefined)
       .map((one) => `${one.name ?? ''} ${number(one.grams, 1)} g`).join(' · ');
     const share = (value: number | undefined) => (value === undefined ? '–' : `${number(value, 2)} %`);
-    return [tile(t('dry.time'), duration(run.seconds)), tile(t('dry.material'), material || '–'),
-            tile(t('dry.gaps'), share(run.gaps_percent), grade(run.gaps_percent, 0.5, 2)),
-            tile(t('dry.colour'), share(run.wrong_percent), grade(run.wrong_percent, 2, 6))];
+    const grades = run.grades ?? {};
+    return [tile(t('dry.time'), duration(run.seconds), grades.time), tile(t('dry.material'), material || '–', grades.material),
+            tile(t('dry.gaps'), share(run.gaps_percent), grades.gaps), tile(t('dry.colour'), share(run.wrong_percent), grades.colours)];
   }
 
   private starting(): HTMLElement {
@@ -83,12 +84,6 @@ export class DryRunView extends View {
     return card(t('dry.start_title'), 'adding', h('p', { class: 'soft' }, t('dry.help')), h('label', { for: 'dry-job' }, t('queue.job')), jobs,
                 h('label', { for: 'dry-layers' }, t('queue.layers')), layers, h('div', { class: 'row' }, start));
   }
-}
-
-/** In words beside the colour; limits in per cent. */
-function grade(value: number | undefined, good: number, doubtful: number): string {
-  if (value === undefined) return '';
-  return value <= good ? 'good' : value <= doubtful ? 'doubtful' : 'bad';
 }
 
 customElements.define('dry-run-view', DryRunView);

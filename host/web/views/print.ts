@@ -6,6 +6,7 @@ import { PrintActions } from './print_actions';
 import { PrintAdjust } from './print_adjust';
 import { PrintFacts } from './print_facts';
 import { PrintIdle } from './print_idle';
+import { CameraPanel } from './camera';
 import { HeatPanel } from './heat';
 import { CurvePanel } from './curve_panel';
 import { LogPanel } from './log';
@@ -30,7 +31,7 @@ export class PrintView extends View {
     this.busy = busy;
     this.className = busy ? 'busy' : 'idle';
     if (busy) this.showPrint();
-    else fill(this, new PrintIdle(), h('div', { class: 'side' }, new HeatPanel(), new LogPanel()));
+    else fill(this, new PrintIdle(), h('div', { class: 'side' }, new CameraPanel(), new HeatPanel(), new LogPanel()));
   }
 
   private showPrint(): void {
@@ -39,7 +40,7 @@ export class PrintView extends View {
     curve.setAttribute('role', 'region');
     curve.setAttribute('aria-label', t('curve.title'));
     fill(this, new PrintFacts(), curve, new PrintActions(),
-         h('div', { class: 'side' }, new PrintAdjust(), new HeatPanel(), new LogPanel()));
+         h('div', { class: 'side' }, new PrintAdjust(), new CameraPanel(), new HeatPanel(), new LogPanel()));
   }
 }
 

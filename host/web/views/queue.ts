@@ -70,7 +70,7 @@ export class QueueView extends View {
     row.draw = (now, first, last) => {
       setText(name, shortName(now.job));
       name.title = now.job;
-      const layers = now.layers ? t('queue.layers_of', { first: number(now.layers[0] + 1), last: number(now.layers[1] + 1) }) : '';
+      const layers = rangeOf(now.layers);
       setText(facts, [now.seconds === undefined ? '' : duration(now.seconds), gramsOf(now), layers].filter(Boolean).join(' · '));
       setText(reason, now.reason ?? '');
       setHidden(reason, !now.reason);
@@ -167,6 +167,10 @@ export class QueueView extends View {
     return card(t('queue.add_title'), 'adding', h('label', { for: 'job' }, t('queue.job')), jobs, h('label', { for: 'layers' }, t('queue.layers')), layers,
                 h('p', { class: 'soft' }, t('queue.layers_help')), h('div', { class: 'row' }, add));
   }
+}
+
+export function rangeOf(layers: Job['layers']): string {
+  return Array.isArray(layers) ? t('queue.layers_of', { first: number(layers[0] + 1), last: number(layers[1] + 1) }) : '';
 }
 
 customElements.define('queue-view', QueueView);

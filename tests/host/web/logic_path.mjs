@@ -7,7 +7,7 @@ const { decodeChunk, LayerPath } = await bundled('path');
 const paint = await bundled('curve_paint');
 
 /** `beads`: [dx, dy in 10 µm, width in 20 µm, asked, r, g, b]. */
-function bytes({ layer = 3, first = 0, at = [12_340, -5_000], top = 0.8, flags = 0, beads }) {
+function bytes({ layer = 3, first = 0, revision = 0, at = [12_340, -5_000], top = 0.8, flags = 0, beads }) {
   const buffer = Buffer.alloc(32 + 9 * beads.length);
   buffer.write('UCL1', 'latin1');
   [layer, first, beads.length].forEach((value, n) => buffer.writeUInt32LE(value, 4 + 4 * n));
@@ -15,6 +15,7 @@ function bytes({ layer = 3, first = 0, at = [12_340, -5_000], top = 0.8, flags =
   buffer.writeInt32LE(at[1], 20);
   buffer.writeFloatLE(top, 24);
   buffer[28] = flags;
+  buffer[29] = revision;
   beads.forEach(([dx, dy, ...rest], n) => {
     buffer.writeInt16LE(dx, 32 + 9 * n);
     buffer.writeInt16LE(dy, 34 + 9 * n);
@@ -51,7 +52,8 @@ test('a layer grows by what follows, and refuses what does not', () => {
   assert.ok(path.add(decodeChunk(bytes({ first: 2, at: [12_540, -5_000], beads: [bead, bead, bead], flags: 1 }))));
   assert.equal(path.count, 5);
   close(path.x[5], 12.84);
-  assert.ok(path.add(decodeChunk(bytes({ beads: [bead] }))), 'all over again');
+  assert.ok(!path.add(decodeChunk(bytes({ first: 5, revision: 1, beads: [bead] }))), 'computed again');
+  assert.ok(path.add(decodeChunk(bytes({ revision: 1, beads: [bead] }))), 'all over again');
   assert.equal(path.count, 1);
   close(path.bounds[2], 12.44 + 0.4);
 });

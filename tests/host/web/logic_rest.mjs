@@ -11,7 +11,7 @@ const { laidOf } = await bundled('layers');
 
 test('silence is asked about after 2 s and is a loss before 5 s', () => {
   const dog = new Watchdog(0);
-  const verdicts = [1, 2, 3, 4, 5].map((second) => dog.tick(second * 1000));
+  const verdicts = [1, 2, 3, 4, 4.5].map((second) => dog.tick(second * 1000));
   assert.deepEqual(verdicts, ['well', 'ask', 'ask', 'ask', 'lost']);
   dog.hear(5200);
   assert.equal(dog.tick(6000), 'well');
@@ -96,4 +96,5 @@ test('layers below the nozzle are laid, those above are not', () => {
   assert.equal(laidOf(3, { layer: 3, bead: 90 }, 50), 50);
   assert.equal(laidOf(4, { layer: 3, bead: 10 }, 50), 0);
   assert.equal(laidOf(0, null, 50), 0);
+  assert.equal(laidOf(0, { bead: 0 }, 50), 0, 'before the first layer');
 });
