@@ -166,7 +166,10 @@ TEST_CASE("random islands with contours: plans are sound, no area is lost, and t
     const IslandPlan plan =
         plan_island(whole(island), one_zone(), options_with(1 + k % 3, static_cast<std::uint64_t>(k)));
     check_plan(plan, island);
-    CHECK(plan.far_area == Approx(0).margin(0.08));
+    // Sines differ in their last digit between processors, so that the islands and their curves differ, too:
+    // what is allowed is a spot that is smaller than a half of the square of a bead width, not what one
+    // processor leaves.
+    CHECK(plan.far_area < 0.4 * w * w);
     for (const PlannedCurve& curve : plan.curves) laid += curve.perimeters > 0;
   }
   CHECK(laid > 25);
