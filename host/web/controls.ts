@@ -75,17 +75,17 @@ export function complain(error: unknown): void {
   say(sentenceOf(error), 'bad');
 }
 
-/** A short message at the foot of the page; it stays for six seconds, a bad one until it is closed. */
+/** A short message at the foot of the page; it stays for six seconds, a bad one for twenty. */
 export function say(text: string, kind: 'good' | 'bad' = 'good'): void {
   let place = document.querySelector('.messages');
-  if (!place) document.body.append(place = h('div', { class: 'messages', role: kind === 'bad' ? 'alert' : 'status' }));
+  if (!place) document.body.append(place = h('div', { class: 'messages' }));
   const close = () => message.remove();
-  const message = h('div', { class: `message ${kind}` }, h('p', {}, text),
+  const message = h('div', { class: `message ${kind}`, role: kind === 'bad' ? 'alert' : 'status' }, h('p', {}, text),
                     h('button', { type: 'button', class: 'button quiet bare', 'aria-label': t('close'), click: close },
                       icon('cancel')));
   place.append(message);
   while (place.children.length > 3) place.firstElementChild?.remove();
-  if (kind === 'good') window.setTimeout(close, 6000);
+  window.setTimeout(close, kind === 'good' ? 6000 : 20_000);
 }
 
 /** A colour, with a light outline so that white filament is seen; the name stands beside it. */

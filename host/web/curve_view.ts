@@ -14,11 +14,11 @@ export class CurveView extends HTMLElement {
   /** Of the last full drawing, and the longest slice and growing step since; ms. For measurements. */
   readonly timing = { full: 0, slice: 0, grow: 0, slices: 0 };
 
-  private shown = h('canvas', { class: 'layer', 'aria-hidden': 'true' });
+  private shown = h('canvas', { class: 'layer', role: 'img' });
   private hiddenOne = h('canvas', { class: 'layer behind', 'aria-hidden': 'true' });
   private readonly dot = h('span', { class: 'nozzle', hidden: true });
   private readonly note = h('p', { class: 'note' });
-  private readonly stage = h('div', { class: 'stage', role: 'img', tabindex: 0 });
+  private readonly stage = h('div', { class: 'stage', role: 'group', tabindex: 0, 'aria-label': t('curve.title') });
   private path: LayerPath | null = null;
   private colours: number[] = [];
   private ground = 0;
@@ -59,7 +59,7 @@ export class CurveView extends HTMLElement {
   }
 
   describe(words: string): void {
-    if (this.stage.getAttribute('aria-label') !== words) this.stage.setAttribute('aria-label', words);
+    if (this.shown.getAttribute('aria-label') !== words) this.shown.setAttribute('aria-label', words);
   }
 
   /** A sentence where the curve will be; empty: none. */
@@ -188,6 +188,10 @@ export class CurveView extends HTMLElement {
     [this.shown, this.hiddenOne] = [this.hiddenOne, this.shown];
     this.shown.classList.remove('behind');
     this.hiddenOne.classList.add('behind');
+    this.shown.setAttribute('role', 'img');
+    this.shown.setAttribute('aria-label', this.hiddenOne.getAttribute('aria-label') ?? '');
+    this.shown.removeAttribute('aria-hidden');
+    this.hiddenOne.setAttribute('aria-hidden', 'true');
     this.drawn = work.frame;
     this.painted = work.laid;
     this.place();

@@ -1,7 +1,7 @@
 // Dry runs: a job on the simulated printer. Tiles for each, and its own viewer behind a link.
 import { api } from '../api';
 import { ask, card, command, empty, load } from '../controls';
-import { fill, h, View } from '../dom';
+import { Child, fill, h, View } from '../dom';
 import { layerRange } from '../inputs';
 import { live } from '../live';
 import type { DryRun } from '../types';
@@ -57,13 +57,13 @@ export class DryRunView extends View {
   }
 
   private tiles(run: DryRun): HTMLElement[] {
-    const tile = (name: string, value: string, grade?: string) =>
+    const tile = (name: string, value: Child, grade?: string) =>
       h('div', { class: `tile ${grade ?? ''}` }, h('dt', {}, name), h('dd', {}, value), grade ? h('span', { class: 'grade' }, word('grade', grade)) : null);
-    const material = (run.filaments ?? []).filter((one) => one.grams !== undefined)
-      .map((one) => `${one.name ?? ''} ${number(one.grams, 1)} g`).join(' · ');
+    const used = (run.filaments ?? []).filter((one) => one.grams !== undefined);
+    const material = h('ul', {}, ...used.map((one) => h('li', {}, `${one.name ?? ''} ${number(one.grams, 1)} g`)));
     const share = (value: number | undefined) => (value === undefined ? '–' : `${number(value, 2)} %`);
     const grades = run.grades ?? {};
-    return [tile(t('dry.time'), duration(run.seconds), grades.time), tile(t('dry.material'), material || '–', grades.material),
+    return [tile(t('dry.time'), duration(run.seconds), grades.time), tile(t('dry.material'), used.length ? material : '–', grades.material),
             tile(t('dry.gaps'), share(run.gaps_percent), grades.gaps), tile(t('dry.colour'), share(run.wrong_percent), grades.colours)];
   }
 

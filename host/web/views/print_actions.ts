@@ -26,11 +26,11 @@ export class PrintActions extends View {
       const focused = document.activeElement === pause || document.activeElement === resume;
       setHidden(pause, paused);
       setHidden(resume, !paused);
-      if (focused) (paused ? resume : pause).focus();
       pause.allow(state === 'printing' || state === 'heating');
       resume.allow(state === 'paused');
       cancel.allow(!['cancelling', 'finishing', 'done', 'stopped', 'failed'].includes(state));
       stop.allow(live.busy);
+      if (focused) (paused ? resume : pause).focus();
     };
     this.setAttribute('role', 'group');
     this.setAttribute('aria-label', t('print.actions'));

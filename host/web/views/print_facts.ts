@@ -23,7 +23,7 @@ export class PrintFacts extends View {
     const [heatBox, heat] = fact(t('heat.nozzle_bed'));
     const aheadBar = h('div', { class: 'bar thin', 'aria-hidden': 'true' }, h('i'));
     aheadBox.append(aheadBar);
-    const question = h('div', { class: 'question', role: 'alertdialog', 'aria-label': t('print.asks'), hidden: true });
+    const question = h('div', { class: 'question', role: 'alert', 'aria-label': t('print.asks'), hidden: true });
     const warning = h('p', { class: 'warning', hidden: true });
     const draw = () => {
       const print = live.status?.print, full = live.status?.job?.job;
