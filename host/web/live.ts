@@ -14,6 +14,7 @@ class Live {
   printer: Printer | null = null;
   position: Position | null = null;
   lostSince = 0;  ///< ms
+  name = '';      ///< of the printer, as its owner calls it
 
   private followers = new Map<Topic, Set<(value: any) => void>>();
   private socket: WebSocket | null = null;

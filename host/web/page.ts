@@ -46,7 +46,7 @@ class Shell extends View {
                 h('header', {}, name, brief, soundButton(), themeButton()), banner,
                 h('nav', { 'aria-label': t('pages') }, ...this.links), this.main, spoken);
     const draw = () => {
-      setText(name, live.printer?.name || 'unicursal');
+      setText(name, live.name || live.printer?.name || 'unicursal');
       const print = live.busy ? live.status?.print : undefined;
       const words = live.status ? word('state', live.state) : '';
       setText(brief, print?.percent === undefined ? words : `${words} · ${percent(print.percent)}`);
@@ -156,6 +156,8 @@ async function begin(): Promise<void> {
   await rebuild(preferred());
   live.on('up', async () => {
     const wishes = await api.get<Preferences>('/api/preferences').catch(() => ({} as Preferences));
+    live.name = wishes.name ?? '';
+    live.emit('printer', live.printer);
     const language = preferred(wishes.language);
     if (language !== document.documentElement.lang) void rebuild(language);
   });

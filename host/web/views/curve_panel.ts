@@ -68,7 +68,8 @@ export class CurvePanel extends View {
     try {
       await this.layers.refresh();
       if (this.layers.info && !live.position && moving.includes(live.state)) {
-        live.position = await api.get<Position>('/api/print/position').catch(() => null);
+        const position = await api.get<Position>('/api/print/position').catch(() => null);
+        if (position?.bead !== undefined) live.position = position;
       }
     } catch {
       return;  // the connection is gone; `up` calls again

@@ -120,19 +120,21 @@ export class QueueView extends View {
 
   private dropping(): HTMLElement {
     const choose = h('input', { type: 'file', multiple: true, class: 'unseen', id: 'files', accept: '.toml,.svg,.stl,.3mf,.obj,.amf,.gcode,.gco,.g',
-                                change: () => { void this.send([...(choose.files ?? [])]); choose.value = ''; } });
+                                change: () => { void this.send([...(choose.files ?? [])], area); choose.value = ''; } });
     const area: HTMLElement = h('div', { class: 'drop', dragover: (event: DragEvent) => { event.preventDefault(); area.classList.add('over'); },
                             dragleave: () => area.classList.remove('over'), drop: (event: DragEvent) => {
                               event.preventDefault();
                               area.classList.remove('over');
-                              void this.send([...(event.dataTransfer?.files ?? [])]);
+                              void this.send([...(event.dataTransfer?.files ?? [])], area);
                             } },
-                   icon('upload'), h('p', {}, t('files.drop')), choose, h('label', { for: 'files', class: 'button' }, t('files.choose')));
+                   icon('upload'), h('p', { role: 'status' }, t('files.drop')), choose, h('label', { for: 'files', class: 'button' }, t('files.choose')));
     return card(t('files.title'), 'files', area, h('p', { class: 'soft' }, t('files.help')));
   }
 
-  private async send(files: File[]): Promise<void> {
-    if (!files.length) return;
+  private async send(files: File[], area: HTMLElement): Promise<void> {
+    const words = area.querySelector('p');
+    if (!files.length || !words) return;
+    setText(words, t('files.sending', { name: files[0].name }));
     try {
       const sliced = files.filter((file) => /\.(gcode|gco|g)$/i.test(file.name)), others = files.filter((file) => !sliced.includes(file));
       for (const file of sliced) await uploadSliced(file);
@@ -144,6 +146,7 @@ export class QueueView extends View {
     } catch (error) {
       complain(error);
     }
+    setText(words, t('files.drop'));
     await this.refresh();
   }
 

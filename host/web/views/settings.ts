@@ -44,6 +44,8 @@ export class SettingsPanel extends View {
       delete (wanted as Record<string, unknown>).version;
       if (access.may('all')) wanted.camera = camera.value;
       await api.put('/api/preferences', wanted);
+      live.name = name.value;
+      live.emit('printer', live.printer);
       say(t('settings.saved'));
       this.wishes(place, { ...now, ...wanted });
     } });
