@@ -1,10 +1,11 @@
 // Requests to the daemon. The token came in the fragment of the address, or was typed in; it is kept in
 // localStorage and sent as a header. Pictures are asked for with the cookie of `POST /api/login`.
-import type { Right } from './types';
+import type {Right} from './types';
 
 export class ApiError extends Error {
-  constructor(message: string, readonly status: number, readonly code: string,
-              readonly detail: Record<string, unknown> = {}) {
+  constructor(
+      message: string, readonly status: number, readonly code: string,
+      readonly detail: Record<string, unknown> = {}) {
     super(message);
   }
 }
@@ -40,18 +41,24 @@ export const access = {
   },
 };
 
-interface Options { body?: unknown; raw?: BodyInit; type?: string; limit?: number }
+interface Options {
+  body?: unknown;
+  raw?: BodyInit;
+  type?: string;
+  limit?: number
+}
 
 async function send(method: string, path: string, options: Options = {}): Promise<Response> {
   const headers: Record<string, string> = {};
   if (access.token) headers['Authorization'] = `Bearer ${access.token}`;
   let body = options.raw;
   if (options.body !== undefined) body = JSON.stringify(options.body);
-  if (body !== undefined && !(body instanceof FormData)) headers['Content-Type'] = options.type ?? 'application/json';
+  if (body !== undefined && !(body instanceof FormData))
+    headers['Content-Type'] = options.type ?? 'application/json';
   const stop = new AbortController();
   const timer = options.limit ? window.setTimeout(() => stop.abort(), options.limit) : 0;
   try {
-    const response = await fetch(path, { method, headers, body, signal: stop.signal, cache: 'no-store' });
+    const response = await fetch(path, {method, headers, body, signal: stop.signal, cache: 'no-store'});
     if (!response.ok) throw await refusal(response);
     return response;
   } finally {
@@ -66,7 +73,8 @@ async function refusal(response: Response): Promise<ApiError> {
   } catch {
     // An answer without a sentence: a proxy's, perhaps.
   }
-  const sentence = typeof answer.error === 'string' ? answer.error : `${response.status} ${response.statusText}`;
+  const sentence =
+      typeof answer.error === 'string' ? answer.error : `${response.status} ${response.statusText}`;
   return new ApiError(sentence, response.status, typeof answer.code === 'string' ? answer.code : '', answer);
 }
 
@@ -76,19 +84,20 @@ async function json<T>(method: string, path: string, options: Options = {}): Pro
 }
 
 export const api = {
-  get: <T>(path: string, limit = 20_000) => json<T>('GET', path, { limit }),
-  post: <T = unknown>(path: string, body: unknown = {}) => json<T>('POST', path, { body }),
-  put: <T = unknown>(path: string, body: unknown) => json<T>('PUT', path, { body }),
+  get: <T>(path: string, limit = 20_000) => json<T>('GET', path, {limit}),
+  post: <T = unknown>(path: string, body: unknown = {}) => json<T>('POST', path, {body}),
+  put: <T = unknown>(path: string, body: unknown) => json<T>('PUT', path, {body}),
   remove: <T = unknown>(path: string) => json<T>('DELETE', path),
-  bytes: async (path: string) => (await send('GET', path, { limit: 30_000 })).arrayBuffer(),
-  form: <T = unknown>(path: string, form: FormData) => json<T>('POST', path, { raw: form }),
-  upload: <T = unknown>(path: string, file: Blob) => json<T>('PUT', path, { raw: file, type: 'application/octet-stream' }),
+  bytes: async (path: string) => (await send('GET', path, {limit: 30_000})).arrayBuffer(),
+  form: <T = unknown>(path: string, form: FormData) => json<T>('POST', path, {raw: form}),
+  upload: <T = unknown>(path: string, file: Blob) =>
+      json<T>('PUT', path, {raw: file, type: 'application/octet-stream'}),
 
   /** Learns what the token may do, and gets the cookie for pictures. Older daemons do not answer that. */
   async login(): Promise<void> {
     if (!access.token) return;
     try {
-      const answer = await api.post<{ name?: string; right?: Right }>('/api/login', { token: access.token });
+      const answer = await api.post<{name?: string; right?: Right}>('/api/login', {token: access.token});
       if (answer.right) access.right = answer.right;
       access.name = answer.name ?? '';
     } catch (error) {

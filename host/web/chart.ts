@@ -1,21 +1,30 @@
 // Temperatures of the last hour as lines on a canvas: values full, targets dashed and pale. Gaps stay gaps.
-import { h } from './dom';
-import { language, number, t } from './words';
+import {h} from './dom';
+import {language, number, t} from './words';
 
-export interface Line { name: string; colour: string; dashed?: boolean; points: [number, number | null][] }
+export interface Line {
+  name: string;
+  colour: string;
+  dashed?: boolean;
+  points: [number, number|null][]
+}
 
-export interface Chart extends HTMLElement { draw(lines: Line[], now: number): void }
+export interface Chart extends HTMLElement {
+  draw(lines: Line[], now: number): void
+}
 
 const hour = 3600, left = 34, bottom = 20, above = 8;
 
 export function chart(label: string): Chart {
-  const canvas = h('canvas', { role: 'img', 'aria-label': label });
-  const box = h('div', { class: 'chart' }, canvas) as unknown as Chart;
-  let last: { lines: Line[]; now: number } | null = null;
-  const paint = () => { if (last) paintChart(canvas, last.lines, last.now); };
+  const canvas = h('canvas', {role: 'img', 'aria-label': label});
+  const box = h('div', {class: 'chart'}, canvas) as unknown as Chart;
+  let last: {lines: Line[]; now: number}|null = null;
+  const paint = () => {
+    if (last) paintChart(canvas, last.lines, last.now);
+  };
   new ResizeObserver(paint).observe(box);
   box.draw = (lines, now) => {
-    last = { lines, now };
+    last = {lines, now};
     canvas.setAttribute('aria-label', `${label}: ${inWords(lines)}`);
     paint();
   };
@@ -42,8 +51,8 @@ function paintChart(canvas: HTMLCanvasElement, lines: Line[], now: number): void
   const begin = now - spanOf(lines, now);
   const x = (time: number) => left + ((time - begin) / (now - begin)) * (width - left - 6);
   const y = (value: number) => height - bottom - (value / most) * (height - bottom - above);
-  grid(brush, style, { width, height, most, y });
-  hours(brush, { begin, now, height, x });
+  grid(brush, style, {width, height, most, y});
+  hours(brush, {begin, now, height, x});
   for (const line of lines) trace(brush, style.getPropertyValue(line.colour) || style.color, line, x, y);
 }
 
@@ -53,8 +62,9 @@ function spanOf(lines: Line[], now: number): number {
   return Math.min(hour, Math.max(600, Math.ceil((now - first) / 300) * 300));
 }
 
-function grid(brush: CanvasRenderingContext2D, style: CSSStyleDeclaration,
-              at: { width: number; height: number; most: number; y: (value: number) => number }): void {
+function grid(
+    brush: CanvasRenderingContext2D, style: CSSStyleDeclaration,
+    at: {width: number; height: number; most: number; y: (value: number) => number}): void {
   brush.font = `12px ${style.fontFamily}`;
   brush.textBaseline = 'middle';
   brush.textAlign = 'right';
@@ -70,18 +80,21 @@ function grid(brush: CanvasRenderingContext2D, style: CSSStyleDeclaration,
   }
 }
 
-function hours(brush: CanvasRenderingContext2D,
-               at: { begin: number; now: number; height: number; x: (time: number) => number }): void {
+function hours(
+    brush: CanvasRenderingContext2D,
+    at: {begin: number; now: number; height: number; x: (time: number) => number}): void {
   brush.textAlign = 'center';
   brush.textBaseline = 'alphabetic';
   const span = at.now - at.begin, step = span > 2700 ? 900 : span > 1200 ? 600 : 300;
-  const clock = new Intl.DateTimeFormat(language(), { hour: '2-digit', minute: '2-digit' });
+  const clock = new Intl.DateTimeFormat(language(), {hour: '2-digit', minute: '2-digit'});
   for (let time = Math.ceil(at.begin / step) * step; time < at.now; time += step)
-    if (at.x(time) > left + 18 && at.x(time) < at.x(at.now) - 16) brush.fillText(clock.format(time * 1000), at.x(time), at.height - 4);
+    if (at.x(time) > left + 18 && at.x(time) < at.x(at.now) - 16)
+      brush.fillText(clock.format(time * 1000), at.x(time), at.height - 4);
 }
 
-function trace(brush: CanvasRenderingContext2D, colour: string, line: Line, x: (time: number) => number,
-               y: (value: number) => number): void {
+function trace(
+    brush: CanvasRenderingContext2D, colour: string, line: Line, x: (time: number) => number,
+    y: (value: number) => number): void {
   brush.strokeStyle = colour;
   brush.globalAlpha = line.dashed ? 0.55 : 1;
   brush.setLineDash(line.dashed ? [3, 4] : []);
@@ -90,9 +103,12 @@ function trace(brush: CanvasRenderingContext2D, colour: string, line: Line, x: (
   brush.beginPath();
   let drawing = false;
   for (const [time, value] of line.points) {
-    if (value === null) drawing = false;
-    else if (drawing) brush.lineTo(x(time), y(value));
-    else brush.moveTo(x(time), y(value));
+    if (value === null)
+      drawing = false;
+    else if (drawing)
+      brush.lineTo(x(time), y(value));
+    else
+      brush.moveTo(x(time), y(value));
     drawing = value !== null;
   }
   brush.stroke();

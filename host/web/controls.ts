@@ -1,16 +1,23 @@
-// The parts from which pages are made: buttons that give commands, steppers, swatches, dialogs and short messages.
-import { access, ApiError } from './api';
-import { Child, fill, h, icon, setAttribute, setText } from './dom';
-import { live } from './live';
-import type { Right } from './types';
-import { colour, number, t } from './words';
+// The parts from which pages are made: buttons that give commands, steppers, swatches, dialogs and short
+// messages.
+import {access, ApiError} from './api';
+import {Child, fill, h, icon, setAttribute, setText} from './dom';
+import {live} from './live';
+import type {Right} from './types';
+import {colour, number, t} from './words';
 
 interface CommandOptions {
-  label: string; icon?: string; kind?: string; right?: Right; bare?: boolean;
-  run: () => Promise<unknown> | unknown;
+  label: string;
+  icon?: string;
+  kind?: string;
+  right?: Right;
+  bare?: boolean;
+  run: () => Promise<unknown>| unknown;
 }
 
-export interface CommandButton extends HTMLButtonElement { allow(may: boolean): void }
+export interface CommandButton extends HTMLButtonElement {
+  allow(may: boolean): void
+}
 
 const commands = new Set<() => void>();
 
@@ -19,10 +26,12 @@ export function reviewCommands(): void {
   for (const review of commands) review();
 }
 
-/** A button that gives a command to the daemon. It can be pressed while the daemon is there, nothing else is on
- *  its way from it, and `allow()` agrees. */
+/**
+ * A button that gives a command to the daemon. It can be pressed while the daemon is there, nothing else is
+ * on its way from it, and `allow()` agrees.
+ */
 export function command(options: CommandOptions): CommandButton {
-  const button = h('button', { type: 'button', class: `button ${options.kind ?? ''}` },
+  const button = h('button', {type: 'button', class: `button ${options.kind ?? ''}`},
                    options.icon ? icon(options.icon) : null,
                    options.bare ? null : h('span', {}, options.label)) as unknown as CommandButton;
   if (options.bare) {
@@ -76,22 +85,23 @@ export function complain(error: unknown): void {
 }
 
 /** A short message at the foot of the page; it stays for six seconds, a bad one for twenty. */
-export function say(text: string, kind: 'good' | 'bad' = 'good'): void {
+export function say(text: string, kind: 'good'|'bad' = 'good'): void {
   let place = document.querySelector('.messages');
-  if (!place) document.body.append(place = h('div', { class: 'messages' }));
+  if (!place) document.body.append(place = h('div', {class: 'messages'}));
   const close = () => message.remove();
-  const message = h('div', { class: `message ${kind}`, role: kind === 'bad' ? 'alert' : 'status' }, h('p', {}, text),
-                    h('button', { type: 'button', class: 'button quiet bare', 'aria-label': t('close'), click: close },
-                      icon('cancel')));
+  const message =
+      h('div', {class: `message ${kind}`, role: kind === 'bad' ? 'alert' : 'status'}, h('p', {}, text),
+        h('button', {type: 'button', class: 'button quiet bare', 'aria-label': t('close'), click: close},
+          icon('cancel')));
   place.append(message);
   while (place.children.length > 3) place.firstElementChild?.remove();
   window.setTimeout(close, kind === 'good' ? 6000 : 20_000);
 }
 
 /** A colour, with a light outline so that white filament is seen; the name stands beside it. */
-export function swatch(): HTMLElement & { show(value: string | undefined): void } {
-  const dot = h('span', { class: 'swatch', 'aria-hidden': 'true' }) as any;
-  dot.show = (value: string | undefined) => {
+export function swatch(): HTMLElement&{show(value: string|undefined): void} {
+  const dot = h('span', {class: 'swatch', 'aria-hidden': 'true'}) as any;
+  dot.show = (value: string|undefined) => {
     const good = colour(value);
     dot.style.background = good;
     dot.classList.toggle('none', !good);
@@ -100,28 +110,32 @@ export function swatch(): HTMLElement & { show(value: string | undefined): void 
   return dot;
 }
 
-export function swatchOf(value: string | undefined): HTMLElement {
+export function swatchOf(value: string|undefined): HTMLElement {
   const dot = swatch();
   dot.show(value);
   return dot;
 }
 
 interface StepOptions {
-  label: string; unit: string; step: number; least: number; most: number;
+  label: string;
+  unit: string;
+  step: number;
+  least: number;
+  most: number;
   begin?: number;  ///< from which steps are taken while the value is unknown
   send: (value: number) => Promise<unknown>;
 }
 
 export interface Stepper extends HTMLElement {
-  show(value: number | undefined, beside: string): void;
+  show(value: number|undefined, beside: string): void;
   limit(most: number): void;
   allow(may: boolean): void;
 }
 
 /** A value with − and +. Presses are gathered for half a second, then sent as one. */
 export function stepper(options: StepOptions): Stepper {
-  let known: number | undefined, wanted: number | undefined, timer = 0, most = options.most;
-  const value = h('output', { class: 'value' }), beside = h('span', { class: 'beside' });
+  let known: number|undefined, wanted: number|undefined, timer = 0, most = options.most;
+  const value = h('output', {class: 'value'}), beside = h('span', {class: 'beside'});
   const change = (by: number) => {
     const from = wanted ?? known ?? options.begin;
     if (from === undefined) return;
@@ -140,21 +154,39 @@ export function stepper(options: StepOptions): Stepper {
       draw();
     }, 500);
   };
-  const less = command({ label: t('less', { what: options.label }), icon: 'minus', bare: true, kind: 'quiet', run: () => change(-1) });
-  const more = command({ label: t('more', { what: options.label }), icon: 'plus', bare: true, kind: 'quiet', run: () => change(1) });
+  const less = command({
+    label: t('less', {what: options.label}),
+    icon: 'minus',
+    bare: true,
+    kind: 'quiet',
+    run: () => change(-1)
+  });
+  const more = command({
+    label: t('more', {what: options.label}),
+    icon: 'plus',
+    bare: true,
+    kind: 'quiet',
+    run: () => change(1)
+  });
   const draw = () => {
     const shown = wanted ?? known;
-    setText(value, shown === undefined ? '–' : shown === 0 && options.unit === '°C' ? t('heat.is_off') : `${number(shown)} ${options.unit}`);
+    setText(
+        value,
+        shown === undefined                      ? '–' :
+            shown === 0 && options.unit === '°C' ? t('heat.is_off') :
+                                                   `${number(shown)} ${options.unit}`);
     value.classList.toggle('pending', wanted !== undefined);
   };
-  const box = h('div', { class: 'stepper', role: 'group', 'aria-label': options.label },
-                h('span', { class: 'label' }, options.label), less, value, more, beside) as unknown as Stepper;
+  const box = h('div', {class: 'stepper', role: 'group', 'aria-label': options.label},
+                h('span', {class: 'label'}, options.label), less, value, more, beside) as unknown as Stepper;
   box.show = (now, text) => {
     known = now;
     setText(beside, text);
     draw();
   };
-  box.limit = (value) => { most = value; };
+  box.limit = (value) => {
+    most = value;
+  };
   box.allow = (may) => {
     less.allow(may);
     more.allow(may);
@@ -164,14 +196,29 @@ export function stepper(options: StepOptions): Stepper {
 }
 
 /** Asks before something is done. Resolves to the button's number, or -1 if the dialog was left. */
-export function ask(title: string, text: string, buttons: { label: string; kind?: string }[]): Promise<number> {
+export function ask(title: string, text: string, buttons: {label: string; kind?: string}[]): Promise<number> {
   return new Promise((resolve) => {
     let chosen = -1;
-    const dialog = h('dialog', { 'aria-label': title, close: () => { dialog.remove(); resolve(chosen); } },
-                     h('h2', {}, title), h('p', { class: 'prose' }, text));
-    const choose = (n: number) => () => { chosen = n; dialog.close(); };
-    const row = buttons.map((button, n) => h('button', { type: 'button', class: `button ${button.kind ?? ''}`, click: choose(n) }, button.label));
-    dialog.append(h('div', { class: 'row end' }, h('button', { type: 'button', class: 'button quiet', click: choose(-1) }, t('leave_it')), ...row));
+    const dialog =
+        h('dialog', {
+          'aria-label': title,
+          close: () => {
+            dialog.remove();
+            resolve(chosen);
+          }
+        },
+          h('h2', {}, title), h('p', {class: 'prose'}, text));
+    const choose = (n: number) => () => {
+      chosen = n;
+      dialog.close();
+    };
+    const row = buttons.map(
+        (button, n) =>
+            h('button', {type: 'button', class: `button ${button.kind ?? ''}`, click: choose(n)},
+              button.label));
+    dialog.append(
+        h('div', {class: 'row end'},
+          h('button', {type: 'button', class: 'button quiet', click: choose(-1)}, t('leave_it')), ...row));
     document.body.append(dialog);
     dialog.showModal();
   });
@@ -179,26 +226,37 @@ export function ask(title: string, text: string, buttons: { label: string; kind?
 
 /** A part of a page with a heading. */
 export function card(title: string, kind: string, ...children: Child[]): HTMLElement {
-  const section = h('section', { class: `card ${kind}`, 'aria-label': title }, h('h2', {}, title));
-  section.append(...children.filter((child) => child !== null && child !== undefined && child !== false) as Node[]);
+  const section = h('section', {class: `card ${kind}`, 'aria-label': title}, h('h2', {}, title));
+  section.append(
+      ...children.filter((child) => child !== null && child !== undefined && child !== false) as Node[]);
   return section;
 }
 
+export function labelFor(id: string, text: string, kind?: string): HTMLElement {
+  const label = h('label', {class: kind}, text);
+  label.htmlFor = id;
+  return label;
+}
+
 export function empty(title: string, text: string): HTMLElement {
-  return h('div', { class: 'empty' }, h('p', { class: 'strong' }, title), h('p', {}, text));
+  return h('div', {class: 'empty'}, h('p', {class: 'strong'}, title), h('p', {}, text));
 }
 
 /** Shows `make()`'s result, or says that it waits or why it failed, with a button to try again. */
-export async function load<T>(place: HTMLElement, get: () => Promise<T>, show: (value: T) => void): Promise<void> {
-  if (!place.childElementCount) fill(place, h('p', { class: 'loading' }, t('loading')));
+export async function load<T>(
+    place: HTMLElement, get: () => Promise<T>, show: (value: T) => void): Promise<void> {
+  if (!place.childElementCount) fill(place, h('p', {class: 'loading'}, t('loading')));
   try {
     const value = await get();
     if (place.querySelector(':scope > .loading, :scope > .failed')) fill(place);
     show(value);
   } catch (error) {
     if (place.isConnected && live.ready)
-      fill(place, h('div', { class: 'failed' }, h('p', {}, missing(error) ? t('error.not_here') : sentenceOf(error)),
-                    h('button', { type: 'button', class: 'button', click: () => void load(place, get, show) }, t('try_again'))));
+      fill(
+          place,
+          h('div', {class: 'failed'}, h('p', {}, missing(error) ? t('error.not_here') : sentenceOf(error)),
+            h('button', {type: 'button', class: 'button', click: () => void load(place, get, show)},
+              t('try_again'))));
   }
 }
 

@@ -1,35 +1,44 @@
-// The layer's curve: what is laid in its true colours, the rest pale, the nozzle as a dot. What is drawn stays on
-// a bitmap onto which only new beads are painted. Zooming moves the bitmap at once, while a second one is painted
-// in slices of a few milliseconds, and then takes its place.
-import { cssColour, fitting, Frame, groundFor, luminance, paintStroke, pale, Size } from './curve_paint';
-import { h, icon, setText } from './dom';
-import { LayerPath } from './path';
-import { t } from './words';
+// The layer's curve: what is laid in its true colours, the rest pale, the nozzle as a dot. What is drawn
+// stays on a bitmap onto which only new beads are painted. Zooming moves the bitmap at once, while a second
+// one is painted in slices of a few milliseconds, and then takes its place.
+import {cssColour, fitting, Frame, groundFor, luminance, paintStroke, pale, Size} from './curve_paint';
+import {h, icon, setText} from './dom';
+import {LayerPath} from './path';
+import {t} from './words';
 
-const sliceTime = 4;  // ms, so that a slice stays below 8 when one stroke is dear
+const paleShare = 0.26;  // of the bead's colour, the rest is the ground
+const sliceTime = 4;     // ms, so that a slice stays below 8 when one stroke is dear
 
-interface Work { frame: Frame; at: number; laid: number; pass: 'pale' | 'laid' }
+interface Work {
+  frame: Frame;
+  at: number;
+  laid: number;
+  known: number;
+  pass: 'pale'|'laid'
+}
 
 export class CurveView extends HTMLElement {
   /** Of the last full drawing, and the longest slice and growing step since; ms. For measurements. */
-  readonly timing = { full: 0, slice: 0, grow: 0, slices: 0 };
+  readonly timing = {full: 0, slice: 0, grow: 0, slices: 0};
 
-  private shown = h('canvas', { class: 'layer', role: 'img' });
-  private hiddenOne = h('canvas', { class: 'layer behind', 'aria-hidden': 'true' });
-  private readonly dot = h('span', { class: 'nozzle', hidden: true });
-  private readonly note = h('p', { class: 'note' });
-  private readonly stage = h('div', { class: 'stage', role: 'group', tabindex: 0, 'aria-label': t('curve.title') });
-  private path: LayerPath | null = null;
+  private shown = h('canvas', {class: 'layer', role: 'img'});
+  private hiddenOne = h('canvas', {class: 'layer behind', 'aria-hidden': 'true'});
+  private readonly dot = h('span', {class: 'nozzle', hidden: true});
+  private readonly note = h('p', {class: 'note'});
+  private readonly stage =
+      h('div', {class: 'stage', role: 'group', tabindex: 0, 'aria-label': t('curve.title')});
+  private path: LayerPath|null = null;
   private colours: number[] = [];
   private ground = 0;
-  private size: Size = { width: 0, height: 0 };
+  private size: Size = {width: 0, height: 0};
   private bed = [0, 0, 200, 200];
-  private frame: Frame = { scale: 1, left: 0, top: 0 };       ///< wanted, in pixels of the bitmap
-  private drawn: Frame | null = null;                         ///< of the shown bitmap
+  private frame: Frame = {scale: 1, left: 0, top: 0};  ///< wanted, in pixels of the bitmap
+  private drawn: Frame|null = null;                    ///< of the shown bitmap
   private fitted = true;
-  private target = 0;     ///< beads that are laid
-  private painted = 0;    ///< of them, on the shown bitmap
-  private work: Work | null = null;
+  private target = 0;   ///< beads that are laid
+  private painted = 0;  ///< of them, on the shown bitmap
+  private known = 0;    ///< beads on the shown bitmap, pale ones included
+  private work: Work|null = null;
   private workBegan = 0;
   private ticking = false;
   private perStroke = 120;
@@ -40,11 +49,15 @@ export class CurveView extends HTMLElement {
 
   connectedCallback(): void {
     const zoomBy = (by: number) => () => this.zoom(by, this.size.width / 2, this.size.height / 2);
-    const button = (label: string, name: string, act: () => void) =>
-      h('button', { type: 'button', class: 'button quiet bare', 'aria-label': label, title: label, click: act }, icon(name));
+    const button = (label: string, name: string, act: () => void) => h(
+        'button', {type: 'button', class: 'button quiet bare', 'aria-label': label, title: label, click: act},
+        icon(name));
     this.stage.append(this.hiddenOne, this.shown, this.dot, this.note);
-    this.append(this.stage, h('div', { class: 'zoom' }, button(t('curve.closer'), 'plus', zoomBy(1.6)),
-                              button(t('curve.farther'), 'minus', zoomBy(1 / 1.6)), button(t('curve.fit'), 'fit', () => this.fit())));
+    this.append(
+        this.stage,
+        h('div', {class: 'zoom'}, button(t('curve.closer'), 'plus', zoomBy(1.6)),
+          button(t('curve.farther'), 'minus', zoomBy(1 / 1.6)),
+          button(t('curve.fit'), 'fit', () => this.fit())));
     this.listen();
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(this.stage);
@@ -73,17 +86,21 @@ export class CurveView extends HTMLElement {
 
   /** The ground is chosen so that all of these are seen on it: white filament, or black. */
   setColours(colours: string[]): void {
-    this.colours = colours.filter((text) => /^#[0-9a-f]{6}$/i.test(text)).map((text) => parseInt(text.slice(1), 16));
+    this.colours =
+        colours.filter((text) => /^#[0-9a-f]{6}$/i.test(text)).map((text) => parseInt(text.slice(1), 16));
     this.redraw();
   }
 
   /** Shows a layer of which `laid` beads are laid; null: none. */
-  show(path: LayerPath | null, laid: number): void {
-    const other = path?.layer !== this.path?.layer || path?.planned !== this.path?.planned;
+  show(path: LayerPath|null, laid: number): void {
+    const grown = path !== null && path === this.path, before = this.frame;
     this.path = path;
     this.target = path ? Math.min(laid, path.count) : 0;
     if (this.fitted) this.fitFrame();
-    if (other) this.pace = 0;
+    const still =
+        before.scale === this.frame.scale && before.left === this.frame.left && before.top === this.frame.top;
+    if (grown && still && this.target >= this.painted && path.count >= this.known) return this.tick();
+    this.pace = 0;
     this.begin();
   }
 
@@ -112,12 +129,16 @@ export class CurveView extends HTMLElement {
 
   private fitFrame(): void {
     const known = this.path && this.path.bounds[2] > this.path.bounds[0];
-    this.frame = fitting(known && this.path ? this.path.bounds : this.bed, this.size, 18 * this.ratio, 58 * this.ratio);
+    this.frame = fitting(
+        known && this.path ? this.path.bounds : this.bed, this.size, 18 * this.ratio, 58 * this.ratio);
   }
 
   private resize(): void {
     this.ratio = Math.min(2, devicePixelRatio || 1);
-    const size = { width: Math.round(this.stage.clientWidth * this.ratio), height: Math.round(this.stage.clientHeight * this.ratio) };
+    const size = {
+      width: Math.round(this.stage.clientWidth * this.ratio),
+      height: Math.round(this.stage.clientHeight * this.ratio)
+    };
     if (!size.width || (size.width === this.size.width && size.height === this.size.height)) return;
     this.size = size;
     for (const canvas of [this.shown, this.hiddenOne]) {
@@ -135,8 +156,7 @@ export class CurveView extends HTMLElement {
   private begin(): void {
     if (!this.size.width) return;
     this.place();
-    this.work = { frame: this.frame, at: 0, laid: this.target, pass: 'pale' };
-    this.work.at = this.work.laid;
+    this.work = {frame: this.frame, at: this.target, laid: this.target, known: 0, pass: 'pale'};
     this.workBegan = performance.now();
     this.timing.slice = this.timing.slices = 0;
     brushOf(this.hiddenOne).clearRect(0, 0, this.size.width, this.size.height);
@@ -149,13 +169,19 @@ export class CurveView extends HTMLElement {
     const frame = () => {
       this.ticking = false;
       if (!this.isConnected) return;
-      if (this.work) this.slice();
-      else this.advance();
-      if (this.work || (this.path && this.painted < this.target)) this.tick();
+      if (this.work)
+        this.slice();
+      else
+        this.advance();
+      if (this.work || (this.path && (this.painted < this.target || this.known < this.path.count)))
+        this.tick();
     };
-    if (document.hidden) window.setTimeout(frame, 50);
-    else if (this.work) after(frame);
-    else requestAnimationFrame(frame);
+    if (document.hidden)
+      window.setTimeout(frame, 50);
+    else if (this.work)
+      after(frame);
+    else
+      requestAnimationFrame(frame);
   }
 
   private slice(): void {
@@ -166,15 +192,18 @@ export class CurveView extends HTMLElement {
     while (path && performance.now() - began < sliceTime) {
       const end = work.pass === 'pale' ? path.count : work.laid;
       if (work.at < end) {
-        const shade = work.pass === 'pale' ? (colour: number) => pale(colour, ground, 0.26) : (colour: number) => colour;
+        const shade = work.pass === 'pale' ? (colour: number) => pale(colour, ground, paleShare) :
+                                             (colour: number) => colour;
         const before = performance.now();
         work.at = paintStroke(brush, path, work.at, end, work.frame, this.size, shade, this.perStroke);
         flush(brush);
         this.perStroke = adapted(this.perStroke, performance.now() - before);
       } else if (work.pass === 'pale') {
         work.pass = 'laid';
+        work.known = path.count;
         work.at = 0;
-      } else break;
+      } else
+        break;
     }
     this.timing.slices++;
     this.timing.slice = Math.max(this.timing.slice, performance.now() - began);
@@ -194,6 +223,7 @@ export class CurveView extends HTMLElement {
     this.hiddenOne.setAttribute('aria-hidden', 'true');
     this.drawn = work.frame;
     this.painted = work.laid;
+    this.known = work.known;
     this.place();
   }
 
@@ -202,9 +232,16 @@ export class CurveView extends HTMLElement {
     const path = this.path;
     if (!path || !this.drawn) return;
     const began = performance.now(), brush = brushOf(this.shown);
-    const end = Math.min(this.target, this.painted + (this.pace === Infinity ? this.target : Math.ceil(this.pace)));
+    while (this.known < path.count && performance.now() - began < 2)
+      this.known = paintStroke(
+          brush, path, Math.max(this.known, this.painted), path.count, this.drawn, this.size,
+          (colour) => pale(colour, this.ground, paleShare), 40);
+    const end = Math.min(
+        this.target, this.known,
+        this.painted + (this.pace === Infinity ? this.target : Math.max(1, Math.ceil(this.pace))));
     while (this.painted < end && performance.now() - began < 2)
-      this.painted = paintStroke(brush, path, this.painted, end, this.drawn, this.size, (colour) => colour, 40);
+      this.painted =
+          paintStroke(brush, path, this.painted, end, this.drawn, this.size, (colour) => colour, 40);
     flush(brush);
     this.timing.grow = Math.max(this.timing.grow, performance.now() - began);
     this.place();
@@ -212,16 +249,19 @@ export class CurveView extends HTMLElement {
 
   /** Moves the bitmap and the dot to where the wanted frame has them. */
   private place(): void {
-    const { frame, drawn, ratio, path } = this;
+    const {frame, drawn, ratio, path} = this;
     if (drawn) {
       const k = frame.scale / drawn.scale;
-      this.shown.style.transform = k === 1 && frame.left === drawn.left && frame.top === drawn.top ? '' :
-          `matrix(${k}, 0, 0, ${k}, ${(frame.left - drawn.left * k) / ratio}, ${(frame.top - drawn.top * k) / ratio})`;
+      this.shown.style.transform = k === 1 && frame.left === drawn.left && frame.top === drawn.top ?
+          '' :
+          `matrix(${k}, 0, 0, ${k}, ${(frame.left - drawn.left * k) / ratio}, ${
+              (frame.top - drawn.top * k) / ratio})`;
     }
     const laying = path && this.painted > 0 && (this.painted < path.count || !path.complete);
     this.dot.hidden = !laying;
     if (!path || !laying) return;
-    const x = (path.x[this.painted] * frame.scale + frame.left) / ratio, y = (frame.top - path.y[this.painted] * frame.scale) / ratio;
+    const x = (path.x[this.painted] * frame.scale + frame.left) / ratio,
+          y = (frame.top - path.y[this.painted] * frame.scale) / ratio;
     this.dot.style.transform = `translate(${x}px, ${y}px)`;
   }
 
@@ -230,8 +270,9 @@ export class CurveView extends HTMLElement {
   /** `x`, `y`: what stays where it is, in pixels of the bitmap. */
   private zoom(by: number, x: number, y: number): void {
     const least = fitting(this.bed, this.size, 0).scale * 0.5;
-    const scale = Math.min(400 * this.ratio, Math.max(least, this.frame.scale * by)), k = scale / this.frame.scale;
-    this.move({ scale, left: x + (this.frame.left - x) * k, top: y + (this.frame.top - y) * k });
+    const scale = Math.min(400 * this.ratio, Math.max(least, this.frame.scale * by)),
+          k = scale / this.frame.scale;
+    this.move({scale, left: x + (this.frame.left - x) * k, top: y + (this.frame.top - y) * k});
   }
 
   private move(frame: Frame): void {
@@ -241,7 +282,7 @@ export class CurveView extends HTMLElement {
   }
 
   private pan(dx: number, dy: number): void {
-    this.move({ ...this.frame, left: this.frame.left + dx, top: this.frame.top + dy });
+    this.move({...this.frame, left: this.frame.left + dx, top: this.frame.top + dy});
   }
 
   private listen(): void {
@@ -254,7 +295,7 @@ export class CurveView extends HTMLElement {
       if (!event.ctrlKey && !finePointer()) return;
       event.preventDefault();
       this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.06 : 0.002)), ...at(event));
-    }, { passive: false });
+    }, {passive: false});
     stage.addEventListener('pointerdown', (event) => {
       this.pointers.set(event.pointerId, at(event));
       if (event.pointerType === 'mouse' || !this.fitted) stage.setPointerCapture(event.pointerId);
@@ -268,7 +309,7 @@ export class CurveView extends HTMLElement {
     // A finger scrolls the page until the curve was zoomed; two fingers always zoom.
     stage.addEventListener('touchmove', (event) => {
       if (event.touches.length > 1 || !this.fitted) event.preventDefault();
-    }, { passive: false });
+    }, {passive: false});
     stage.addEventListener('dblclick', (event) => (this.fitted ? this.zoom(3, ...at(event)) : this.fit()));
     stage.addEventListener('keydown', (event) => this.key(event));
   }
@@ -290,9 +331,14 @@ export class CurveView extends HTMLElement {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const step = 60 * this.ratio, middle: [number, number] = [this.size.width / 2, this.size.height / 2];
     const acts: Record<string, () => void> = {
-      '+': () => this.zoom(1.4, ...middle), '=': () => this.zoom(1.4, ...middle), '-': () => this.zoom(1 / 1.4, ...middle),
-      '0': () => this.fit(), ArrowLeft: () => this.pan(step, 0), ArrowRight: () => this.pan(-step, 0),
-      ArrowUp: () => this.pan(0, step), ArrowDown: () => this.pan(0, -step),
+      '+': () => this.zoom(1.4, ...middle),
+      '=': () => this.zoom(1.4, ...middle),
+      '-': () => this.zoom(1 / 1.4, ...middle),
+      '0': () => this.fit(),
+      ArrowLeft: () => this.pan(step, 0),
+      ArrowRight: () => this.pan(-step, 0),
+      ArrowUp: () => this.pan(0, step),
+      ArrowDown: () => this.pan(0, -step),
     };
     const act = acts[event.key];
     if (!act) return;
@@ -309,7 +355,7 @@ const brushes = new WeakMap<HTMLCanvasElement, CanvasRenderingContext2D>();
 function brushOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   let brush = brushes.get(canvas);
   if (!brush) {
-    brush = canvas.getContext('2d', { willReadFrequently: true }) as CanvasRenderingContext2D;
+    brush = canvas.getContext('2d', {willReadFrequently: true}) as CanvasRenderingContext2D;
     brushes.set(canvas, brush);
   }
   brush.lineCap = 'round';
@@ -324,7 +370,13 @@ function flush(brush: CanvasRenderingContext2D): void {
 
 /** Beads of a stroke, so that it takes about a millisecond. */
 function adapted(beads: number, took: number): number {
-  return Math.min(2000, Math.max(24, took > 2 ? Math.floor(beads / 1.5) : took < 0.7 ? Math.ceil(beads * 1.3) : beads));
+  return Math.min(
+      2000,
+      Math.max(
+          24,
+          took > 2       ? Math.floor(beads / 1.5) :
+              took < 0.7 ? Math.ceil(beads * 1.3) :
+                           beads));
 }
 
 const channel = new MessageChannel();

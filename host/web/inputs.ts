@@ -1,9 +1,9 @@
 // What people type and choose, made into what the daemon takes.
-import type { Preferences } from './types';
-import { t } from './words';
+import type {Preferences} from './types';
+import {t} from './words';
 
 /** "2-5" or "3" as people count, from 1; nothing: all. Throws what to write instead. */
-export function layerRange(text: string): [number, number] | null {
+export function layerRange(text: string): [number, number]|null {
   if (!text.trim()) return null;
   const found = /^\s*(\d+)\s*(?:[-–:]\s*(\d+))?\s*$/.exec(text);
   const first = found ? Number(found[1]) : 0, last = found?.[2] ? Number(found[2]) : first;
@@ -21,7 +21,7 @@ export function plainName(name: string): string {
 export function presetsOf(text: string): NonNullable<Preferences['presets']> {
   return text.split('\n').filter((line) => line.trim()).map((line) => {
     const found = /^\s*(.+?)[\s,:;]+(\d+)[\s,/]+(\d+)\s*$/.exec(line);
-    if (!found) throw new Error(t('settings.presets_wrong', { line }));
-    return { name: found[1], nozzle_c: Number(found[2]), bed_c: Number(found[3]) };
+    if (!found) throw new Error(t('settings.presets_wrong', {line}));
+    return {name: found[1], nozzle_c: Number(found[2]), bed_c: Number(found[3])};
   });
 }

@@ -1,14 +1,14 @@
 // The layers of the print that goes on: which are known, and their curves, of which the last few are kept.
-import { api, ApiError } from './api';
-import { decodeChunk, LayerPath } from './path';
-import type { KnownLayer, Layers, Position } from './types';
+import {api, ApiError} from './api';
+import {decodeChunk, LayerPath} from './path';
+import type {KnownLayer, Layers, Position} from './types';
 
 const keptPaths = 4;
 
 export class PrintLayers {
-  info: Layers | null = null;
+  info: Layers|null = null;
   private readonly paths = new Map<number, LayerPath>();
-  private readonly loading = new Map<number, Promise<LayerPath | null>>();
+  private readonly loading = new Map<number, Promise<LayerPath|null>>();
 
   /** Fetches what is known now; null while no print goes on. */
   async refresh(): Promise<void> {
@@ -30,7 +30,7 @@ export class PrintLayers {
     return this.info?.known ?? [];
   }
 
-  about(layer: number): KnownLayer | undefined {
+  about(layer: number): KnownLayer|undefined {
     return this.known.find((one) => one.layer === layer);
   }
 
@@ -38,15 +38,16 @@ export class PrintLayers {
   learn(news: KnownLayer): void {
     if (!this.info) return;
     const old = this.about(news.layer);
-    if (old) Object.assign(old, news);
+    if (old)
+      Object.assign(old, news);
     else {
-      this.info.known.push({ ...news });
+      this.info.known.push({...news});
       this.info.known.sort((a, b) => a.layer - b.layer);
     }
   }
 
   /** The curve as far as it is known now; null if the daemon no longer has it. */
-  path(layer: number): Promise<LayerPath | null> {
+  path(layer: number): Promise<LayerPath|null> {
     const running = this.loading.get(layer);
     if (running) return running;
     const loading = this.fetch(layer).finally(() => this.loading.delete(layer));
@@ -54,22 +55,28 @@ export class PrintLayers {
     return loading;
   }
 
-  private async fetch(layer: number): Promise<LayerPath | null> {
+  private async fetch(layer: number): Promise<LayerPath|null> {
     const about = this.about(layer);
     let path = this.paths.get(layer);
-    // What was only planned comes all over again once it is encoded; so does what was computed again after a pause.
-    const void_ = path && about && (path.planned !== !!about.planned || about.beads < path.count || (path.complete && !about.complete));
-    if (!path || void_) path = new LayerPath(layer);
-    else if (path.complete || (about && about.beads <= path.count && !about.complete)) return path;
+    // What was only planned comes all over again once it is encoded; so does what was computed again after a
+    // pause.
+    const void_ = path && about &&
+        (path.planned !== !!about.planned || about.beads < path.count || (path.complete && !about.complete));
+    if (!path || void_)
+      path = new LayerPath(layer);
+    else if (path.complete || (about && about.beads <= path.count && !about.complete))
+      return path;
     try {
       const grows = path.count > 0 && this.paths.get(layer) === path;
-      const add = async (from: number) => path!.add(decodeChunk(await api.bytes(`/api/print/layers/${layer}/path?from=${from}`)));
+      const add = async (from: number) =>
+          path!.add(decodeChunk(await api.bytes(`/api/print/layers/${layer}/path?from=${from}`)));
       if (!(await add(grows ? path.count : 0)) && grows) await add(0);
     } catch (error) {
-      if (error instanceof ApiError && (error.status === 404 || error.status === 409)) return this.paths.get(layer) ?? null;
+      if (error instanceof ApiError && (error.status === 404 || error.status === 409))
+        return this.paths.get(layer) ?? null;
       throw error;
     }
-    if (about) Object.assign(about, { planned: path.planned, beads: Math.max(about.beads, path.count) });
+    if (about) Object.assign(about, {planned: path.planned, beads: Math.max(about.beads, path.count)});
     this.paths.delete(layer);
     this.paths.set(layer, path);
     for (const old of [...this.paths.keys()].slice(0, -keptPaths)) this.paths.delete(old);
@@ -78,7 +85,7 @@ export class PrintLayers {
 }
 
 /** How many of a layer's beads are laid. */
-export function laidOf(layer: number, position: Position | null, beads: number): number {
+export function laidOf(layer: number, position: Position|null, beads: number): number {
   if (position?.layer === undefined || layer > position.layer) return 0;
   return layer < position.layer ? beads : Math.min(beads, position.bead);
 }

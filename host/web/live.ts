@@ -1,23 +1,23 @@
-// What the page knows of the daemon at this moment, and the connection to it. Whoever shows something follows a
-// topic. When the connection is lost everything stays as it was, grey, until `up` says to fetch it again.
-import { access, api, ApiError } from './api';
-import { BackOff } from './back_off';
-import type { KnownLayer, LogLine, Position, Printer, PrintState, Status } from './types';
-import { Watchdog } from './watchdog';
+// What the page knows of the daemon at this moment, and the connection to it. Whoever shows something follows
+// a topic. When the connection is lost everything stays as it was, grey, until `up` says to fetch it again.
+import {access, api, ApiError} from './api';
+import {BackOff} from './back_off';
+import type {KnownLayer, LogLine, Position, Printer, PrintState, Status} from './types';
+import {Watchdog} from './watchdog';
 
-export type Topic = 'link' | 'up' | 'status' | 'position' | 'layer' | 'printer' | 'queue' | 'line' | 'question';
-export type LinkState = 'connecting' | 'up' | 'lost' | 'locked';
+export type Topic = 'link'|'up'|'status'|'position'|'layer'|'printer'|'queue'|'line'|'question';
+export type LinkState = 'connecting'|'up'|'lost'|'locked';
 
 class Live {
   link: LinkState = 'connecting';
-  status: Status | null = null;
-  printer: Printer | null = null;
-  position: Position | null = null;
+  status: Status|null = null;
+  printer: Printer|null = null;
+  position: Position|null = null;
   lostSince = 0;  ///< ms
   name = '';      ///< of the printer, as its owner calls it
 
   private followers = new Map<Topic, Set<(value: any) => void>>();
-  private socket: WebSocket | null = null;
+  private socket: WebSocket|null = null;
   private readonly waits = new BackOff();
   private readonly dog = new Watchdog(Date.now());
   private timer = 0;
@@ -36,7 +36,9 @@ class Live {
 
   start(): void {
     window.setInterval(() => this.watch(), 500);
-    const soon = () => { if (this.link === 'lost' && !document.hidden) void this.open(); };
+    const soon = () => {
+      if (this.link === 'lost' && !document.hidden) void this.open();
+    };
     window.addEventListener('online', soon);
     document.addEventListener('visibilitychange', soon);
     void this.open();
@@ -54,8 +56,10 @@ class Live {
       this.status = status;
       this.listen();
     } catch (error) {
-      if (error instanceof ApiError && (error.status === 401 || error.status === 403)) this.enter('locked');
-      else this.retry();
+      if (error instanceof ApiError && (error.status === 401 || error.status === 403))
+        this.enter('locked');
+      else
+        this.retry();
     }
   }
 
@@ -89,8 +93,14 @@ class Live {
       return;
     }
     switch (event.event) {
-      case 'status': this.take(event.status); break;
-      case 'state': case 'progress': case 'heat': case 'notice': case 'printer':
+      case 'status':
+        this.take(event.status);
+        break;
+      case 'state':
+      case 'progress':
+      case 'heat':
+      case 'notice':
+      case 'printer':
         this.takePrint(event.status);
         if (event.text) this.line(event.event === 'printer' ? 'printer' : 'notice', event.text);
         if (event.event === 'state') void this.refresh().catch(() => undefined);
@@ -103,16 +113,18 @@ class Live {
         this.position = event as Position;
         this.emit('position', this.position);
         break;
-      case 'layer': this.emit('layer', event as KnownLayer); break;
+      case 'layer':
+        this.emit('layer', event as KnownLayer);
+        break;
       case 'idle':
-        this.printer = { ...this.printer, ...event.printer };
+        this.printer = {...this.printer, ...event.printer};
         this.emit('printer', this.printer);
         break;
     }
   }
 
   private line(from: LogLine['from'], text: string): void {
-    this.emit('line', { id: -++this.unknownLines, time: Date.now() / 1000, from, text });
+    this.emit('line', {id: -++this.unknownLines, time: Date.now() / 1000, from, text});
   }
 
   private take(status: Status): void {
@@ -123,9 +135,9 @@ class Live {
     this.emit('status', status);
   }
 
-  private takePrint(print: PrintState | undefined): void {
+  private takePrint(print: PrintState|undefined): void {
     if (!print || !this.status) return;
-    this.status = { ...this.status, print };
+    this.status = {...this.status, print};
     this.emit('status', this.status);
   }
 
@@ -142,8 +154,10 @@ class Live {
     try {
       await this.refresh();
     } catch (error) {
-      if (error instanceof ApiError && error.status === 401) this.enter('locked');
-      else if (error instanceof TypeError) this.retry();  // refused or unreachable; a timeout waits for the watchdog
+      if (error instanceof ApiError && error.status === 401)
+        this.enter('locked');
+      else if (error instanceof TypeError)
+        this.retry();  // refused or unreachable; a timeout waits for the watchdog
     }
     this.asking = false;
   }

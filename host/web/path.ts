@@ -1,14 +1,18 @@
-// One layer's curve as `GET /api/print/layers/N/path` sends it (host/daemon/API.md): a head of 32 bytes and nine
-// bytes for each bead, little-endian. Coordinates become millimetres on the bed.
+// One layer's curve as `GET /api/print/layers/N/path` sends it (host/daemon/API.md): a head of 32 bytes and
+// nine bytes for each bead, little-endian. Coordinates become millimetres on the bed.
 
 const headBytes = 32, beadBytes = 9;
 
 export interface Chunk {
-  layer: number; first: number; count: number;
-  x0: number; y0: number;  ///< µm
-  top: number;             ///< mm
-  complete: boolean; planned: boolean;
-  revision: number;        ///< another one: what was read before is void
+  layer: number;
+  first: number;
+  count: number;
+  x0: number;
+  y0: number;   ///< µm
+  top: number;  ///< mm
+  complete: boolean;
+  planned: boolean;
+  revision: number;  ///< another one: what was read before is void
   beads: DataView;
 }
 
@@ -21,9 +25,15 @@ export function decodeChunk(bytes: ArrayBuffer): Chunk {
   if (bytes.byteLength < headBytes + count * beadBytes) throw new RangeError('the layer is cut off');
   const flags = view.getUint8(28);
   return {
-    layer: view.getUint32(4, true), first: view.getUint32(8, true), count,
-    x0: view.getInt32(16, true), y0: view.getInt32(20, true), top: view.getFloat32(24, true),
-    complete: (flags & 1) !== 0, planned: (flags & 2) !== 0, revision: view.getUint8(29),
+    layer: view.getUint32(4, true),
+    first: view.getUint32(8, true),
+    count,
+    x0: view.getInt32(16, true),
+    y0: view.getInt32(20, true),
+    top: view.getFloat32(24, true),
+    complete: (flags & 1) !== 0,
+    planned: (flags & 2) !== 0,
+    revision: view.getUint8(29),
     beads: new DataView(bytes, headBytes, count * beadBytes),
   };
 }
@@ -35,11 +45,11 @@ export class LayerPath {
   complete = false;
   planned = false;
   revision = 0;
-  x = new Float32Array(1);        ///< mm
+  x = new Float32Array(1);  ///< mm
   y = new Float32Array(1);
-  width = new Uint8Array(0);      ///< of 20 µm; 0: a travel
-  asked = new Uint8Array(0);      ///< index of a mixture; 255: none
-  colour = new Uint32Array(0);    ///< 0xrrggbb
+  width = new Uint8Array(0);                            ///< of 20 µm; 0: a travel
+  asked = new Uint8Array(0);                            ///< index of a mixture; 255: none
+  colour = new Uint32Array(0);                          ///< 0xrrggbb
   bounds = [Infinity, Infinity, -Infinity, -Infinity];  ///< of what is laid: least x and y, greatest x and y
 
   constructor(readonly layer: number) {}
@@ -63,7 +73,8 @@ export class LayerPath {
       this.y[k + 1] = y / 1000;
       this.width[k] = beads.getUint8(at + 4);
       this.asked[k] = beads.getUint8(at + 5);
-      this.colour[k] = (beads.getUint8(at + 6) << 16) | (beads.getUint8(at + 7) << 8) | beads.getUint8(at + 8);
+      this.colour[k] =
+          (beads.getUint8(at + 6) << 16) | (beads.getUint8(at + 7) << 8) | beads.getUint8(at + 8);
       if (this.width[k]) this.widen(k);
     }
     this.count += chunk.count;
@@ -90,7 +101,8 @@ export class LayerPath {
   private reserve(beads: number): void {
     if (beads <= this.width.length) return;
     const size = Math.max(beads, this.width.length * 2);
-    const grown = <T extends Float32Array | Uint8Array | Uint32Array>(from: T, to: T): T => (to.set(from as any), to);
+    const grown = <T extends Float32Array|Uint8Array|Uint32Array>(from: T, to: T): T =>
+        (to.set(from as any), to);
     this.x = grown(this.x, new Float32Array(size + 1));
     this.y = grown(this.y, new Float32Array(size + 1));
     this.width = grown(this.width, new Uint8Array(size));

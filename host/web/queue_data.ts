@@ -1,19 +1,23 @@
 // What the Print and the Queue page do with waiting jobs.
-import { api } from './api';
-import { ask } from './controls';
-import { plainName } from './inputs';
-import { live } from './live';
-import type { Job } from './types';
-import { t } from './words';
+import {api} from './api';
+import {ask} from './controls';
+import {plainName} from './inputs';
+import {live} from './live';
+import type {Job} from './types';
+import {t} from './words';
 
-/** Begins a job; the person has said that the bed is clear. Asks again if an interrupted print may stand on it. */
+/**
+ * Begins a job; the person has said that the bed is clear. Asks again if an interrupted print may stand on
+ * it.
+ */
 export async function printNow(job: Job): Promise<void> {
   if (live.status?.interrupted) {
-    const sure = await ask(t('idle.clear_title'), t('idle.clear_text'), [{ label: t('idle.clear_yes'), kind: 'main' }]);
+    const sure =
+        await ask(t('idle.clear_title'), t('idle.clear_text'), [{label: t('idle.clear_yes'), kind: 'main'}]);
     if (sure !== 0) return;
-    await api.post('/api/print/start', { id: job.id, bed_clear: true });
+    await api.post('/api/print/start', {id: job.id, bed_clear: true});
   } else {
-    await api.post('/api/print/start', { id: job.id });
+    await api.post('/api/print/start', {id: job.id});
   }
   await live.refresh();
 }
@@ -23,7 +27,7 @@ export async function upload(files: File[]): Promise<string[]> {
   const folder = plainName(files[0].name.replace(/\.[^.]*$/, '')) + '-' + Date.now().toString(36);
   const jobs: string[] = [];
   for (const file of files) {
-    const answer = await api.upload<{ job: string }>(`/api/files/${folder}/${plainName(file.name)}`, file);
+    const answer = await api.upload<{job: string}>(`/api/files/${folder}/${plainName(file.name)}`, file);
     jobs.push(answer.job);
   }
   return jobs;

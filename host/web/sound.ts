@@ -1,6 +1,6 @@
 // Two short tones when a print ends or the printer asks something; off until the person switches it on, as
 // browsers require.
-let audio: AudioContext | null = null;
+let audio: AudioContext|null = null;
 
 export const sound = {
   get on(): boolean {

@@ -1,5 +1,5 @@
 // Light, dark, or as the device has it.
-type Choice = 'auto' | 'light' | 'dark';
+type Choice = 'auto'|'light'|'dark';
 
 const choices: Choice[] = ['auto', 'light', 'dark'];
 const night = matchMedia('(prefers-color-scheme: dark)');

@@ -1,8 +1,8 @@
 // Decides from the times at which something was heard whether the daemon is there. Pure: times are handed in,
-// in milliseconds. The page does not see the pings of a WebSocket, so it asks after 2 s of silence, and calls the
-// connection lost after 4.3 s. Clocks jump while a laptop sleeps: a gap between two ticks says that nothing
-// older can be trusted.
-export type Verdict = 'well' | 'ask' | 'lost' | 'slept';
+// in milliseconds. The page does not see the pings of a WebSocket, so it asks after 2 s of silence, and calls
+// the connection lost after 4.3 s. Clocks jump while a laptop sleeps: a gap between two ticks says that
+// nothing older can be trusted.
+export type Verdict = 'well'|'ask'|'lost'|'slept';
 
 export class Watchdog {
   private ticked: number;

@@ -32,13 +32,13 @@ export function language(): string {
 }
 
 /** The text of a key, with {values}. */
-export function t(key: string, values: Record<string, string | number> = {}): string {
+export function t(key: string, values: Record<string, string|number> = {}): string {
   const text = texts[key] ?? fallback[key] ?? key;
   return text.replace(/\{(\w+)\}/g, (all, name) => (name in values ? String(values[name]) : all));
 }
 
 /** The text of a word of the daemon, such as a state; a word that is not known is shown as it is. */
-export function word(group: string, value: string | undefined): string {
+export function word(group: string, value: string|undefined): string {
   if (!value) return formats.unknown;
   const key = `${group}.${value}`;
   return texts[key] ?? fallback[key] ?? value;
@@ -49,11 +49,11 @@ export function plural(key: string, n: number): string {
   return word(key, new Intl.PluralRules(chosen).select(n)).replace('{n}', number(n));
 }
 
-export const number = (value: number | null | undefined, digits = 0) => formats.number(locale, value, digits);
-export const duration = (seconds: number | null | undefined) => formats.duration(seconds, t);
-export const moment = (when: number | null | undefined) => formats.moment(locale, when);
-export const shares = (values: number[] | undefined) => formats.shares(locale, values);
-export const percent = (value: number | null | undefined) => formats.percent(locale, value);
-export const celsius = (value: number | null | undefined) =>
-  (value === null || value === undefined ? formats.unknown : `${number(value)} °C`);
-export { colour, shortName, unknown } from './formats';
+export const number = (value: number|null|undefined, digits = 0) => formats.number(locale, value, digits);
+export const duration = (seconds: number|null|undefined) => formats.duration(seconds, t);
+export const moment = (when: number|null|undefined) => formats.moment(locale, when);
+export const shares = (values: number[]|undefined) => formats.shares(locale, values);
+export const percent = (value: number|null|undefined) => formats.percent(locale, value);
+export const celsius = (value: number|null|undefined) =>
+    (value === null || value === undefined ? formats.unknown : `${number(value)} °C`);
+export {colour, shortName, unknown} from './formats';

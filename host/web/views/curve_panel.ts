@@ -1,14 +1,14 @@
-// The face of the page: the layer's curve with its slider, and beneath it the colour that is fed, the one that
-// leaves the nozzle, and the next change.
-import { api } from '../api';
-import { swatch } from '../controls';
-import { CurveView } from '../curve_view';
-import { h, icon, setHidden, setText, View } from '../dom';
-import { laidOf, PrintLayers } from '../layers';
-import { live } from '../live';
-import { LayerPath } from '../path';
-import type { KnownLayer, Position } from '../types';
-import { number, plural, shares, t } from '../words';
+// The face of the page: the layer's curve with its slider, and beneath it the colour that is fed, the one
+// that leaves the nozzle, and the next change.
+import {api} from '../api';
+import {swatch} from '../controls';
+import {CurveView} from '../curve_view';
+import {h, icon, setHidden, setText, View} from '../dom';
+import {laidOf, PrintLayers} from '../layers';
+import {live} from '../live';
+import {LayerPath} from '../path';
+import type {KnownLayer, Position} from '../types';
+import {number, plural, shares, t} from '../words';
 
 /** States in which the daemon knows where the nozzle is. */
 const moving = ['printing', 'pausing', 'paused', 'resuming', 'finishing'];
@@ -23,7 +23,7 @@ export class CurvePanel extends View {
   private follow!: HTMLButtonElement;
   private following = true;
   private chosen = -1;
-  private path: LayerPath | null = null;
+  private path: LayerPath|null = null;
   private readonly fed = swatch();
   private readonly leaving = swatch();
   private readonly next = swatch();
@@ -35,25 +35,47 @@ export class CurvePanel extends View {
   private nextBox!: HTMLElement;
   private changeAt = 0;
   private print = -1;
+  private absent = -1;  ///< a layer that the daemon does not know yet
 
   protected show(): void {
     this.curve = new CurveView();
-    this.slider = h('input', { type: 'range', min: 0, max: 0, value: 0, class: 'layers', 'aria-label': t('curve.layer'), input: () => this.choose() });
-    this.label = h('output', { class: 'layer-label' });
-    this.follow = h('button', { type: 'button', class: 'button quiet follow', 'aria-pressed': 'true', click: () => this.setFollowing(!this.following) },
-                    icon('follow'), h('span', {}, t('curve.follow')));
+    this.slider = h('input', {
+      type: 'range',
+      min: 0,
+      max: 0,
+      value: 0,
+      class: 'layers',
+      'aria-label': t('curve.layer'),
+      input: () => this.choose()
+    });
+    this.label = h('output', {class: 'layer-label'});
+    this.follow =
+        h('button', {
+          type: 'button',
+          class: 'button quiet follow',
+          'aria-pressed': 'true',
+          click: () => this.setFollowing(!this.following)
+        },
+          icon('follow'), h('span', {}, t('curve.follow')));
     const line = (name: string, dot: HTMLElement) => {
-      const text = h('span', { class: 'what' }), more = h('span', { class: 'soft' });
-      return [h('div', { class: 'flowing' }, dot, h('div', {}, h('span', { class: 'label' }, name), text, more)), text, more];
+      const text = h('span', {class: 'what'}), more = h('span', {class: 'soft'});
+      return [
+        h('div', {class: 'flowing'}, dot, h('div', {}, h('span', {class: 'label'}, name), text, more)), text,
+        more
+      ];
     };
     const [fed, fedText, fedShares] = line(t('colour.fed'), this.fed);
     const [leaving, leavingText, leavingShares] = line(t('colour.leaving'), this.leaving);
     const [next, nextText] = line(t('colour.next'), this.next);
-    Object.assign(this, { fedText, fedShares, leavingText, leavingShares, nextText, nextBox: next });
-    this.append(this.curve, h('div', { class: 'layer-row' }, this.label, this.slider, this.follow),
-                h('div', { class: 'colours' }, leaving, fed, next));
-    this.until(live.on('position', () => this.move()), live.on('layer', (layer: KnownLayer) => void this.learn(layer)),
-               live.on('up', () => void this.begin()), live.on('status', () => this.noticePrint()), live.on('printer', () => this.showBed()));
+    Object.assign(this, {fedText, fedShares, leavingText, leavingShares, nextText, nextBox: next});
+    this.append(
+        this.curve, h('div', {class: 'layer-row'}, this.label, this.slider, this.follow),
+        h('div', {class: 'colours'}, leaving, fed, next));
+    this.until(
+        live.on('position', () => this.move()),
+        live.on('layer', (layer: KnownLayer) => void this.learn(layer)),
+        live.on('up', () => void this.begin()), live.on('status', () => this.noticePrint()),
+        live.on('printer', () => this.showBed()));
     this.every(500, () => this.showNext());
     this.showBed();
     this.showColours();
@@ -75,7 +97,8 @@ export class CurvePanel extends View {
       return;  // the connection is gone; `up` calls again
     }
     if (!this.isConnected) return;
-    const used = this.layers.info?.mixtures?.length ? this.layers.info.mixtures : this.layers.info?.filaments ?? [];
+    const used =
+        this.layers.info?.mixtures?.length ? this.layers.info.mixtures : this.layers.info?.filaments ?? [];
     this.curve.setColours(used.map((one) => one.colour ?? ''));
     this.showSlider();
     this.move();
@@ -106,14 +129,15 @@ export class CurvePanel extends View {
   private async fetchShown(again = true): Promise<void> {
     const layer = this.shownLayer;
     if (layer < 0) return;
-    let path: LayerPath | null;
+    let path: LayerPath|null;
     try {
-      path = await this.layers.path(layer);
+      path = this.layers.about(layer) ? await this.layers.path(layer) : null;
     } catch {
       return;
     }
     if (!this.isConnected || layer !== this.shownLayer) return;
     this.path = path;
+    this.absent = path ? -1 : layer;
     this.curve.say(path && path.count ? '' : t('curve.unknown'));
     this.curve.show(path, path ? laidOf(layer, live.position, path.count) : 0);
     this.showLabel();
@@ -125,6 +149,7 @@ export class CurvePanel extends View {
     this.showColours();
     const layer = this.shownLayer;
     if (layer !== this.path?.layer) {
+      if (layer === this.absent) return;
       this.showSlider();
       void this.fetchShown();
     } else if (this.path) {
@@ -165,14 +190,17 @@ export class CurvePanel extends View {
   private showLabel(): void {
     const layer = this.shownLayer, about = this.layers.about(layer), at = live.position?.layer ?? -1;
     const sort = layer === at ? 'now' : layer < at ? 'laid' : 'planned';
-    const words = layer < 0 ? '' : t(`curve.${sort}`, { layer: number(layer + 1) });
+    const words = layer < 0 ? '' : t(`curve.${sort}`, {layer: number(layer + 1)});
     setText(this.label, words);
     this.slider.setAttribute('aria-valuetext', words);
     const all = this.layers.info?.layers;
     const laid = about && layer >= 0 ? laidOf(layer, live.position, about.beads) : 0;
     this.curve.describe(layer < 0 ? t('curve.none') : t('curve.words', {
-      layer: number(layer + 1), layers: all ? number(all) : t('unknown'), laid: number(laid),
-      beads: about ? plural('beads', about.beads) : t('unknown'), colour: live.position?.leaving?.nearest ?? t('unknown'),
+      layer: number(layer + 1),
+      layers: all ? number(all) : t('unknown'),
+      laid: number(laid),
+      beads: about ? plural('beads', about.beads) : t('unknown'),
+      colour: live.position?.leaving?.nearest ?? t('unknown'),
     }));
   }
 
@@ -183,7 +211,11 @@ export class CurvePanel extends View {
     setText(this.fedText, position?.fed?.name ?? t('unknown'));
     setText(this.fedShares, position?.fed?.shares ? shares(position.fed.shares) : '');
     const leaving = position?.leaving;
-    setText(this.leavingText, leaving?.nearest ? t(leaving.nearest === position?.fed?.name ? 'colour.is' : 'colour.nearest', { name: leaving.nearest }) : t('unknown'));
+    setText(
+        this.leavingText,
+        leaving?.nearest ? t(leaving.nearest === position?.fed?.name ? 'colour.is' : 'colour.nearest',
+                             {name: leaving.nearest}) :
+                           t('unknown'));
     setText(this.leavingShares, leaving?.shares ? shares(leaving.shares) : '');
     this.next.show(position?.change?.colour);
     this.changeAt = position?.change ? Date.now() + position.change.seconds * 1000 : 0;
@@ -196,7 +228,9 @@ export class CurvePanel extends View {
     setHidden(this.nextBox, !live.position);
     if (!change) return setText(this.nextText, t('colour.no_change'));
     const seconds = Math.max(0, (this.changeAt - Date.now()) / 1000);
-    setText(this.nextText, t('colour.in', { name: change.name ?? t('colour.another'), s: number(seconds, seconds < 10 ? 1 : 0) }));
+    setText(
+        this.nextText,
+        t('colour.in', {name: change.name ?? t('colour.another'), s: number(seconds, seconds < 10 ? 1 : 0)}));
   }
 }
 

@@ -1,13 +1,13 @@
 // The first run, for a daemon without a profile: step by step from the port to the first print.
-import { api, ApiError } from '../api';
-import { command, empty, load } from '../controls';
-import { Child, fill, h, View } from '../dom';
-import { live } from '../live';
-import type { Finding, Port, Printer } from '../types';
-import { t } from '../words';
-import { findingList } from './checks';
-import { FilamentPanel } from './filaments';
-import { ProfilePanel } from './profile';
+import {api, ApiError} from '../api';
+import {command, empty, labelFor, load} from '../controls';
+import {Child, fill, h, View} from '../dom';
+import {live} from '../live';
+import type {Finding, Port, Printer} from '../types';
+import {t} from '../words';
+import {findingList} from './checks';
+import {FilamentPanel} from './filaments';
+import {ProfilePanel} from './profile';
 
 // The step "tune" names the command, until the page can do it itself.
 const names = ['port', 'profile', 'doctor', 'filaments', 'load', 'tune', 'simulate', 'print'];
@@ -21,11 +21,26 @@ export class FirstRun extends View {
   }
 
   private draw(): void {
-    const name = names[this.step], body = h('div', { class: 'stack' });
-    const steps = h('ol', { class: 'steps' }, ...names.map((one, n) => h('li', { 'aria-current': n === this.step ? 'step' : undefined, class: n < this.step ? 'done' : '' }, t(`first.${one}`))));
-    const back = h('button', { type: 'button', class: 'button quiet', disabled: this.step === 0, click: () => this.go(-1) }, t('first.back'));
-    const next = h('button', { type: 'button', class: 'button main', click: () => this.go(1) }, t(this.step === names.length - 1 ? 'first.end' : 'first.next'));
-    fill(this, h('section', { class: 'card first' }, h('h1', {}, t('first.title')), steps, h('h2', {}, t(`first.${name}`)), h('p', { class: 'prose' }, t(`first.${name}_text`)), body, h('div', { class: 'row end' }, back, next)));
+    const name = names[this.step], body = h('div', {class: 'stack'});
+    const steps =
+        h('ol', {class: 'steps'},
+          ...names.map(
+              (one, n) => h(
+                  'li',
+                  {'aria-current': n === this.step ? 'step' : undefined, class: n < this.step ? 'done' : ''},
+                  t(`first.${one}`))));
+    const back =
+        h('button',
+          {type: 'button', class: 'button quiet', disabled: this.step === 0, click: () => this.go(-1)},
+          t('first.back'));
+    const next =
+        h('button', {type: 'button', class: 'button main', click: () => this.go(1)},
+          t(this.step === names.length - 1 ? 'first.end' : 'first.next'));
+    fill(
+        this,
+        h('section', {class: 'card first'}, h('h1', {}, t('first.title')), steps,
+          h('h2', {}, t(`first.${name}`)), h('p', {class: 'prose'}, t(`first.${name}_text`)), body,
+          h('div', {class: 'row end'}, back, next)));
     this.fillStep(name, body);
   }
 
@@ -44,49 +59,88 @@ export class FirstRun extends View {
     if (name === 'filaments') put(new ProfilePanel());
     if (name === 'load') put(new FilamentPanel());
     if (name === 'tune') put(h('code', {}, 'unicursal tune transition PROFILE'));
-    if (name === 'simulate') put(command({ label: t('first.simulate_do'), right: 'queue', run: async () => {
-      await api.post('/api/dry-runs', { job: 'leaf.toml' });
-      location.hash = '#/dry-run';
-    } }));
-    if (name === 'print') put(command({ label: t('first.print_do'), right: 'queue', run: async () => {
-      await api.post('/api/jobs', { job: 'leaf.toml' });
-      location.hash = '#/print';
-    } }));
+    if (name === 'simulate')
+      put(command({
+        label: t('first.simulate_do'),
+        right: 'queue',
+        run: async () => {
+          await api.post('/api/dry-runs', {job: 'leaf.toml'});
+          location.hash = '#/dry-run';
+        }
+      }));
+    if (name === 'print')
+      put(command({
+        label: t('first.print_do'),
+        right: 'queue',
+        run: async () => {
+          await api.post('/api/jobs', {job: 'leaf.toml'});
+          location.hash = '#/print';
+        }
+      }));
   }
 
   private choosePort(place: HTMLElement): void {
-    void load(place, () => api.get<{ ports: Port[] }>('/api/ports'), (answer) => {
-      const choice = (value: string, name: string, about: string) => h('label', { class: 'option' },
-        h('input', { type: 'radio', name: 'port', value, checked: value === this.port, change: () => { this.port = value; } }), h('span', {}, h('span', { class: 'strong' }, name), ' ', h('span', { class: 'soft' }, about)));
-      fill(place, choice('auto', t('first.auto'), t('first.auto_text')), ...answer.ports.map((port) => choice(port.stable_path || port.path, port.description || port.path, port.path)),
-           answer.ports.length ? null : empty(t('ports.none'), t('ports.none_text')));
+    void load(place, () => api.get<{ports: Port[]}>('/api/ports'), (answer) => {
+      const choice = (value: string, name: string, about: string) =>
+          h('label', {class: 'option'}, h('input', {
+              type: 'radio',
+              name: 'port',
+              value,
+              checked: value === this.port,
+              change: () => {
+                this.port = value;
+              }
+            }),
+            h('span', {}, h('span', {class: 'strong'}, name), ' ', h('span', {class: 'soft'}, about)));
+      fill(
+          place, choice('auto', t('first.auto'), t('first.auto_text')),
+          ...answer.ports.map(
+              (port) => choice(port.stable_path || port.path, port.description || port.path, port.path)),
+          answer.ports.length ? null : empty(t('ports.none'), t('ports.none_text')));
     });
   }
 
   private chooseFrame(place: HTMLElement): void {
-    void load(place, () => api.get<{ frames: { name: string; title: string }[] }>('/api/frames'), (answer) => {
-      const frame = h('select', { id: 'frame' }, ...answer.frames.map((one) => h('option', { value: one.name }, one.title))), name = h('input', { id: 'printer-name', maxlength: 80 });
-      const make = command({ label: t('first.profile_do'), kind: 'main', right: 'all', run: async () => {
-        await api.post('/api/profile/new', { frame: frame.value, name: name.value || frame.value, port: this.port });
-        live.printer = await api.get<Printer>('/api/printer');
-        live.emit('printer', live.printer);
-        this.go(1);
-      } });
-      fill(place, h('label', { for: 'frame' }, t('first.frame')), frame, h('label', { for: 'printer-name' }, t('settings.name')), name, h('div', { class: 'row' }, make));
+    void load(place, () => api.get<{frames: {name: string; title: string}[]}>('/api/frames'), (answer) => {
+      const frame =
+                h('select', {id: 'frame'},
+                  ...answer.frames.map((one) => h('option', {value: one.name}, one.title))),
+            name = h('input', {id: 'printer-name', maxlength: 80});
+      const make = command({
+        label: t('first.profile_do'),
+        kind: 'main',
+        right: 'all',
+        run: async () => {
+          await api.post(
+              '/api/profile/new', {frame: frame.value, name: name.value || frame.value, port: this.port});
+          live.printer = await api.get<Printer>('/api/printer');
+          live.emit('printer', live.printer);
+          this.go(1);
+        }
+      });
+      fill(
+          place, labelFor('frame', t('first.frame')), frame, labelFor('printer-name', t('settings.name')),
+          name, h('div', {class: 'row'}, make));
     });
   }
 
   private doctor(place: HTMLElement): void {
     const findings = h('div', {});
-    const run = command({ label: t('doctor.ask'), kind: 'main', run: async () => {
-      fill(findings, h('p', { class: 'loading' }, t('doctor.runs')));
-      try {
-        fill(findings, findingList((await api.post<{ findings: Finding[] }>('/api/doctor')).findings));
-      } catch (error) {
-        fill(findings, h('p', { class: 'warning' }, error instanceof ApiError ? error.message : t('error.unreachable')));
+    const run = command({
+      label: t('doctor.ask'),
+      kind: 'main',
+      run: async () => {
+        fill(findings, h('p', {class: 'loading'}, t('doctor.runs')));
+        try {
+          fill(findings, findingList((await api.post<{findings: Finding[]}>('/api/doctor')).findings));
+        } catch (error) {
+          fill(
+              findings,
+              h('p', {class: 'warning'}, error instanceof ApiError ? error.message : t('error.unreachable')));
+        }
       }
-    } });
-    fill(place, findings, h('div', { class: 'row' }, run));
+    });
+    fill(place, findings, h('div', {class: 'row'}, run));
   }
 }
 

@@ -1,19 +1,19 @@
 // Temperatures: now in numbers, and the last hour as a chart.
-import { api, ApiError } from '../api';
-import { chart, Line } from '../chart';
-import { h, setHidden, setText, View } from '../dom';
-import { live } from '../live';
-import type { Heater, Temperatures } from '../types';
-import { celsius, t } from '../words';
+import {api, ApiError} from '../api';
+import {chart, Line} from '../chart';
+import {h, setHidden, setText, View} from '../dom';
+import {live} from '../live';
+import type {Heater, Temperatures} from '../types';
+import {celsius, t} from '../words';
 
 export class HeatPanel extends View {
-  private rows: (number | null)[][] = [];
+  private rows: (number|null)[][] = [];
   private columns: string[] = [];
   private until_ = 0;  ///< the daemon's time of the last answer, s
 
   protected show(): void {
     const picture = chart(t('heat.title'));
-    const nozzle = h('span', { class: 'now' }), bed = h('span', { class: 'now' });
+    const nozzle = h('span', {class: 'now'}), bed = h('span', {class: 'now'});
     const numbers = () => {
       const print = live.busy ? live.status?.print : undefined;
       setText(nozzle, heater(print?.nozzle ?? live.printer?.nozzle));
@@ -32,12 +32,18 @@ export class HeatPanel extends View {
     this.className = 'card heat';
     this.setAttribute('role', 'region');
     this.setAttribute('aria-label', t('heat.title'));
-    this.append(h('h2', {}, t('heat.title')),
-                h('div', { class: 'legend' }, h('span', { class: 'key nozzle-key' }, t('heat.nozzle')), nozzle, h('span', { class: 'key bed-key' }, t('heat.bed')), bed), picture);
+    this.append(
+        h('h2', {}, t('heat.title')),
+        h('div', {class: 'legend'}, h('span', {class: 'key nozzle-key'}, t('heat.nozzle')), nozzle,
+          h('span', {class: 'key bed-key'}, t('heat.bed')), bed),
+        picture);
     const redraw = () => picture.draw(this.lines(), this.until_);
     document.addEventListener('theme', redraw);
-    this.until(live.on('status', numbers), live.on('printer', numbers), live.on('up', () => { this.rows = []; this.until_ = 0; void refresh(); }),
-               () => document.removeEventListener('theme', redraw));
+    this.until(live.on('status', numbers), live.on('printer', numbers), live.on('up', () => {
+      this.rows = [];
+      this.until_ = 0;
+      void refresh();
+    }), () => document.removeEventListener('theme', redraw));
     this.every(5000, () => void refresh());
     numbers();
     void refresh();
@@ -53,17 +59,18 @@ export class HeatPanel extends View {
 
   private lines(): Line[] {
     const column = (name: string) => this.columns.indexOf(name);
-    const points = (name: string): [number, number | null][] => this.rows.map((row) => [row[0] ?? 0, row[column(name)] ?? null]);
+    const points = (name: string): [number, number|null][] =>
+        this.rows.map((row) => [row[0] ?? 0, row[column(name)] ?? null]);
     return [
-      { name: t('heat.nozzle_target'), colour: '--hot', dashed: true, points: points('nozzle_target') },
-      { name: t('heat.bed_target'), colour: '--warm', dashed: true, points: points('bed_target') },
-      { name: t('heat.nozzle'), colour: '--hot', points: points('nozzle') },
-      { name: t('heat.bed'), colour: '--warm', points: points('bed') },
+      {name: t('heat.nozzle_target'), colour: '--hot', dashed: true, points: points('nozzle_target')},
+      {name: t('heat.bed_target'), colour: '--warm', dashed: true, points: points('bed_target')},
+      {name: t('heat.nozzle'), colour: '--hot', points: points('nozzle')},
+      {name: t('heat.bed'), colour: '--warm', points: points('bed')},
     ];
   }
 }
 
-function heater(value: Heater | undefined): string {
+function heater(value: Heater|undefined): string {
   const now = celsius(value?.actual_c);
   return value?.target_c ? `${now} → ${celsius(value.target_c)}` : now;
 }

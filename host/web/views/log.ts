@@ -1,9 +1,9 @@
 // Notices and lines of the printer, newest last.
-import { api, ApiError } from '../api';
-import { fillList, h, setHidden, View } from '../dom';
-import { live } from '../live';
-import type { LogLine } from '../types';
-import { moment, t } from '../words';
+import {api, ApiError} from '../api';
+import {fillList, h, setHidden, View} from '../dom';
+import {live} from '../live';
+import type {LogLine} from '../types';
+import {moment, t} from '../words';
 
 const most = 200;
 
@@ -15,12 +15,15 @@ export class LogPanel extends View {
 
   protected show(): void {
     let lines: LogLine[] = [], next = 0, numbered = false, running = false;
-    const list = h('ol', { class: 'log', tabindex: 0, 'aria-label': t('log.title') }), none = h('p', { class: 'soft' }, t('log.none'));
+    const list = h('ol', {class: 'log', tabindex: 0, 'aria-label': t('log.title')}),
+          none = h('p', {class: 'soft'}, t('log.none'));
     const draw = () => {
       const shown = lines.filter((line) => this.all || line.from !== 'printer').slice(-most);
       const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 8;
-      fillList(list, shown, (line) => line.id, (line) =>
-        h('li', { class: line.from }, h('time', {}, moment(line.time)), h('span', {}, line.text)), () => undefined);
+      fillList(
+          list, shown, (line) => line.id,
+          (line) => h('li', {class: line.from}, h('time', {}, moment(line.time)), h('span', {}, line.text)),
+          () => undefined);
       setHidden(none, shown.length > 0);
       setHidden(list, shown.length === 0);
       if (atEnd) list.scrollTop = list.scrollHeight;
@@ -29,7 +32,7 @@ export class LogPanel extends View {
       if (!live.ready || document.hidden || running) return;
       running = true;
       try {
-        const answer = await api.get<{ next: number; lines: LogLine[] }>(`/api/log?since=${next}`);
+        const answer = await api.get<{next: number; lines: LogLine[]}>(`/api/log?since=${next}`);
         if (!numbered || answer.next < next) lines = [];
         numbered = true;
         next = answer.next;
@@ -46,7 +49,12 @@ export class LogPanel extends View {
     this.setAttribute('aria-label', t('log.title'));
     this.append(h('h2', {}, t(this.all ? 'log.serial' : 'log.title')), list, none);
     let soon = 0;
-    this.until(live.on('up', () => { lines = []; next = 0; numbered = false; void refresh(); }), live.on('line', (line: LogLine) => {
+    this.until(live.on('up', () => {
+      lines = [];
+      next = 0;
+      numbered = false;
+      void refresh();
+    }), live.on('line', (line: LogLine) => {
       if (!numbered) {
         lines.push(line);
         return draw();

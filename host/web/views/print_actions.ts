@@ -1,9 +1,10 @@
-// Pause, resume, cancel, and apart from them, red, the stop at once. On a phone they stay at the foot of the screen.
-import { api } from '../api';
-import { ask, command } from '../controls';
-import { h, setHidden, View } from '../dom';
-import { live } from '../live';
-import { t } from '../words';
+// Pause, resume, cancel, and apart from them, red, the stop at once. On a phone they stay at the foot of the
+// screen.
+import {api} from '../api';
+import {ask, command} from '../controls';
+import {h, setHidden, View} from '../dom';
+import {live} from '../live';
+import {t} from '../words';
 
 export class PrintActions extends View {
   protected show(): void {
@@ -11,15 +12,19 @@ export class PrintActions extends View {
       await api.post(`/api/print/${what}`);
       await live.refresh();
     };
-    const pause = command({ label: t('print.pause'), icon: 'pause', kind: 'main', run: give('pause') });
-    const resume = command({ label: t('print.resume'), icon: 'play', kind: 'main', run: give('resume') });
+    const pause = command({label: t('print.pause'), icon: 'pause', kind: 'main', run: give('pause')});
+    const resume = command({label: t('print.resume'), icon: 'play', kind: 'main', run: give('resume')});
     const cancel = command({
-      label: t('print.cancel'), icon: 'cancel', run: async () => {
-        const sure = await ask(t('print.cancel_title'), t('print.cancel_text'), [{ label: t('print.cancel_yes'), kind: 'danger' }]);
+      label: t('print.cancel'),
+      icon: 'cancel',
+      run: async () => {
+        const sure = await ask(
+            t('print.cancel_title'), t('print.cancel_text'),
+            [{label: t('print.cancel_yes'), kind: 'danger'}]);
         if (sure === 0) await give('cancel')();
       },
     });
-    const stop = command({ label: t('print.stop'), icon: 'stop', kind: 'danger stop', run: give('stop') });
+    const stop = command({label: t('print.stop'), icon: 'stop', kind: 'danger stop', run: give('stop')});
     stop.title = t('print.stop_help');
     const draw = () => {
       const state = live.state, paused = state === 'paused' || state === 'resuming';
@@ -34,7 +39,7 @@ export class PrintActions extends View {
     };
     this.setAttribute('role', 'group');
     this.setAttribute('aria-label', t('print.actions'));
-    this.append(pause, resume, cancel, h('span', { class: 'apart' }), stop);
+    this.append(pause, resume, cancel, h('span', {class: 'apart'}), stop);
     this.until(live.on('status', draw), live.on('up', draw));
     draw();
   }

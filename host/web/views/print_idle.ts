@@ -1,13 +1,13 @@
-// Print while nothing is printed: an interrupted print first, then what waits, with one button to begin; and how
-// the last print ended.
-import { api } from '../api';
-import { ask, card, command, empty } from '../controls';
-import { fill, h, View } from '../dom';
-import { live } from '../live';
-import { printNow } from '../queue_data';
-import type { Job } from '../types';
-import { duration, moment, percent, plural, shortName, t, word } from '../words';
-import { gramsOf, picture } from './job_parts';
+// Print while nothing is printed: an interrupted print first, then what waits, with one button to begin; and
+// how the last print ended.
+import {api} from '../api';
+import {ask, card, command, empty} from '../controls';
+import {fill, h, View} from '../dom';
+import {live} from '../live';
+import {printNow} from '../queue_data';
+import type {Job} from '../types';
+import {duration, moment, percent, plural, shortName, t, word} from '../words';
+import {gramsOf, picture} from './job_parts';
 
 export class PrintIdle extends View {
   private jobs: Job[] = [];
@@ -16,10 +16,12 @@ export class PrintIdle extends View {
   protected show(): void {
     const refresh = async () => {
       if (!live.ready) return;
-      this.jobs = (await api.get<{ jobs: Job[] }>('/api/jobs').catch(() => ({ jobs: this.jobs }))).jobs;
+      this.jobs = (await api.get<{jobs: Job[]}>('/api/jobs').catch(() => ({jobs: this.jobs}))).jobs;
       this.draw();
     };
-    this.until(live.on('queue', () => void refresh()), live.on('up', () => void refresh()), live.on('status', () => this.draw()));
+    this.until(
+        live.on('queue', () => void refresh()), live.on('up', () => void refresh()),
+        live.on('status', () => this.draw()));
     this.draw();
     void refresh();
   }
@@ -27,11 +29,14 @@ export class PrintIdle extends View {
   private draw(): void {
     const status = live.status;
     const waiting = this.jobs.filter((job) => job.state === 'queued');
-    const now = JSON.stringify([status?.interrupted, status?.last?.job, status?.last?.print?.state, status?.problem, waiting]);
+    const now = JSON.stringify(
+        [status?.interrupted, status?.last?.job, status?.last?.print?.state, status?.problem, waiting]);
     if (now === this.drawn) return;
     this.drawn = now;
-    fill(this, status?.problem ? h('p', { class: 'warning' }, status.problem) : null, status?.interrupted ? this.interrupted() : null,
-         ...(this.failed ? [this.last(), this.next(waiting)] : [this.next(waiting), this.last()]));
+    fill(
+        this, status?.problem ? h('p', {class: 'warning'}, status.problem) : null,
+        status?.interrupted ? this.interrupted() : null,
+        ...(this.failed ? [this.last(), this.next(waiting)] : [this.next(waiting), this.last()]));
   }
 
   private get failed(): boolean {
@@ -40,9 +45,15 @@ export class PrintIdle extends View {
 
   private interrupted(): HTMLElement {
     const print = live.status?.interrupted;
-    const resume = command({ label: t('resume.continue'), icon: 'play', kind: 'main', run: () => this.resume(print?.question ?? '') });
-    return card(t('resume.title'), 'attention', h('p', { class: 'strong' }, shortName(print?.job)),
-                h('p', {}, print?.question ?? t('resume.text')), h('div', { class: 'row' }, resume));
+    const resume = command({
+      label: t('resume.continue'),
+      icon: 'play',
+      kind: 'main',
+      run: () => this.resume(print?.question ?? '')
+    });
+    return card(
+        t('resume.title'), 'attention', h('p', {class: 'strong'}, shortName(print?.job)),
+        h('p', {}, print?.question ?? t('resume.text')), h('div', {class: 'row'}, resume));
   }
 
   private async resume(question: string): Promise<void> {
@@ -50,34 +61,47 @@ export class PrintIdle extends View {
       await api.post('/api/print/resume');
       return live.refresh();
     }
-    const sure = await ask(t('resume.title'), question, [{ label: t('resume.sure'), kind: 'main' }]);
+    const sure = await ask(t('resume.title'), question, [{label: t('resume.sure'), kind: 'main'}]);
     if (sure !== 0) return;
-    await api.post('/api/print/resume', { sure: true });
+    await api.post('/api/print/resume', {sure: true});
     await live.refresh();
   }
 
   private next(waiting: Job[]): HTMLElement {
     const job = waiting[0];
     if (!job)
-      return card(t('idle.title'), 'next', empty(t('idle.none'), t('idle.none_text')), h('div', { class: 'row' }, h('a', { class: 'button main', href: '#/queue' }, t('idle.add'))));
-    const start = command({ label: t('idle.clear_print'), icon: 'play', kind: 'main big', run: () => printNow(job) });
-    const facts = [job.seconds === undefined ? '' : duration(job.seconds), gramsOf(job)].filter(Boolean).join(' · ');
-    const more = waiting.length > 1 ? h('a', { href: '#/queue', class: 'more' }, plural('idle.more', waiting.length - 1)) : null;
-    const name = h('h3', { class: 'job', title: job.job }, shortName(job.job));
-    return card(t('idle.next'), 'next', picture(job.id, job.job, 'large'),
-                h('div', { class: 'stack' }, name, facts ? h('p', { class: 'soft' }, facts) : null,
-                  job.reason ? h('p', { class: 'warning' }, job.reason) : null, h('div', { class: 'row' }, start), more));
+      return card(
+          t('idle.title'), 'next', empty(t('idle.none'), t('idle.none_text')),
+          h('div', {class: 'row'}, h('a', {class: 'button main', href: '#/queue'}, t('idle.add'))));
+    const start =
+        command({label: t('idle.clear_print'), icon: 'play', kind: 'main big', run: () => printNow(job)});
+    const facts =
+        [job.seconds === undefined ? '' : duration(job.seconds), gramsOf(job)].filter(Boolean).join(' · ');
+    const more = waiting.length > 1 ?
+        h('a', {href: '#/queue', class: 'more'}, plural('idle.more', waiting.length - 1)) :
+        null;
+    const name = h('h3', {class: 'job', title: job.job}, shortName(job.job));
+    return card(
+        t('idle.next'), 'next', picture(job.id, job.job, 'large'),
+        h('div', {class: 'stack'}, name, facts ? h('p', {class: 'soft'}, facts) : null,
+          job.reason ? h('p', {class: 'warning'}, job.reason) : null, h('div', {class: 'row'}, start), more));
   }
 
-  private last(): HTMLElement | null {
+  private last(): HTMLElement|null {
     const last = live.status?.last;
     if (!last?.job) return null;
     const state = last.print?.state ?? last.job.state, ended = last.job.ended;
-    const facts = [last.print?.percent === undefined || state === 'done' ? '' : percent(last.print.percent), ended ? moment(ended) : ''];
-    return card(t('idle.last'), 'last',
-                h('div', { class: 'run-head' }, h('h3', { class: 'job', title: last.job.job }, shortName(last.job.job)),
-                  h('span', { class: `badge ${state}` }, word('state', state)), h('span', { class: 'soft' }, facts.filter(Boolean).join(' · '))),
-                last.job.reason ? h('p', { class: 'prose' }, last.job.reason) : null, h('a', { href: '#/history', class: 'more' }, t('idle.history')));
+    const facts = [
+      last.print?.percent === undefined || state === 'done' ? '' : percent(last.print.percent),
+      ended ? moment(ended) : ''
+    ];
+    return card(
+        t('idle.last'), 'last',
+        h('div', {class: 'run-head'}, h('h3', {class: 'job', title: last.job.job}, shortName(last.job.job)),
+          h('span', {class: `badge ${state}`}, word('state', state)),
+          h('span', {class: 'soft'}, facts.filter(Boolean).join(' · '))),
+        last.job.reason ? h('p', {class: 'prose'}, last.job.reason) : null,
+        h('a', {href: '#/history', class: 'more'}, t('idle.history')));
   }
 }
 

@@ -1,15 +1,18 @@
 // Queue and files: what waits, in its order; and what can be added, from this device or the daemon's folders.
-import { api } from '../api';
-import { ask, card, command, complain, empty, say } from '../controls';
-import { fill, fillList, h, icon, setHidden, setText, View } from '../dom';
-import { live } from '../live';
-import { layerRange } from '../inputs';
-import { printNow, upload, uploadSliced } from '../queue_data';
-import type { Job } from '../types';
-import { duration, number, plural, shortName, t } from '../words';
-import { gramsOf, picture } from './job_parts';
+import {api} from '../api';
+import {ask, card, command, complain, empty, labelFor, say} from '../controls';
+import {fill, fillList, h, icon, setHidden, setText, View} from '../dom';
+import {layerRange} from '../inputs';
+import {live} from '../live';
+import {printNow, upload, uploadSliced} from '../queue_data';
 
-interface Row extends HTMLElement { draw(job: Job, first: boolean, last: boolean): void }
+import type {Job} from '../types';
+import {duration, number, plural, shortName, t} from '../words';
+import {gramsOf, picture} from './job_parts';
+
+interface Row extends HTMLElement {
+  draw(job: Job, first: boolean, last: boolean): void
+}
 
 export class QueueView extends View {
   private jobs: Job[] = [];
@@ -19,11 +22,13 @@ export class QueueView extends View {
   private dragged = 0;
 
   protected show(): void {
-    this.list = h('ol', { class: 'rows', 'aria-label': t('queue.title') });
+    this.list = h('ol', {class: 'rows', 'aria-label': t('queue.title')});
     this.none = empty(t('queue.none'), t('queue.none_text'));
-    this.total = h('p', { class: 'soft' });
+    this.total = h('p', {class: 'soft'});
     const waiting = card(t('queue.title'), 'waiting', this.total, this.list, this.none);
-    this.append(h('h1', { class: 'unseen' }, t('page.queue')), waiting, h('div', { class: 'side' }, this.dropping(), this.adding()));
+    this.append(
+        h('h1', {class: 'unseen'}, t('page.queue')), waiting,
+        h('div', {class: 'side'}, this.dropping(), this.adding()));
     this.until(live.on('queue', () => void this.refresh()), live.on('up', () => void this.refresh()));
     this.draw();
     void this.refresh();
@@ -31,7 +36,7 @@ export class QueueView extends View {
 
   private async refresh(): Promise<void> {
     if (!live.ready) return;
-    this.jobs = (await api.get<{ jobs: Job[] }>('/api/jobs').catch(() => ({ jobs: this.jobs }))).jobs;
+    this.jobs = (await api.get<{jobs: Job[]}>('/api/jobs').catch(() => ({jobs: this.jobs}))).jobs;
     this.draw();
   }
 
@@ -41,37 +46,67 @@ export class QueueView extends View {
 
   private draw(): void {
     const waiting = this.waiting;
-    fillList(this.list, waiting, (job) => job.id, (job) => this.row(job),
-             (row, job) => row.draw(job, job === waiting[0], job === waiting[waiting.length - 1]));
+    fillList(
+        this.list, waiting, (job) => job.id, (job) => this.row(job),
+        (row, job) => row.draw(job, job === waiting[0], job === waiting[waiting.length - 1]));
     setHidden(this.none, waiting.length > 0);
     setHidden(this.list, waiting.length === 0);
     const known = waiting.filter((job) => job.seconds !== undefined);
-    const time = known.length === waiting.length ? duration(known.reduce((sum, job) => sum + (job.seconds ?? 0), 0)) : '';
-    setText(this.total, waiting.length ? [plural('queue.jobs', waiting.length), time].filter(Boolean).join(' · ') : '');
+    const time = known.length === waiting.length ?
+        duration(known.reduce((sum, job) => sum + (job.seconds ?? 0), 0)) :
+        '';
+    setText(
+        this.total,
+        waiting.length ? [plural('queue.jobs', waiting.length), time].filter(Boolean).join(' · ') : '');
   }
 
   private row(job: Job): Row {
-    const name = h('h3', { class: 'job' }), facts = h('p', { class: 'soft' }), reason = h('p', { class: 'warning' });
+    const name = h('h3', {class: 'job'}), facts = h('p', {class: 'soft'}),
+          reason = h('p', {class: 'warning'});
     const id = job.id;
-    const bare = (label: string, drawing: string, run: () => Promise<unknown>) =>
-      command({ label: `${label}: ${shortName(job.job)}`, icon: drawing, bare: true, kind: 'quiet', right: 'queue', run });
-    const up = bare(t('queue.up'), 'up', () => this.moveJob(id, -1)), down = bare(t('queue.down'), 'down', () => this.moveJob(id, 1));
-    const copy = bare(t('queue.copy'), 'copy', async () => { await api.post(`/api/jobs/${id}/copy`); await this.refresh(); });
+    const bare = (label: string, drawing: string, run: () => Promise<unknown>) => command({
+      label: `${label}: ${shortName(job.job)}`,
+      icon: drawing,
+      bare: true,
+      kind: 'quiet',
+      right: 'queue',
+      run
+    });
+    const up = bare(t('queue.up'), 'up', () => this.moveJob(id, -1)),
+          down = bare(t('queue.down'), 'down', () => this.moveJob(id, 1));
+    const copy = bare(t('queue.copy'), 'copy', async () => {
+      await api.post(`/api/jobs/${id}/copy`);
+      await this.refresh();
+    });
     const remove = bare(t('queue.remove'), 'trash', async () => {
-      if (await ask(t('queue.remove_title'), t('queue.remove_text', { job: shortName(job.job) }), [{ label: t('queue.remove'), kind: 'danger' }]) !== 0) return;
+      if (await ask(
+              t('queue.remove_title'), t('queue.remove_text', {job: shortName(job.job)}),
+              [{label: t('queue.remove'), kind: 'danger'}]) !== 0)
+        return;
       await api.remove(`/api/jobs/${id}`);
       await this.refresh();
     });
-    const start = command({ label: t('idle.clear_print'), icon: 'play', kind: 'main', run: () => printNow({ id, job: job.job, state: 'queued' }) });
-    const row = h('li', { draggable: true, dragstart: (event: DragEvent) => this.lift(id, event), dragover: (event: DragEvent) => this.over(event),
-                          drop: (event: DragEvent) => this.drop(id, event) },
-                  picture(id, job.job, 'small'), h('div', { class: 'stack' }, name, facts, reason),
-                  h('div', { class: 'tools' }, up, down, copy, remove), start) as unknown as Row;
+    const start = command({
+      label: t('idle.clear_print'),
+      icon: 'play',
+      kind: 'main',
+      run: () => printNow({id, job: job.job, state: 'queued'})
+    });
+    const row = h('li', {
+                  draggable: true,
+                  dragstart: (event: DragEvent) => this.lift(id, event),
+                  dragover: (event: DragEvent) => this.over(event),
+                  drop: (event: DragEvent) => this.drop(id, event)
+                },
+                  picture(id, job.job, 'small'), h('div', {class: 'stack'}, name, facts, reason),
+                  h('div', {class: 'tools'}, up, down, copy, remove), start) as unknown as Row;
     row.draw = (now, first, last) => {
       setText(name, shortName(now.job));
       name.title = now.job;
       const layers = rangeOf(now.layers);
-      setText(facts, [now.seconds === undefined ? '' : duration(now.seconds), gramsOf(now), layers].filter(Boolean).join(' · '));
+      setText(facts, [
+        now.seconds === undefined ? '' : duration(now.seconds), gramsOf(now), layers
+      ].filter(Boolean).join(' · '));
       setText(reason, now.reason ?? '');
       setHidden(reason, !now.reason);
       up.allow(!first);
@@ -91,7 +126,7 @@ export class QueueView extends View {
   }
 
   private async order(ids: number[]): Promise<void> {
-    await api.put('/api/jobs/order', { ids });
+    await api.put('/api/jobs/order', {ids});
     await this.refresh();
   }
 
@@ -119,30 +154,49 @@ export class QueueView extends View {
   // ---- adding
 
   private dropping(): HTMLElement {
-    const choose = h('input', { type: 'file', multiple: true, class: 'unseen', id: 'files', accept: '.toml,.svg,.stl,.3mf,.obj,.amf,.gcode,.gco,.g',
-                                change: () => { void this.send([...(choose.files ?? [])], area); choose.value = ''; } });
-    const area: HTMLElement = h('div', { class: 'drop', dragover: (event: DragEvent) => { event.preventDefault(); area.classList.add('over'); },
-                            dragleave: () => area.classList.remove('over'), drop: (event: DragEvent) => {
-                              event.preventDefault();
-                              area.classList.remove('over');
-                              void this.send([...(event.dataTransfer?.files ?? [])], area);
-                            } },
-                   icon('upload'), h('p', { role: 'status' }, t('files.drop')), choose, h('label', { for: 'files', class: 'button' }, t('files.choose')));
-    return card(t('files.title'), 'files', area, h('p', { class: 'soft' }, t('files.help')));
+    const choose = h('input', {
+      type: 'file',
+      multiple: true,
+      class: 'unseen',
+      id: 'files',
+      accept: '.toml,.svg,.stl,.3mf,.obj,.amf,.gcode,.gco,.g',
+      change: () => {
+        void this.send([...(choose.files ?? [])], area);
+        choose.value = '';
+      }
+    });
+    const area: HTMLElement =
+        h('div', {
+          class: 'drop',
+          dragover: (event: DragEvent) => {
+            event.preventDefault();
+            area.classList.add('over');
+          },
+          dragleave: () => area.classList.remove('over'),
+          drop: (event: DragEvent) => {
+            event.preventDefault();
+            area.classList.remove('over');
+            void this.send([...(event.dataTransfer?.files ?? [])], area);
+          }
+        },
+          icon('upload'), h('p', {role: 'status'}, t('files.drop')), choose,
+          labelFor('files', t('files.choose'), 'button'));
+    return card(t('files.title'), 'files', area, h('p', {class: 'soft'}, t('files.help')));
   }
 
   private async send(files: File[], area: HTMLElement): Promise<void> {
     const words = area.querySelector('p');
     if (!files.length || !words) return;
-    setText(words, t('files.sending', { name: files[0].name }));
+    setText(words, t('files.sending', {name: files[0].name}));
     try {
-      const sliced = files.filter((file) => /\.(gcode|gco|g)$/i.test(file.name)), others = files.filter((file) => !sliced.includes(file));
+      const sliced = files.filter((file) => /\.(gcode|gco|g)$/i.test(file.name)),
+            others = files.filter((file) => !sliced.includes(file));
       for (const file of sliced) await uploadSliced(file);
       if (others.length) {
         const jobs = await upload(others), tomls = jobs.filter((job) => job.endsWith('.toml'));
-        for (const job of tomls.length ? tomls : jobs) await api.post('/api/jobs', { job });
+        for (const job of tomls.length ? tomls : jobs) await api.post('/api/jobs', {job});
       }
-      say(t('files.done', { name: files[0].name }));
+      say(t('files.done', {name: files[0].name}));
     } catch (error) {
       complain(error);
     }
@@ -151,30 +205,40 @@ export class QueueView extends View {
   }
 
   private adding(): HTMLElement {
-    const jobs = h('select', { id: 'job' }), layers = h('input', { id: 'layers', placeholder: '1–5', inputmode: 'text', autocomplete: 'off' });
+    const jobs = h('select', {id: 'job'}),
+          layers = h('input', {id: 'layers', placeholder: '1–5', inputmode: 'text', autocomplete: 'off'});
     const refresh = async () => {
-      const answer = await api.get<{ jobs: string[] }>('/api/files').catch(() => null);
+      const answer = await api.get<{jobs: string[]}>('/api/files').catch(() => null);
       if (!answer) return;
       const chosen = jobs.value;
-      fill(jobs, ...answer.jobs.map((job) => h('option', { value: job }, job)));
+      fill(jobs, ...answer.jobs.map((job) => h('option', {value: job}, job)));
       if (answer.jobs.includes(chosen)) jobs.value = chosen;
       add.allow(answer.jobs.length > 0);
     };
-    const add = command({ label: t('queue.add'), icon: 'plus', right: 'queue', kind: 'main', run: async () => {
-      const range = layerRange(layers.value);
-      await api.post('/api/jobs', range ? { job: jobs.value, layers: range } : { job: jobs.value });
-      await this.refresh();
-    } });
+    const add = command({
+      label: t('queue.add'),
+      icon: 'plus',
+      right: 'queue',
+      kind: 'main',
+      run: async () => {
+        const range = layerRange(layers.value);
+        await api.post('/api/jobs', range ? {job: jobs.value, layers: range} : {job: jobs.value});
+        await this.refresh();
+      }
+    });
     this.until(live.on('up', () => void refresh()), live.on('queue', () => void refresh()));
     void refresh();
-    return card(t('queue.add_title'), 'adding', h('label', { for: 'job' }, t('queue.job')), jobs, h('label', { for: 'layers' }, t('queue.layers')), layers,
-                h('p', { class: 'soft' }, t('queue.layers_help')), h('div', { class: 'row' }, add));
+    return card(
+        t('queue.add_title'), 'adding', labelFor('job', t('queue.job')), jobs,
+        labelFor('layers', t('queue.layers')), layers, h('p', {class: 'soft'}, t('queue.layers_help')),
+        h('div', {class: 'row'}, add));
   }
 }
 
 export function rangeOf(layers: Job['layers']): string {
-  return Array.isArray(layers) ? t('queue.layers_of', { first: number(layers[0] + 1), last: number(layers[1] + 1) }) : '';
+  return Array.isArray(layers) ?
+      t('queue.layers_of', {first: number(layers[0] + 1), last: number(layers[1] + 1)}) :
+      '';
 }
 
 customElements.define('queue-view', QueueView);
-

@@ -1,13 +1,14 @@
 // A layer's binary path, as host/daemon/API.md describes it, and how its beads are painted.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { bundled } from './bundled.mjs';
 
-const { decodeChunk, LayerPath } = await bundled('path');
+import {bundled} from './bundled.mjs';
+
+const {decodeChunk, LayerPath} = await bundled('path');
 const paint = await bundled('curve_paint');
 
 /** `beads`: [dx, dy in 10 µm, width in 20 µm, asked, r, g, b]. */
-function bytes({ layer = 3, first = 0, revision = 0, at = [12_340, -5_000], top = 0.8, flags = 0, beads }) {
+function bytes({layer = 3, first = 0, revision = 0, at = [12_340, -5_000], top = 0.8, flags = 0, beads}) {
   const buffer = Buffer.alloc(32 + 9 * beads.length);
   buffer.write('UCL1', 'latin1');
   [layer, first, beads.length].forEach((value, n) => buffer.writeUInt32LE(value, 4 + 4 * n));
@@ -28,7 +29,8 @@ const close = (value, wanted) => assert.ok(Math.abs(value - wanted) < 1e-4, `${v
 
 test('a layer begins where its head says, and each bead leads on', () => {
   const path = new LayerPath(3);
-  const chunk = decodeChunk(bytes({ beads: [[100, -50, 40, 1, 0x12, 0x34, 0x56], [-300, 0, 0, 255, 0, 0, 0]], flags: 1 }));
+  const chunk = decodeChunk(
+      bytes({beads: [[100, -50, 40, 1, 0x12, 0x34, 0x56], [-300, 0, 0, 255, 0, 0, 0]], flags: 1}));
   assert.ok(path.add(chunk));
   close(path.x[0], 12.34);
   close(path.y[0], -5);
@@ -45,36 +47,61 @@ test('a layer begins where its head says, and each bead leads on', () => {
 
 test('a layer grows by what follows, and refuses what does not', () => {
   const path = new LayerPath(3), bead = [10, 0, 40, 0, 9, 9, 9];
-  assert.ok(path.add(decodeChunk(bytes({ beads: [bead, bead] }))));
-  assert.ok(!path.add(decodeChunk(bytes({ first: 5, beads: [bead] }))), 'a gap');
-  assert.ok(!path.add(decodeChunk(bytes({ layer: 4, beads: [bead] }))), 'another layer');
+  assert.ok(path.add(decodeChunk(bytes({beads: [bead, bead]}))));
+  assert.ok(!path.add(decodeChunk(bytes({first: 5, beads: [bead]}))), 'a gap');
+  assert.ok(!path.add(decodeChunk(bytes({layer: 4, beads: [bead]}))), 'another layer');
   assert.equal(path.count, 2);
-  assert.ok(path.add(decodeChunk(bytes({ first: 2, at: [12_540, -5_000], beads: [bead, bead, bead], flags: 1 }))));
+  assert.ok(
+      path.add(decodeChunk(bytes({first: 2, at: [12_540, -5_000], beads: [bead, bead, bead], flags: 1}))));
   assert.equal(path.count, 5);
   close(path.x[5], 12.84);
-  assert.ok(!path.add(decodeChunk(bytes({ first: 5, revision: 1, beads: [bead] }))), 'computed again');
-  assert.ok(path.add(decodeChunk(bytes({ revision: 1, beads: [bead] }))), 'all over again');
+  assert.ok(!path.add(decodeChunk(bytes({first: 5, revision: 1, beads: [bead]}))), 'computed again');
+  assert.ok(path.add(decodeChunk(bytes({revision: 1, beads: [bead]}))), 'all over again');
   assert.equal(path.count, 1);
   close(path.bounds[2], 12.44 + 0.4);
 });
 
 test('bytes that are not a layer, or are cut off, are refused', () => {
-  const good = bytes({ beads: [[1, 1, 40, 0, 0, 0, 0]] });
+  const good = bytes({beads: [[1, 1, 40, 0, 0, 0, 0]]});
   assert.throws(() => decodeChunk(good.slice(0, 40)), RangeError);
   assert.throws(() => decodeChunk(good.slice(0, 20)), RangeError);
-  assert.throws(() => decodeChunk(new TextEncoder().encode('{"version":1,"error":"a sentence of some length"}').buffer), RangeError);
+  assert.throws(
+      () => decodeChunk(new TextEncoder().encode('{"version":1,"error":"a sentence of some length"}').buffer),
+      RangeError);
 });
 
 /** Paints a path and returns its strokes: colour, width and points. */
-function strokes(beads, { frame = { scale: 10, left: 0, top: 0 }, size = { width: 1000, height: 1000 }, most = 1000 } = {}) {
+function strokes(beads, {
+  frame = {
+    scale: 10,
+    left: 0,
+    top: 0
+  },
+  size = {
+    width: 1000,
+    height: 1000
+  },
+  most = 1000
+} = {}) {
   const path = new LayerPath(0);
-  path.add(decodeChunk(bytes({ layer: 0, at: [1000, -1000], beads })));
+  path.add(decodeChunk(bytes({layer: 0, at: [1000, -1000], beads})));
   const all = [];
   let points = [];
-  const brush = { lineWidth: 0, strokeStyle: '', beginPath: () => { points = []; }, moveTo: (x, y) => points.push(['to', x, y]), lineTo: (x, y) => points.push([x, y]),
-                  stroke() { all.push({ colour: this.strokeStyle, width: this.lineWidth, points }); } };
+  const brush = {
+    lineWidth: 0,
+    strokeStyle: '',
+    beginPath: () => {
+      points = [];
+    },
+    moveTo: (x, y) => points.push(['to', x, y]),
+    lineTo: (x, y) => points.push([x, y]),
+    stroke() {
+      all.push({colour: this.strokeStyle, width: this.lineWidth, points});
+    }
+  };
   let at = 0, rounds = 0;
-  while (at < path.count && rounds++ < 100) at = paint.paintStroke(brush, path, at, path.count, frame, size, (colour) => colour, most);
+  while (at < path.count && rounds++ < 100)
+    at = paint.paintStroke(brush, path, at, path.count, frame, size, (colour) => colour, most);
   assert.equal(at, path.count, 'all beads are painted');
   return all;
 }
@@ -82,7 +109,10 @@ function strokes(beads, { frame = { scale: 10, left: 0, top: 0 }, size = { width
 const blue = [0x20, 0x40, 0xc0], red = [0xd0, 0x30, 0x20];
 
 test('beads of one colour are one stroke; another colour, another width and a travel begin a new one', () => {
-  const found = strokes([[100, 0, 40, 0, ...blue], [100, 0, 40, 0, ...blue], [100, 0, 40, 0, ...red], [0, 100, 80, 0, ...red], [0, 100, 0, 255, 0, 0, 0], [100, 0, 80, 0, ...red]]);
+  const found = strokes([
+    [100, 0, 40, 0, ...blue], [100, 0, 40, 0, ...blue], [100, 0, 40, 0, ...red], [0, 100, 80, 0, ...red],
+    [0, 100, 0, 255, 0, 0, 0], [100, 0, 80, 0, ...red]
+  ]);
   assert.deepEqual(found.map((one) => one.points.length), [3, 2, 2, 2]);
   assert.notEqual(found[0].colour, found[1].colour);
   assert.ok(found[2].width > found[1].width);
@@ -91,15 +121,15 @@ test('beads of one colour are one stroke; another colour, another width and a tr
 });
 
 test('points that are closer than a pixel are left out, but the last is there', () => {
-  const found = strokes(Array.from({ length: 50 }, () => [2, 0, 40, 0, ...blue]));  // 0.2 px each
+  const found = strokes(Array.from({length: 50}, () => [2, 0, 40, 0, ...blue]));  // 0.2 px each
   assert.equal(found.length, 1);
   assert.ok(found[0].points.length < 15, `${found[0].points.length} points`);
   close(found[0].points.at(-1)[0], 20);
 });
 
 test('what lies outside of the canvas is not painted', () => {
-  const beads = Array.from({ length: 20 }, () => [1000, 0, 40, 0, ...blue]);  // 100 px each, to the right
-  const found = strokes(beads, { size: { width: 150, height: 150 } });
+  const beads = Array.from({length: 20}, () => [1000, 0, 40, 0, ...blue]);  // 100 px each, to the right
+  const found = strokes(beads, {size: {width: 150, height: 150}});
   assert.equal(found.length, 1);
   assert.ok(found[0].points.length <= 4, `${found[0].points.length} points`);
 });
@@ -112,7 +142,7 @@ test('the ground lets every colour be seen', () => {
 });
 
 test('a layer fits into the canvas with its margin', () => {
-  const frame = paint.fitting([10, 20, 110, 70], { width: 440, height: 400 }, 20, 80);
+  const frame = paint.fitting([10, 20, 110, 70], {width: 440, height: 400}, 20, 80);
   close(frame.scale, 4);
   close(10 * frame.scale + frame.left, 20);
   close((frame.top - 70 * frame.scale + frame.top - 20 * frame.scale) / 2, 170);  // the middle of 20 … 320

@@ -1,13 +1,15 @@
-// When the connection counts as lost, how soon the page comes back, and how numbers, times and inputs are read.
+// When the connection counts as lost, how soon the page comes back, and how numbers, times and inputs are
+// read.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { bundled } from './bundled.mjs';
 
-const { BackOff } = await bundled('back_off');
-const { Watchdog } = await bundled('watchdog');
+import {bundled} from './bundled.mjs';
+
+const {BackOff} = await bundled('back_off');
+const {Watchdog} = await bundled('watchdog');
 const formats = await bundled('formats');
 const inputs = await bundled('inputs');
-const { laidOf } = await bundled('layers');
+const {laidOf} = await bundled('layers');
 
 test('silence is asked about after 2 s and is a loss before 5 s', () => {
   const dog = new Watchdog(0);
@@ -29,7 +31,7 @@ test('a laptop that slept does not trust what it heard before', () => {
 });
 
 test('attempts come later and later, up to 12 s, and soon again after a success', () => {
-  const wait = new BackOff(), waits = Array.from({ length: 9 }, () => wait.next(0.5));
+  const wait = new BackOff(), waits = Array.from({length: 9}, () => wait.next(0.5));
   assert.deepEqual(waits, [500, 1000, 2000, 4000, 8000, 10_000, 10_000, 10_000, 10_000]);
   wait.reset();
   assert.equal(wait.next(0), 400);
@@ -65,7 +67,8 @@ test('per cent are not rounded up: a print at 99.9 is not done', () => {
 
 test('only colours are taken as colours', () => {
   assert.equal(formats.colour('#2660c4'), '#2660c4');
-  for (const text of ['red', '#26', 'url(//evil.example)', '#2660c4;', undefined]) assert.equal(formats.colour(text), '');
+  for (const text of ['red', '#26', 'url(//evil.example)', '#2660c4;', undefined])
+    assert.equal(formats.colour(text), '');
   assert.equal(formats.shortName('upload:lamp/shade.3mf'), 'shade.3mf');
 });
 
@@ -74,7 +77,8 @@ test('layers are typed from 1 and sent from 0', () => {
   assert.deepEqual(inputs.layerRange('3'), [2, 2]);
   assert.deepEqual(inputs.layerRange('1–5'), [0, 4]);
   assert.deepEqual(inputs.layerRange('2:4'), [1, 3]);
-  for (const wrong of ['0', '5-2', 'all', '1-2-3', '-1']) assert.throws(() => inputs.layerRange(wrong), Error, wrong);
+  for (const wrong of ['0', '5-2', 'all', '1-2-3', '-1'])
+    assert.throws(() => inputs.layerRange(wrong), Error, wrong);
 });
 
 test('names of uploads are those that the daemon takes', () => {
@@ -85,16 +89,17 @@ test('names of uploads are those that the daemon takes', () => {
 });
 
 test('preheat sets are read a line each', () => {
-  assert.deepEqual(inputs.presetsOf('PLA 210 60\n\nPETG black: 240/80'), [
-    { name: 'PLA', nozzle_c: 210, bed_c: 60 }, { name: 'PETG black', nozzle_c: 240, bed_c: 80 }]);
+  assert.deepEqual(
+      inputs.presetsOf('PLA 210 60\n\nPETG black: 240/80'),
+      [{name: 'PLA', nozzle_c: 210, bed_c: 60}, {name: 'PETG black', nozzle_c: 240, bed_c: 80}]);
   assert.throws(() => inputs.presetsOf('PLA'));
 });
 
 test('layers below the nozzle are laid, those above are not', () => {
-  assert.equal(laidOf(2, { layer: 3, bead: 10 }, 50), 50);
-  assert.equal(laidOf(3, { layer: 3, bead: 10 }, 50), 10);
-  assert.equal(laidOf(3, { layer: 3, bead: 90 }, 50), 50);
-  assert.equal(laidOf(4, { layer: 3, bead: 10 }, 50), 0);
+  assert.equal(laidOf(2, {layer: 3, bead: 10}, 50), 50);
+  assert.equal(laidOf(3, {layer: 3, bead: 10}, 50), 10);
+  assert.equal(laidOf(3, {layer: 3, bead: 90}, 50), 50);
+  assert.equal(laidOf(4, {layer: 3, bead: 10}, 50), 0);
   assert.equal(laidOf(0, null, 50), 0);
-  assert.equal(laidOf(0, { bead: 0 }, 50), 0, 'before the first layer');
+  assert.equal(laidOf(0, {bead: 0}, 50), 0, 'before the first layer');
 });
