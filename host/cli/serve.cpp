@@ -2,11 +2,14 @@
 
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/qr_code.hpp"
 #include "host/cli/terminal_look.hpp"
 #include "host/cli/terminal_output.hpp"
+#include "host/daemon/openapi.hpp"
 #include "host/daemon/state_folder.hpp"
 
 namespace unicursal::host {
@@ -51,6 +54,7 @@ class Serve final : public Command {
         "--start-uploads", daemon.start_uploads,
         "Start files that a slicer sends to be printed, once the bed was confirmed clear with `unicursal "
         "queue --bed-clear` and nothing has been printed since.");
+    app.add_flag("--openapi", openapi_, "Write a description of the HTTP interface as OpenAPI 3.1, and end.");
     declare_state(app, state_);
     declare_spool(app, daemon.spool);
     declare_pause_heat(app, daemon.pause_heat);
@@ -64,6 +68,10 @@ class Serve final : public Command {
   }
 
   Exit run() override {
+    if (openapi_) {
+      show_as_it_is(stdout, openapi_document().dump(1) + "\n");
+      return Exit::success;
+    }
     if (memory_) options_.daemon.upload_limits.memory = *memory_ * 1024 * 1024;
     if (time_) options_.daemon.upload_limits.time = std::chrono::seconds(*time_);
     options_.daemon.state = state_ ? *state_ : default_state_folder();
@@ -96,6 +104,7 @@ class Serve final : public Command {
   static constexpr std::uint64_t longest_check = 600;  ///< s; the commands wait a little longer
 
   ServeOptions options_;
+  bool openapi_ = false;
   std::optional<std::string> listen_;
   std::optional<std::filesystem::path> state_;
   std::optional<std::uint64_t> memory_;

@@ -10,6 +10,7 @@
 #include "host/daemon/keys.hpp"
 #include "host/daemon/octoprint_push.hpp"
 #include "host/daemon/page.hpp"
+#include "host/daemon/preferences.hpp"
 #include "host/daemon/secret.hpp"
 #include "host/daemon/wrong_tries.hpp"
 #include "host/http/http_server.hpp"
@@ -18,6 +19,8 @@ namespace unicursal::host {
 
 class Api : public HttpHandler {
  public:
+  struct Route;  // route.hpp
+
   explicit Api(Daemon& daemon) : daemon_(daemon) {}
   /// Nobody is let in before this is called.
   void set_rules(AccessRules rules) {
@@ -32,6 +35,8 @@ class Api : public HttpHandler {
   using Disconnect = std::function<void(std::uint64_t except)>;
   /// Keys of single programs, which must outlive this object.
   void set_keys(Keys& keys, Disconnect disconnect);
+  /// They must outlive this object.
+  void set_preferences_of(Preferences& preferences) { preferences_ = &preferences; }
   void set_page(Page page) { page_ = std::move(page); }
   /// A UUID that stays the same for this state folder.
   void set_identity(std::string uuid) { identity_ = std::move(uuid); }
@@ -45,7 +50,6 @@ class Api : public HttpHandler {
   void join(std::shared_ptr<EventStream> client, const RequestHead& head, bool proven) override;
 
  private:
-  struct Route;
   static const Route& route_of(const RequestHead& head);
   static bool is_open(const RequestHead& head);
 
@@ -71,6 +75,10 @@ class Api : public HttpHandler {
   asio::awaitable<Response> confirm_bed(Request request);
 
   asio::awaitable<Response> show_page(Request request);
+  asio::awaitable<Response> show_preferences(Request request);
+  asio::awaitable<Response> set_preferences(Request request);
+  asio::awaitable<Response> camera(Request request);
+  asio::awaitable<Response> openapi(Request request);
 
   // Access (access_api.cpp)
   asio::awaitable<Response> login(Request request);
@@ -128,6 +136,7 @@ class Api : public HttpHandler {
   Keys* keys_ = nullptr;
   std::string identity_;
   Page page_;
+  Preferences* preferences_ = nullptr;
   PushSessions sessions_;
   Logins logins_;
   WrongTries wrong_tries_;

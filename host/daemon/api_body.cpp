@@ -120,4 +120,11 @@ std::optional<LayerRange> layers_in(const nlohmann::json& body) {
   return LayerRange{found->at(0).get<std::size_t>(), found->at(1).get<std::size_t>()};
 }
 
+std::pair<std::string, std::string> names_behind(const std::string& path, std::string_view prefix) {
+  const std::string names = path.substr(prefix.size());
+  const std::size_t slash = names.find('/');
+  if (slash == std::string::npos) return {names, ""};
+  return {names.substr(0, slash), names.substr(slash + 1)};
+}
+
 }  // namespace unicursal::host

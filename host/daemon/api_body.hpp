@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "host/daemon/refused.hpp"
 #include "host/engine/prepared_job.hpp"
@@ -39,5 +40,8 @@ HttpError http_error(const Refused& refused);
 
 /// The number behind `prefix` in a path. Throws HttpError 404.
 std::uint64_t number_behind(const std::string& path, std::string_view prefix);
+
+/// "upload/file" behind `prefix` in a path; the second is empty if there is no slash.
+std::pair<std::string, std::string> names_behind(const std::string& path, std::string_view prefix);
 
 }  // namespace unicursal::host

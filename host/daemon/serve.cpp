@@ -60,6 +60,7 @@ class Service {
   Service(const ServeOptions& options, const StateFolder& state)
       : state_(state),
         keys_(state.path() / "keys.json"),
+        preferences_(state.path() / "preferences.json"),
         daemon_(loop_, options.daemon),
         api_(daemon_),
         server_(loop_, checked_endpoint(options), api_),
@@ -84,6 +85,7 @@ class Service {
     api_.on_renewal([this] { return renew_tokens(); });
     api_.set_identity(uuid_from(state_.secret("identity")));
     api_.set_keys(keys_, [this](std::uint64_t except) { server_.disconnect_network(except); });
+    api_.set_preferences_of(preferences_);
     api_.set_page(Page(options.web_folder));
     api_.set_rules(std::move(rules));
     address_ = words(at);
@@ -155,6 +157,7 @@ class Service {
   const StateFolder& state_;
   asio::io_context loop_{1};
   Keys keys_;
+  Preferences preferences_;
   Daemon daemon_;
   Api api_;
   HttpServer server_;

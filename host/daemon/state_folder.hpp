@@ -7,6 +7,7 @@
 //   metrics-token   opens /metrics only, for a Prometheus that must not steer printers (0600)
 //   identity        by which Home Assistant knows the daemon again
 //   keys.json       keys of single programs (keys.hpp; 0600)
+//   preferences.json   what the page's users have chosen (preferences.hpp; 0600)
 //   queue.json      the jobs (queue.hpp)
 //   printing        the print that is going on (interrupted.hpp)
 //   files/          uploads (job_files.hpp)

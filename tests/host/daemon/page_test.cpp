@@ -104,6 +104,19 @@ TEST_CASE("a browser gets the page packed, and again only when it has changed") 
   CHECK(body_of(head).empty());
 }
 
+TEST_CASE("the page with its script, styles and one language has 60 kB on its way to a browser") {
+  if (host::web_files().empty()) return;
+  std::size_t bytes = 0;
+  for (const char* name : {"index.html", "page.js", "page.css", "de.json", "icon.svg"}) {
+    INFO(name);
+    const host::WebFile* file = host::web_file(name);
+    REQUIRE(file);
+    bytes += file->packed.size();
+  }
+  CAPTURE(bytes);
+  CHECK(bytes <= 60'000);
+}
+
 TEST_CASE("no path leads out of the page's files") {
   DaemonBench bench;
   bench.folder().write("secret.txt", "secret");
