@@ -23,11 +23,15 @@ def commands_off(browser):
 
 
 class Lost(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.__exit__)
+
     def setUp(self):
         self.bench = Bench()
         self.addCleanup(self.bench.__exit__)
-        self.browser = Browser()
-        self.addCleanup(self.browser.__exit__)
+        self.addCleanup(self.browser.driver.get, "about:blank")
         self.bench.start_printer(100)
         self.bench.serve()
 

@@ -11,21 +11,23 @@ class SlowNetwork:
         self.port, self.target = port, target
         self.delay, self.stalled = 0.0, False
         self.accepted_since_cut = 0
-        self.writers = set()
+        self.writers, self.server = set(), None
         self.loop = asyncio.new_event_loop()
         self.thread = threading.Thread(target=self.loop.run_forever, daemon=True)
 
     def __enter__(self):
         self.thread.start()
-        asyncio.run_coroutine_threadsafe(asyncio.start_server(self.take, "127.0.0.1", self.port), self.loop).result()
+        listening = asyncio.start_server(self.take, "127.0.0.1", self.port)
+        self.server = asyncio.run_coroutine_threadsafe(listening, self.loop).result()
         return self
 
     def __exit__(self, *_):
         async def end():
-            others = asyncio.all_tasks() - {asyncio.current_task()}
-            for one in others:
-                one.cancel()
-            await asyncio.gather(*others, return_exceptions=True)
+            self.server.close()
+            while others := asyncio.all_tasks() - {asyncio.current_task()}:
+                for one in others:
+                    one.cancel()
+                await asyncio.wait(others, timeout=1)
         asyncio.run_coroutine_threadsafe(end(), self.loop).result()
         self.loop.call_soon_threadsafe(self.loop.stop)
         self.thread.join()
