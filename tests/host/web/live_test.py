@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""The line as it grows: the canvas shows the bytes of the layer's path, and the nozzle stands where the daemon says."""
+
+import math
+import struct
+import unittest
+
+from bench import DESK, PHONE, Bench, Browser, until
+
+COARSE = 8  # the page rounds colours to 5 bits
+# Where things are on the canvas that is shown, by the parts of the page that paint it.
+PIXELS = """
+const view = document.querySelector('curve-view'), canvas = view.shown, {scale, left, top} = view.drawn;
+const brush = canvas.getContext('2d');
+return arguments[0].map(([x, y]) => [...brush.getImageData(Math.round(x * scale + left), Math.round(top - y * scale), 1, 1).data]);
+"""
+
+
+def beads_of(data):
+    """Middles, widths and colours of the beads that a path holds, mm on the bed."""
+    assert data[:4] == b"UCL1", data[:40]
+    layer, first, count, x, y, top = struct.unpack_from("<IIIiif", data, 4)
+    x, y, beads = x / 1000, y / 1000, []
+    for place in range(count):
+        dx, dy, width, _asked, *colour = struct.unpack_from("<hhBBBBB", data, 32 + 9 * place)
+        beads.append(((x + dx / 200, y + dy / 200), width * 0.02, tuple(colour), math.hypot(dx, dy) / 100))
+        x, y = x + dx / 100, y + dy / 100
+    return layer, first, beads
+
+
+class Line(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.bench = Bench()
+        cls.addClassCleanup(cls.bench.__exit__)
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.__exit__)
+        cls.bench.start_printer(40)
+        cls.bench.serve()
+        cls.bench.start(layers=[0, 9])
+        until(lambda: cls.layer_and_bead() > (0, 150), "beads are laid")
+        cls.bench.ask("POST", "/api/print/pause", {})
+        cls.bench.until_state("paused")
+
+    @classmethod
+    def layer_and_bead(cls):
+        at = cls.bench.ask("GET", "/api/print/position")
+        return at.get("layer", -1), at.get("bead", -1)
+
+    def open(self, size):
+        self.browser.view(size)
+        self.browser.open(self.bench)
+        return until(lambda: self.browser.js("const view = document.querySelector('curve-view'); return view.work === null && view.painted"),
+                     "the layer is painted")
+
+    def test_the_canvas_shows_what_leaves_the_nozzle(self):
+        for size in (PHONE, DESK):
+            painted = self.open(size)
+            layer, bead = self.layer_and_bead()
+            _, _, beads = beads_of(self.bench.ask("GET", f"/api/print/layers/{layer}/path?from=0"))
+            self.assertLessEqual(abs(painted - bead), 2, "what is laid is in full colour")
+            laid = [one for one in beads[:painted] if one[1] > 0 and one[3] > 0.2]
+            self.assertGreater(len(laid), 50)
+            shown = self.browser.js(PIXELS, [list(one[0]) for one in laid])
+            right = sum(all(abs(a - b) <= COARSE for a, b in zip(pixel, one[2])) for pixel, one in zip(shown, laid))
+            self.assertGreater(right / len(laid), 0.95, "colours under the canvas are the path's")
+            later = [one for one in beads[painted + 5:] if one[1] > 0 and one[3] > 0.2]
+            pale = self.browser.js(PIXELS, [list(one[0]) for one in later])
+            full = sum(all(abs(a - b) <= COARSE for a, b in zip(pixel, one[2])) for pixel, one in zip(pale, later))
+            self.assertLess(full, 0.3 * len(later) + 1, "what is not laid yet is pale")
+        self.assertEqual(self.browser.errors(), [])
+
+    def test_the_nozzle_and_its_colours_are_the_daemon_s(self):
+        self.open(DESK)
+        at = self.bench.ask("GET", "/api/print/position")
+        dot = self.browser.js("""
+          const view = document.querySelector('curve-view'), dot = view.querySelector('.nozzle').getBoundingClientRect(),
+                canvas = view.shown.getBoundingClientRect(), k = view.ratio, {scale, left, top} = view.drawn;
+          return [((dot.x + dot.width / 2 - canvas.x) * k - left) / scale, (top - (dot.y + dot.height / 2 - canvas.y) * k) / scale];""")
+        _, _, beads = beads_of(self.bench.ask("GET", f"/api/print/layers/{at['layer']}/path?from=0"))
+        bead = beads[at["bead"]][0]
+        self.assertLess(math.dist(dot, bead), 1.5, "the dot stands at the bead that is being laid")
+        self.assertIn(at["leaving"]["nearest"], self.browser.text(".colours"))
+        self.assertIn(f"Layer {at['layer'] + 1}", self.browser.text(".layer-label"))
+        self.assertEqual(self.browser.errors(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
