@@ -198,27 +198,24 @@ export function stepper(options: StepOptions): Stepper {
 /** Asks before something is done. Resolves to the button's number, or -1 if the dialog was left. */
 export function ask(title: string, text: string, buttons: {label: string; kind?: string}[]): Promise<number> {
   return new Promise((resolve) => {
-    let chosen = -1;
-    const dialog =
+    const choose = (chosen: number) => {
+      dialog.close();  // the focus goes back to where it was
+      dialog.remove();
+      resolve(chosen);
+    };
+    const button = (label: string, kind: string, chosen: number) =>
+        h('button', {type: 'button', class: `button ${kind}`, click: () => choose(chosen)}, label);
+    const dialog: HTMLDialogElement =
         h('dialog', {
           'aria-label': title,
-          close: () => {
-            dialog.remove();
-            resolve(chosen);
+          cancel: (event: Event) => {
+            event.preventDefault();
+            choose(-1);
           }
         },
-          h('h2', {}, title), h('p', {class: 'prose'}, text));
-    const choose = (n: number) => () => {
-      chosen = n;
-      dialog.close();
-    };
-    const row = buttons.map(
-        (button, n) =>
-            h('button', {type: 'button', class: `button ${button.kind ?? ''}`, click: choose(n)},
-              button.label));
-    dialog.append(
-        h('div', {class: 'row end'},
-          h('button', {type: 'button', class: 'button quiet', click: choose(-1)}, t('leave_it')), ...row));
+          h('h2', {}, title), h('p', {class: 'prose'}, text),
+          h('div', {class: 'row end'}, button(t('leave_it'), 'quiet', -1),
+            ...buttons.map((one, n) => button(one.label, one.kind ?? '', n))));
     document.body.append(dialog);
     dialog.showModal();
   });

@@ -35,7 +35,7 @@ export class PrintView extends View {
       this.showPrint();
     else
       fill(
-          this, new PrintIdle(),
+          this, h('h1', {class: 'unseen'}, t('page.print')), new PrintIdle(),
           h('div', {class: 'side'}, new CameraPanel(), new HeatPanel(), new LogPanel()));
   }
 
