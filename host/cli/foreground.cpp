@@ -15,6 +15,7 @@
 #include "host/cli/typed_line.hpp"
 #include "host/engine/reconnecting.hpp"
 #include "host/engine/session_json.hpp"
+#include "host/history/keep.hpp"
 
 namespace unicursal::host {
 
@@ -41,6 +42,8 @@ class Shown {
       if (result.foretold && event.kind != SessionEvent::Kind::state) return;
       const SessionStatus status = session.status();
       result.seconds = status.elapsed;
+      result.reason = status.reason;
+      result.warnings = status.warnings;
       if (!result.foretold && status.left) result.foretold = status.elapsed + *status.left;
     };
     const auto console = [this](Session& session, std::string_view bytes) {
@@ -122,10 +125,20 @@ ForegroundResult stream_with_progress(Print& print, const DisplayOptions& option
                              result.stream.reason, reconnecting_patience.count()));
     if (!is_back(print, result.stream)) break;
     shown.notice("the printer is back");
-    result.stream = as_failure(shown.stream(print.take_port(), print.source(), print.settings()).stream);
+    ForegroundResult next = shown.stream(print.take_port(), print.source(), print.settings());
+    result.stream = as_failure(std::move(next.stream));
+    result.reason = std::move(next.reason);
+    result.warnings = std::move(next.warnings);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return result;
+}
+
+void note_in_history(Print& print, const ForegroundResult& result) {
+  const std::string& why = result.stream.reason.empty() ? result.reason : result.stream.reason;
+  const EndedSession ended{{}, why, result.seconds, result.foretold, result.warnings};
+  for (const std::string& note : keep_in_history(print.spool(), print.job(), ended))
+    show(stderr, "warning: {}\n", note);
 }
 
 void show_done(const ForegroundResult& result, const DisplayOptions& display) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/exit.hpp"
@@ -20,6 +21,8 @@ struct ForegroundResult {
   StreamResult stream;
   double seconds = 0;              ///< with heating, by the clock of the print
   std::optional<double> foretold;  ///< s, the same by the first forecast; absent if there was none
+  std::string reason;              ///< why it was stopped or failed
+  std::vector<std::string> warnings;
 };
 
 /// Streams to the port, whose descriptor it takes over, with a progress line or with events. Complaints of
@@ -30,6 +33,9 @@ ForegroundResult stream_with_progress(Print& print, const DisplayOptions& option
 
 /// The colours of a job's mixtures, for its progress line.
 StatusLook look_for(const Job& job);
+
+/// Adds a print that has ended to the history of prints; warns if that is not possible.
+void note_in_history(Print& print, const ForegroundResult& result);
 
 /// Shows when and after how long a print was completed, and what had been foretold.
 void show_done(const ForegroundResult& result, const DisplayOptions& display);

@@ -1,3 +1,5 @@
+#include "host/history/history.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,111 +10,123 @@
 #include "host/cli/command.hpp"
 #include "host/cli/daemon_access.hpp"
 #include "host/cli/terminal_output.hpp"
-#include "host/report/history.hpp"
+#include "host/history/csv.hpp"
 
 namespace unicursal::host {
 namespace {
 
 constexpr std::size_t widest_name = 60;  ///< characters on a terminal
+constexpr std::size_t widest_note = 400;
+constexpr std::size_t all_prints = 1'000'000'000;
 
-std::string shown(const std::string& text) {
-  return core::printable(text, widest_name);
+std::string shown(const std::string& text, std::size_t widest = widest_name) {
+  return core::printable(text, widest);
 }
 
-/// A filament of all prints, with its currency: spools of one name, plastic and colour are one.
-struct Spent {
-  PastFilament filament;
-  std::string currency;
-  std::size_t prints = 0;
-};
-
-std::vector<Spent> spent(const std::vector<PastPrint>& prints) {
-  std::vector<Spent> all;
-  for (const PastPrint& print : prints) {
-    for (const PastFilament& one : print.filaments) {
-      auto same = std::find_if(all.begin(), all.end(), [&](const Spent& other) {
-        return other.filament.name == one.name && other.filament.material == one.material &&
-               other.filament.colour == one.colour && other.currency == print.currency;
-      });
-      if (same == all.end()) {
-        same = all.insert(all.end(), {{one.name, one.material, one.colour, {}}, print.currency});
-        same->filament.amount.cost = 0.0;
-      }
-      add(same->filament.amount, one.amount);
-      ++same->prints;
-    }
-  }
-  return all;
+void show_print(const PastPrint& print) {
+  show(stdout, "{}  {}  (number {})\n", shown(print.print), shown(print.ended), print.id);
+  for (const PastFilament& one : print.filaments)
+    show(stdout, "    {}: {}\n", shown(one.name), in_words(one.amount, print.currency));
+  if (!print.note.empty()) show(stdout, "    note: {}\n", shown(print.note, widest_note));
 }
 
-nlohmann::json json_of(const PastFilament& filament) {
-  nlohmann::json json = to_json(filament.amount);
-  json["name"] = filament.name;
-  json["material"] = filament.material;
-  json["colour"] = filament.colour;
-  return json;
+void show_totals(const PastTotals& totals) {
+  if (totals.prints > 0) show(stdout, "filaments:\n");
+  for (const SpentFilament& one : totals.filaments)
+    show(stdout, "    {} ({}, {}): {} in {} {}\n", shown(one.filament.name), shown(one.filament.material),
+         shown(one.filament.colour), in_words(one.filament.amount, one.currency), one.prints,
+         one.prints == 1 ? "print" : "prints");
 }
 
-void show_all_json(const std::vector<PastPrint>& prints) {
-  nlohmann::json list = nlohmann::json::array(), filaments = nlohmann::json::array();
-  for (const PastPrint& print : prints) {
-    nlohmann::json of_print = nlohmann::json::array();
-    for (const PastFilament& filament : print.filaments) of_print.push_back(json_of(filament));
-    list.push_back({{"print", print.name},
-                    {"ended", print.ended},
-                    {"currency", print.currency},
-                    {"filaments", of_print}});
-  }
-  for (const Spent& one : spent(prints)) {
-    nlohmann::json json = json_of(one.filament);
-    json["currency"] = one.currency;
-    json["prints"] = one.prints;
-    filaments.push_back(std::move(json));
-  }
-  show_json({{"prints", list}, {"filaments", filaments}});
-}
-
-class History final : public Command {
+class HistoryCommand final : public Command {
  public:
   CLI::App& declare(CLI::App& program) override {
     CLI::App& app =
         add_command(program, "history", "Print",
                     "Show what past prints, and each filament, have taken in metres, grams and cost.",
                     "unicursal history");
+    add_value(app, "NUMBER", number_, " ", "Show only the print of this number.")
+        .check(integer_between(1, most_number));
+    add_value(app, "--note", note_, "TEXT", "Give the print NUMBER this note instead of its own.");
+    add_value(app, "--remove", remove_, "NUMBER", "Remove the print of this number from the history.")
+        .check(integer_between(1, most_number));
     declare_spool(app, spool_);
-    app.add_flag("--json", json_, "Write one JSON object to standard output.")->group("Output");
+    auto& json = *app.add_flag("--json", json_, "Write one JSON object to standard output.")->group("Output");
+    app.add_flag("--csv", csv_,
+                 "Write a table for spreadsheets (CSV) to standard output: a line for each filament of "
+                 "each print.")
+        ->excludes(&json)
+        ->group("Output");
+    add_note(app, "Prints stay in the history until --remove removes them.");
     return app;
   }
 
   Exit run() override {
-    const std::vector<PastPrint> prints = history(spool_ ? *spool_ : default_spool_root());
-    if (json_) {
-      show_all_json(prints);
-      return Exit::success;
-    }
-    if (prints.empty()) show(stdout, "no print has ended yet\n");
-    for (const PastPrint& print : prints) {
-      show(stdout, "{}  {}\n", shown(print.name), shown(print.ended));
-      for (const PastFilament& one : print.filaments)
-        show(stdout, "    {}: {}\n", shown(one.name), in_words(one.amount, print.currency));
-    }
-    if (!prints.empty()) show(stdout, "filaments:\n");
-    for (const Spent& one : spent(prints))
-      show(stdout, "    {} ({}, {}): {} in {} {}\n", shown(one.filament.name), shown(one.filament.material),
-           shown(one.filament.colour), in_words(one.filament.amount, one.currency), one.prints,
-           one.prints == 1 ? "print" : "prints");
+    if (note_ && !number_)
+      throw core::DataError("", "--note", "is for one print",
+                            "name its number, as `unicursal history` shows it");
+    History history(spool_ ? *spool_ : default_spool_root(),
+                    note_ || remove_ ? History::For::changing : History::For::reading);
+    for (const std::string& note : history.notes()) show(stderr, "note: {}\n", note);
+    if (remove_) return changed(history.remove(*remove_), *remove_);
+    if (note_) return changed(history.set_note(*number_, note_->substr(0, History::longest_note)), *number_);
+    const std::vector<PastPrint> prints = wanted(history);
+    if (csv_)
+      show_as_it_is(stdout, csv_of(prints));
+    else if (json_)
+      show_all_json(prints, history);
+    else
+      show_all(prints, history);
     return Exit::success;
   }
 
  private:
+  static constexpr std::uint64_t most_number = std::numeric_limits<std::int64_t>::max();
+
+  /// The oldest first.
+  std::vector<PastPrint> wanted(History& history) const {
+    if (!number_) {
+      std::vector<PastPrint> prints = history.list({}, all_prints);
+      std::reverse(prints.begin(), prints.end());
+      return prints;
+    }
+    const auto print = history.find(*number_);
+    if (!print) refuse(*number_);
+    return {*print};
+  }
+
+  static Exit changed(bool found, std::int64_t number) {
+    if (!found) refuse(number);
+    return Exit::success;
+  }
+
+  [[noreturn]] static void refuse(std::int64_t number) {
+    throw core::DataError("", "", fmt::format("there is no print {} in the history", number),
+                          "see `unicursal history`");
+  }
+
+  static void show_all_json(const std::vector<PastPrint>& prints, History& history) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const PastPrint& print : prints) list.push_back(to_json(print));
+    show_json({{"prints", list}, {"filaments", to_json(history.totals())["filaments"]}});
+  }
+
+  void show_all(const std::vector<PastPrint>& prints, History& history) const {
+    if (prints.empty()) show(stdout, "no print has ended yet\n");
+    for (const PastPrint& print : prints) show_print(print);
+    if (!number_) show_totals(history.totals());
+  }
+
   std::optional<std::filesystem::path> spool_;
-  bool json_ = false;
+  std::optional<std::int64_t> number_, remove_;
+  std::optional<std::string> note_;
+  bool json_ = false, csv_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<Command> make_history() {
-  return std::make_unique<History>();
+  return std::make_unique<HistoryCommand>();
 }
 
 }  // namespace unicursal::host

@@ -8,7 +8,6 @@
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/report/filament_use.hpp"
-#include "host/report/history.hpp"
 #include "host/report/open_books.hpp"
 #include "host/report/print_report.hpp"
 
@@ -49,7 +48,7 @@ Exit PrintCommand::run() {
   print.connect();
   const ForegroundResult shown = stream_with_progress(print, display_);
   const StreamResult& result = shown.stream;
-  note_in_history(print.spool(), print.job().profile);
+  note_in_history(print, shown);
   // The report does not wait for a terminal that is halted.
   try {
     const auto planning = print.production().planning();

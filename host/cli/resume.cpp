@@ -13,7 +13,6 @@
 #include "host/cli/terminal_output.hpp"
 #include "host/engine/print.hpp"
 #include "host/engine/restart.hpp"
-#include "host/report/history.hpp"
 #include "host/spool/spool.hpp"
 #include "host/spool/spool_error.hpp"
 
@@ -100,7 +99,7 @@ ForegroundResult stream_from(Print& print, std::optional<Leg> leg, const ResumeO
 
 Exit end(Print& print, const ForegroundResult& shown, const ResumeOptions& options) {
   const StreamResult& result = shown.stream;
-  note_in_history(print.spool(), print.job().profile);
+  note_in_history(print, shown);
   show_how_to_resume(print.spool(), result);
   throw_if_failed(result);
   if (result.ending == Ending::completed) show_done(shown, options.display);

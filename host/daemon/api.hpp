@@ -98,6 +98,17 @@ class Api : public HttpHandler {
   asio::awaitable<Response> start_dry_run(Request request);
   asio::awaitable<Response> show_dry_run(Request request);
   asio::awaitable<Response> remove_dry_run(Request request);
+  // Of prints that have ended, and of the queue's order (history_api.cpp)
+  asio::awaitable<Response> list_history(Request request);
+  asio::awaitable<Response> history_table(Request request);
+  asio::awaitable<Response> show_past_print(Request request);
+  asio::awaitable<Response> past_picture(Request request);
+  asio::awaitable<Response> note_past_print(Request request);
+  asio::awaitable<Response> remove_past_print(Request request);
+  asio::awaitable<Response> print_again(Request request);
+  asio::awaitable<Response> list_prints(Request request);
+  asio::awaitable<Response> arrange_jobs(Request request);
+  asio::awaitable<Response> copy_job(Request request);
 
   // OctoPrint's (octoprint_api.cpp)
   asio::awaitable<Response> octo_version(Request request);

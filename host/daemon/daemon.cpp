@@ -17,6 +17,7 @@
 #include "host/daemon/service_notify.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/engine/session_json.hpp"
+#include "host/files/state_home.hpp"
 #include "host/job/load_job.hpp"
 #include "host/job/profile.hpp"
 #include "host/job/sliced_file.hpp"
@@ -37,6 +38,13 @@ std::string text_of(const json& event) {
   return event.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+/// Empty: the user has no home folder.
+std::filesystem::path folder_of_prints(const DaemonOptions& options) {
+  if (options.spool) return *options.spool;
+  const auto home = state_home();
+  return home ? *home / "prints" : std::filesystem::path();
+}
+
 }  // namespace
 
 Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
@@ -45,6 +53,7 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
       files_(options.jobs, options.state / "files"),
       queue_(options.state / "queue.json"),
       dry_runs_(loop, options.state / "dry-runs", [this](const json& event) { broadcast(event); }),
+      past_prints_(folder_of_prints(options)),
       progress_(loop) {
   if (options.profile) profile_ = load_profile(*options.profile);
   write_state(options_.state / "queue.json", queue_.text());
@@ -191,7 +200,7 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
   if (current_ && current_->id == id)
     throw Refused(Why::conflict, "that job is being printed; cancel it instead");
   QueuedJob removed = *queue_.find(id);
-  queue_.remove(id);
+  const std::size_t place = queue_.remove(id);
   std::string problem;
   try {
     co_await save();
@@ -199,7 +208,7 @@ asio::awaitable<void> Daemon::remove(std::uint64_t id) {
     problem = error.what();
   }
   if (!problem.empty()) {  // it would come back with the next daemon
-    queue_.put_back(std::move(removed));
+    queue_.put_back(std::move(removed), place);
     throw Refused(Why::no_room, problem);
   }
   broadcast({{"event", "queue"}, {"removed", id}});
@@ -246,6 +255,7 @@ void Daemon::broadcast_status() {
 }
 
 void Daemon::on_session_event(const SessionEvent& event) {
+  foretell();
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
   if (event.kind == SessionEvent::Kind::heat && session)
     temperature_record_.note(session->status().temperatures);

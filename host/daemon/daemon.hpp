@@ -26,9 +26,11 @@
 #include "host/daemon/job_check.hpp"
 #include "host/daemon/job_files.hpp"
 #include "host/daemon/log_record.hpp"
+#include "host/daemon/past_prints.hpp"
 #include "host/daemon/queue.hpp"
 #include "host/daemon/temperature_record.hpp"
 #include "host/engine/print.hpp"
+#include "host/history/keep.hpp"
 
 namespace unicursal::host {
 
@@ -66,6 +68,7 @@ class Daemon {
   const gcode::Printer* profile() const;
   const Queue& queue() const { return queue_; }
   const JobFiles& files() const { return files_; }
+  PastPrints& past_prints() { return past_prints_; }
   TemperatureRecord& temperature_record() { return temperature_record_; }
   LogRecord& log_record() { return log_record_; }
 
@@ -81,6 +84,13 @@ class Daemon {
   /// `to_print`: it was sent to be printed at once, and may be started as `start_uploads` says.
   asio::awaitable<std::uint64_t> add(std::string name, std::optional<LayerRange> layers,
                                      bool to_print = false);
+  /// Queues the job of a past print. Throws Refused, also if its file is gone.
+  asio::awaitable<std::uint64_t> print_again(PastPrint print);
+  /// Queues the same job once more. Throws Refused.
+  asio::awaitable<std::uint64_t> copy(std::uint64_t id);
+  /// The waiting jobs are printed in this order, and those that it does not name afterwards. Throws Refused,
+  /// also if one of these does not wait.
+  asio::awaitable<void> arrange(std::vector<std::uint64_t> ids);
   /// Removes a job from the queue. Throws Refused, also for the one that is being printed.
   asio::awaitable<void> remove(std::uint64_t id);
   /// A file that arrives piece by piece: room for it, a piece of it, and the whole, which gets a name of its
@@ -118,6 +128,8 @@ class Daemon {
   bool busy() const { return current_.has_value(); }
   /// Whether a print is going on that is to be parked and cooled before the daemon ends.
   bool printing() const { return current_ && current_->print && current_->print->session(); }
+  /// The name of the print that is going on, as it is kept; empty: there is none.
+  std::string printing_as() const;
 
  private:
   struct Current {
@@ -128,6 +140,8 @@ class Daemon {
     bool reconnecting = false;   ///< the cable was pulled; the print goes on when the printer is back
     bool begun = false;          ///< lines of it may have been sent
     nlohmann::json last_status;  ///< of its last session, or null
+    EndedSession told;           ///< for the history
+    std::optional<std::chrono::steady_clock::time_point> started;  ///< its first session
   };
   /// How an interrupted print is continued.
   struct Continuing {
@@ -142,6 +156,8 @@ class Daemon {
   asio::awaitable<StreamResult> run_sessions(std::uint64_t id);
   asio::awaitable<StreamResult> run_session(std::uint64_t id);
   std::string conclude(const StreamResult& result, QueuedJob::State& ending);
+  void foretell();
+  void end_print();
   void remember(std::uint64_t id, QueuedJob::State ending);
   PrintOptions print_options(const std::string& job) const;
   void broadcast_status();
@@ -177,6 +193,7 @@ class Daemon {
   std::string problem_;     ///< with the state folder, a sentence; empty: none
   std::function<void()> when_idle_;
   std::vector<std::unique_ptr<Follower>> followers_;
+  PastPrints past_prints_;
   TemperatureRecord temperature_record_;
   LogRecord log_record_;
   DryRuns dry_runs_;

@@ -166,6 +166,16 @@ fs::path JobFiles::find(const std::string& name) const {
   throw no_such(name);
 }
 
+std::string JobFiles::name_of(const fs::path& file) const {
+  std::error_code error;
+  const fs::path real = fs::canonical(file, error);
+  if (error) return {};
+  for (const fs::path& folder : folders_) {
+    if (within(real, folder)) return real.lexically_relative(folder).generic_string();
+  }
+  return {};
+}
+
 std::vector<std::string> JobFiles::list() const {
   std::vector<std::string> names;
   for (const fs::path& folder : folders_) add_jobs(folder, "", names);

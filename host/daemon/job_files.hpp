@@ -50,6 +50,8 @@ class JobFiles {
 
   /// The file of a job, which may be opened. Throws Refused.
   std::filesystem::path find(const std::string& name) const;
+  /// The name of a file in one of the folders; empty: it lies elsewhere, or is not there.
+  std::string name_of(const std::filesystem::path& file) const;
   static bool is_upload(const std::string& name);
   /// "leaf" for "upload:leaf/job.toml".
   static std::string upload_of(const std::string& job);

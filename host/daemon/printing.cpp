@@ -16,10 +16,11 @@
 #include "host/engine/produce.hpp"
 #include "host/engine/reconnecting.hpp"
 #include "host/engine/restart.hpp"
+#include "host/engine/seconds.hpp"
 #include "host/engine/session_json.hpp"
+#include "host/history/keep.hpp"
 #include "host/job/load_job.hpp"
 #include "host/loop/sentence.hpp"
-#include "host/report/history.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -90,6 +91,10 @@ void Daemon::begin(std::uint64_t id, std::optional<Continuing> continuing) {
         co_await print(id, continuing);
       },
       asio::detached);
+}
+
+std::string Daemon::printing_as() const {
+  return current_ && current_->print && current_->print->has_spool() ? current_->print->kept_as() : "";
 }
 
 std::string Daemon::port() const {
@@ -189,22 +194,41 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
   } catch (...) {
     error = std::current_exception();
   }
-  if (error) reason = sentence(error);
+  if (error) reason = current_->told.reason = sentence(error);
   if (error && continuing) ending = QueuedJob::State::interrupted;
   if (continuing && !interrupted_) interrupted_ = continuing->print;
   remember(id, ending);
   if (current_->print) {
     last_ = current_->print->session() || !current_->last_status.is_null() ? job_and_print() : json();
-    current_->print->end();
-    asio::post(ending_, [gone = std::shared_ptr<Print>(std::move(current_->print))]() mutable {
-      if (gone->has_spool()) note_in_history(gone->spool(), gone->job().profile);
-      gone.reset();
-    });
+    end_print();
   }
   current_.reset();
   notify_service("STATUS=idle");
   co_await enter(id, ending, reason);
   if (when_idle_) when_idle_();
+}
+
+/// The print goes away in a thread of its own, and into the history there.
+void Daemon::end_print() {
+  EndedSession told = std::move(current_->told);
+  told.job = queue_.find(current_->id)->name;
+  const bool printed = current_->started.has_value();
+  if (printed) told.seconds = seconds(std::chrono::steady_clock::now() - *current_->started);
+  current_->print->end();
+  asio::post(ending_, [gone = std::shared_ptr<Print>(std::move(current_->print)), told = std::move(told),
+                       printed]() mutable {
+    if (printed && gone->has_spool()) {
+      for (const std::string& note : keep_in_history(gone->spool(), gone->job(), told)) log_line(note);
+    }
+    gone.reset();
+  });
+}
+
+/// The first forecast of the print's time is kept.
+void Daemon::foretell() {
+  if (!current_ || current_->told.foretold || !current_->print || !current_->print->session()) return;
+  const SessionStatus status = current_->print->session()->status();
+  if (status.left) current_->told.foretold = status.elapsed + *status.left;
 }
 
 /// Whether the print that has ended may still be continued, and must not be printed over.
@@ -302,6 +326,7 @@ asio::awaitable<StreamResult> Daemon::run_sessions(std::uint64_t id) {
 }
 
 asio::awaitable<StreamResult> Daemon::run_session(std::uint64_t id) {
+  if (!current_->started) current_->started = std::chrono::steady_clock::now();
   Session& session = current_->print->begin(loop_.get_executor());
   session.on_event([this](const SessionEvent& event) { on_session_event(event); });
   // It was cancelled while the printer was being found again: the session still parks and cools it.
@@ -321,6 +346,8 @@ std::string Daemon::conclude(const StreamResult& result, QueuedJob::State& endin
   if (result.ending == Ending::failed && !current_->begun && !result.unfit) ending = QueuedJob::State::queued;
   const Session* session = current_->print->session();
   std::string reason = result.ending == Ending::stopped && session ? session->status().reason : result.reason;
+  current_->told.reason = reason;
+  if (session) current_->told.warnings = session->status().warnings;
   if (result.ending != Ending::completed && current_->begun)
     reason += "; to continue it: " + way_on() + " " + current_->print->kept_as();
   return reason;

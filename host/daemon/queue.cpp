@@ -130,14 +130,42 @@ std::uint64_t Queue::add(std::string name, std::optional<LayerRange> layers, boo
   return jobs_.back().id;
 }
 
-void Queue::remove(std::uint64_t id) {
-  std::erase_if(jobs_, [id](const QueuedJob& job) { return job.id == id; });
+std::size_t Queue::remove(std::uint64_t id) {
+  const auto job = std::find_if(jobs_.begin(), jobs_.end(), [id](const QueuedJob& j) { return j.id == id; });
+  const auto place = static_cast<std::size_t>(job - jobs_.begin());
+  if (job != jobs_.end()) jobs_.erase(job);
+  return place;
 }
 
-void Queue::put_back(QueuedJob job) {
-  const auto behind =
-      std::find_if(jobs_.begin(), jobs_.end(), [&](const QueuedJob& j) { return j.id > job.id; });
-  jobs_.insert(behind, std::move(job));
+void Queue::put_back(QueuedJob job, std::size_t place) {
+  const auto at = static_cast<std::ptrdiff_t>(std::min(place, jobs_.size()));
+  jobs_.insert(jobs_.begin() + at, std::move(job));
+}
+
+std::vector<std::uint64_t> Queue::order() const {
+  std::vector<std::uint64_t> ids;
+  for (const QueuedJob& job : jobs_) {
+    if (job.state == State::queued) ids.push_back(job.id);
+  }
+  return ids;
+}
+
+bool Queue::arrange(const std::vector<std::uint64_t>& ids) {
+  std::vector<std::uint64_t> wanted = ids, left = order();
+  for (const std::uint64_t id : ids) {
+    const auto found = std::find(left.begin(), left.end(), id);
+    if (found == left.end()) return false;
+    left.erase(found);
+  }
+  wanted.insert(wanted.end(), left.begin(), left.end());
+  std::vector<QueuedJob> moved;
+  for (const std::uint64_t id : wanted) moved.push_back(*find(id));
+  // The jobs that do not wait stay where they are.
+  auto next = moved.begin();
+  for (QueuedJob& job : jobs_) {
+    if (job.state == State::queued) job = std::move(*next++);
+  }
+  return true;
 }
 
 void Queue::enter(std::uint64_t id, State state, const std::string& reason) {

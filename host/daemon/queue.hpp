@@ -55,9 +55,15 @@ class Queue {
   std::size_t waiting() const;
 
   std::uint64_t add(std::string name, std::optional<LayerRange> layers, bool to_print = false);
-  void remove(std::uint64_t id);
-  /// Undoes remove(): the job stands where its number belongs.
-  void put_back(QueuedJob job);
+  /// Returns the job's place.
+  std::size_t remove(std::uint64_t id);
+  /// Undoes remove().
+  void put_back(QueuedJob job, std::size_t place);
+  /// The waiting jobs stand in this order, and those that it does not name behind them, as before. False, and
+  /// nothing is changed, if one of these does not wait or is there twice.
+  bool arrange(const std::vector<std::uint64_t>& ids);
+  /// The numbers of the waiting jobs, in order.
+  std::vector<std::uint64_t> order() const;
   /// Changes a job's state. Precondition: the job exists.
   void enter(std::uint64_t id, QueuedJob::State state, const std::string& reason = {});
   /// The content of the file.

@@ -60,6 +60,8 @@ void begin(JournalState& state, Leg leg) {
   JournalState next;
   next.legs = state.legs + 1;
   next.leg = std::move(leg);
+  next.given_up = std::move(state.given_up);
+  if (state.legs > 0) next.given_up.push_back({std::move(state.leg), state.acknowledged});
   next.connected = state.connected;
   next.furthest = state.furthest;
   state = std::move(next);

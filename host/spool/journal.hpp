@@ -46,13 +46,20 @@ struct Ended {
   std::string reason;  ///< A sentence, or empty.
 };
 
+/// A leg behind which another one has begun, since the printer had lost its place.
+struct GivenUpLeg {
+  Leg leg;
+  std::uint64_t acknowledged = 0;  ///< Places before this one were acknowledged.
+};
+
 /// The contents of a journal.
 struct JournalState {
-  std::uint64_t legs = 0;          ///< Number of legs that have begun.
-  Leg leg;                         ///< The last leg.
-  std::vector<Anchor> anchors;     ///< Anchors since the line numbers were last reset.
-  std::uint64_t handed = 0;        ///< Places before this one were passed to the link.
-  std::uint64_t acknowledged = 0;  ///< Places before this one were acknowledged.
+  std::uint64_t legs = 0;            ///< Number of legs that have begun.
+  Leg leg;                           ///< The last leg.
+  std::vector<GivenUpLeg> given_up;  ///< The legs before it.
+  std::vector<Anchor> anchors;       ///< Anchors since the line numbers were last reset.
+  std::uint64_t handed = 0;          ///< Places before this one were passed to the link.
+  std::uint64_t acknowledged = 0;    ///< Places before this one were acknowledged.
   /// Lines sent after `handed` that parked the nozzle, and perhaps returned.
   std::vector<std::string> parking;
   bool aside = false;          ///< Whether those lines, and everything before them, were executed.

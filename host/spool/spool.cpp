@@ -327,6 +327,15 @@ void check_chunks(const fs::path& folder, ChunkReader& reader, const SpoolExtent
   }
 }
 
+/// When the file was changed; now, if nobody knows.
+std::chrono::system_clock::time_point time_of(const fs::path& file) {
+  std::error_code unknown;
+  const auto time = fs::last_write_time(file, unknown);
+  if (unknown) return std::chrono::system_clock::now();
+  return std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+      std::chrono::file_clock::to_sys(time));
+}
+
 void check_copies(const fs::path& folder, const json& record) {
   of_record(folder, [&] {
     for (const auto& [name, sum] : record.at("files").at("checksums").items()) {
@@ -366,6 +375,7 @@ struct Spool::State {
   Journal journal;
   JournalState before;
   SpoolExtent extent;
+  std::optional<std::chrono::system_clock::time_point> last_written;
   std::unique_ptr<Lock> lock;
 };
 
@@ -409,6 +419,7 @@ Spool Spool::create(const fs::path& root, const Job& job, const PrintOrder& orde
 Spool Spool::open(const fs::path& folder) {
   auto lock = std::make_unique<Lock>(folder);
   json record = read_order(folder);
+  const auto last_written = time_of(journal_file(folder));
   std::uint64_t sound_journal = 0;
   JournalState before = read_journal(journal_file(folder), &sound_journal);
   SpoolExtent extent;
@@ -420,6 +431,7 @@ Spool Spool::open(const fs::path& folder) {
   state->extent = extent;
   state->lock = std::move(lock);
   state->before = std::move(before);
+  state->last_written = last_written;
   return Spool(std::move(state));
 }
 
@@ -446,6 +458,10 @@ fs::path Spool::chunks() const {
 Journal& Spool::journal() {
   return state_->journal;
 }
+std::optional<std::chrono::system_clock::time_point> Spool::last_written() const {
+  return state_->last_written;
+}
+
 const JournalState& Spool::before() const {
   return state_->before;
 }

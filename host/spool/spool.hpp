@@ -14,6 +14,7 @@
 // everything that the journal says was sent; open() refuses a spool of which this is not true.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -66,6 +67,8 @@ class Spool {
   void discard() noexcept;
   /// Reads journal and chunks again, for a print that goes on after its session has ended. Throws SpoolError.
   void look_again();
+  /// When the spool was last written to before it was opened; absent: it was made by create().
+  std::optional<std::chrono::system_clock::time_point> last_written() const;
   /// The contents of the journal and the extent of the chunks when the spool was opened or looked at again.
   const JournalState& before() const;
   const SpoolExtent& extent() const;

@@ -1,0 +1,29 @@
+// Adds a print that has ended to the history: what its spool says, with what only its last session knows.
+// The filament is counted from the lines that were passed to the printer, in all sessions of the print: what
+// a restart purges and repeats is among it. A flow that was changed by hand (M221) is not counted.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/history/past_print.hpp"
+#include "host/job/job.hpp"
+#include "host/spool/spool.hpp"
+
+namespace unicursal::host {
+
+/// The last session of a print.
+struct EndedSession {
+  std::string job;                 ///< a daemon's name for the job; empty: the path of its file
+  std::string reason;              ///< why the print was not completed, a sentence
+  std::optional<double> seconds;   ///< that it took
+  std::optional<double> foretold;  ///< s, by its first forecast
+  std::vector<std::string> warnings;
+};
+
+/// Waits a few seconds for other programs that use the history. A print of which nothing was sent is left
+/// out. Never fails: returns sentences for the user.
+std::vector<std::string> keep_in_history(Spool& spool, const Job& job, const EndedSession& ended) noexcept;
+
+}  // namespace unicursal::host
