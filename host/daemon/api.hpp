@@ -98,6 +98,7 @@ class Api : public HttpHandler {
   asio::awaitable<Response> start_dry_run(Request request);
   asio::awaitable<Response> show_dry_run(Request request);
   asio::awaitable<Response> remove_dry_run(Request request);
+
   // Of prints that have ended, and of the queue's order (history_api.cpp)
   asio::awaitable<Response> list_history(Request request);
   asio::awaitable<Response> history_table(Request request);

@@ -52,8 +52,8 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
       options_(options),
       files_(options.jobs, options.state / "files"),
       queue_(options.state / "queue.json"),
-      dry_runs_(loop, options.state / "dry-runs", [this](const json& event) { broadcast(event); }),
       past_prints_(folder_of_prints(options)),
+      dry_runs_(loop, options.state / "dry-runs", [this](const json& event) { broadcast(event); }),
       progress_(loop) {
   if (options.profile) profile_ = load_profile(*options.profile);
   write_state(options_.state / "queue.json", queue_.text());
