@@ -87,7 +87,7 @@ TEST_CASE("A print that is killed and resumed on a cold printer is one row with 
   check_fed(history, bench.seen().report["feeders"]);
 }
 
-TEST_CASE("A print can be given a note and be removed from the history; a spreadsheet reads the rest") {
+TEST_CASE("A print can be given a note and be removed from the history, and a spreadsheet reads the rest") {
   PrintBench bench(0, {}, priced_profile);
   REQUIRE(test::run(bench.print({"--quiet"})).code == 0);
   const std::string spool = bench.path("spool");

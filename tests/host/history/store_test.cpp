@@ -81,7 +81,7 @@ TEST_CASE("Later sessions of a print change its row, and a print of the same nam
   CHECK(history.list(id + 1, 10).size() == 1);
 }
 
-TEST_CASE("Prints of older versions are taken over once, each as one row; damaged lines are left out") {
+TEST_CASE("Prints of older versions are taken over once, each as one row, and damaged lines are left out") {
   const test::TempFolder folder;
   const std::string sound =
       R"({"print":"2026-11-22-101500-a","ended":"stopped","currency":"EUR","filaments":[]})";
