@@ -117,10 +117,16 @@ class Live {
         this.emit('layer', event as KnownLayer);
         break;
       case 'idle':
-        this.printer = {...this.printer, ...event.printer};
-        this.emit('printer', this.printer);
+        this.takePrinter(event.printer);
         break;
     }
+  }
+
+  /** What the idle printer is now. What it no longer says is not so any more. */
+  takePrinter(news: Printer): void {
+    const {action, doing, problem, cools_in_seconds, nozzle, bed, at, homed, ...rest} = this.printer ?? {};
+    this.printer = {...rest, ...news};
+    this.emit('printer', this.printer);
   }
 
   private line(from: LogLine['from'], text: string): void {

@@ -191,9 +191,8 @@ function soundButton(): HTMLElement {
 /** Learns whose printer it is, after each connecting. A daemon without a profile gets the first run. */
 async function meet(): Promise<void> {
   try {
-    live.printer = await api.get<Printer>('/api/printer');
-    live.emit('printer', live.printer);
-    if (!live.printer.name && !live.busy && access.may('all') && !sessionStorage.getItem('met')) {
+    live.takePrinter(await api.get<Printer>('/api/printer'));
+    if (!live.printer?.name && !live.busy && access.may('all') && !sessionStorage.getItem('met')) {
       sessionStorage.setItem('met', '1');
       location.hash = '#/first-run';
     }

@@ -113,8 +113,7 @@ export class FirstRun extends View {
         run: async () => {
           await api.post(
               '/api/profile/new', {frame: frame.value, name: name.value || frame.value, port: this.port});
-          live.printer = await api.get<Printer>('/api/printer');
-          live.emit('printer', live.printer);
+          live.takePrinter(await api.get<Printer>('/api/printer'));
           this.go(1);
         }
       });

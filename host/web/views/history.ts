@@ -85,7 +85,7 @@ export class HistoryView extends View {
       }
     });
     return h(
-        'article', {}, picture(print.id, print.job, 'small', print.picture === false ? '' : '/api/history'),
+        'article', {}, picture(print.picture ? `/api/history/${print.id}/picture` : '', print.job, 'small'),
         h('div', {class: 'stack'},
           h('div', {class: 'run-head'}, h('h3', {class: 'job', title: print.job}, shortName(print.job)),
             h('span', {class: `badge ${print.ended}`}, word('state', print.ended)), remove),

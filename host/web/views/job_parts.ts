@@ -3,18 +3,24 @@ import {h} from '../dom';
 import type {Job} from '../types';
 import {number, shortName} from '../words';
 
-/** A picture of the job, or a plain square if the daemon has none. */
-export function picture(
-    id: number|string, name: string, size: 'small'|'large', base = '/api/jobs'): HTMLElement {
-  const image = h('img', {src: `${base}/${id}/picture`, alt: '', loading: 'lazy', decoding: 'async'});
-  const box = h('span', {class: `picture ${size}`}, image);
-  image.addEventListener('error', () => {
-    image.remove();
+/** A picture, or the first letter of the name if there is none. `address`: empty: none. */
+export function picture(address: string, name: string, size: 'small'|'large'): HTMLElement {
+  const box = h('span', {class: `picture ${size}`});
+  const letter = () => {
     box.classList.add('none');
     box.textContent = shortName(name).slice(0, 1).toUpperCase();
     box.setAttribute('aria-hidden', 'true');
-  });
+  };
+  if (address)
+    box.append(h('img', {src: address, alt: '', loading: 'lazy', decoding: 'async', error: letter}));
+  else
+    letter();
   return box;
+}
+
+/** The address of a job's picture; empty while the daemon has not made one. */
+export function pictureOf(job: Job): string {
+  return job.grams || job.seconds !== undefined ? `/api/jobs/${job.id}/picture` : '';
 }
 
 export function gramsOf(job: Job): string {

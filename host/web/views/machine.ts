@@ -10,11 +10,7 @@ import {celsius, duration, number, t, unknown, word} from '../words';
 /** Gives a command to the idle printer, and takes what it answers. */
 export async function tell(what: string, body: unknown = {}): Promise<void> {
   const answer = await api.post<Printer>(`/api/printer/${what}`, body);
-  if (answer && answer.connection) {
-    live.printer = {...live.printer, ...answer};
-    if (!answer.action) delete live.printer.action;
-    live.emit('printer', live.printer);
-  }
+  if (answer.connection) live.takePrinter(answer);
 }
 
 /** Whether the printer stands ready for a command: connected, not printing. */

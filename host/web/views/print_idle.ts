@@ -1,13 +1,13 @@
 // Print while nothing is printed: an interrupted print first, then what waits, with one button to begin; and
 // how the last print ended.
 import {api} from '../api';
-import {ask, card, command, empty} from '../controls';
+import {ask, card, command, empty, missing} from '../controls';
 import {fill, h, View} from '../dom';
 import {live} from '../live';
 import {printNow} from '../queue_data';
 import type {Job} from '../types';
 import {duration, moment, percent, plural, shortName, t, word} from '../words';
-import {gramsOf, picture} from './job_parts';
+import {gramsOf, picture, pictureOf} from './job_parts';
 
 export class PrintIdle extends View {
   private jobs: Job[] = [];
@@ -45,25 +45,33 @@ export class PrintIdle extends View {
 
   private interrupted(): HTMLElement {
     const print = live.status?.interrupted;
-    const resume = command({
-      label: t('resume.continue'),
-      icon: 'play',
-      kind: 'main',
-      run: () => this.resume(print?.question ?? '')
-    });
+    const resume =
+        command({label: t('resume.continue'), icon: 'play', kind: 'main', run: () => this.resume()});
     return card(
         t('resume.title'), 'attention', h('p', {class: 'strong'}, shortName(print?.job)),
         h('p', {}, print?.question ?? t('resume.text')), h('div', {class: 'row'}, resume));
   }
 
-  private async resume(question: string): Promise<void> {
-    if (!question) {
-      await api.post('/api/print/resume');
-      return live.refresh();
+  /**
+   * Says what will happen, asks, and continues. A daemon that does not know how to say it continues at once.
+   */
+  private async resume(): Promise<void> {
+    const print = live.status?.interrupted;
+    if (!print) return;
+    const path = `/api/prints/${encodeURIComponent(print.print)}/resume`;
+    let will = print.question ?? '';
+    if (!will) {
+      const answer = await api.post<{will?: string}>(path).catch((error) => {
+        if (missing(error)) return {will: ''};
+        throw error;
+      });
+      will = answer.will ?? '';
     }
-    const sure = await ask(t('resume.title'), question, [{label: t('resume.sure'), kind: 'main'}]);
-    if (sure !== 0) return;
-    await api.post('/api/print/resume', {sure: true});
+    if (will && await ask(t('resume.title'), will, [{label: t('resume.sure'), kind: 'main'}]) !== 0) return;
+    if (will && !print.question)
+      await api.post(path, {sure: true});
+    else
+      await api.post('/api/print/resume', print.question ? {sure: true} : {});
     await live.refresh();
   }
 
@@ -82,7 +90,7 @@ export class PrintIdle extends View {
         null;
     const name = h('h3', {class: 'job', title: job.job}, shortName(job.job));
     return card(
-        t('idle.next'), 'next', picture(job.id, job.job, 'large'),
+        t('idle.next'), 'next', picture(pictureOf(job), job.job, 'large'),
         h('div', {class: 'stack'}, name, facts ? h('p', {class: 'soft'}, facts) : null,
           job.reason ? h('p', {class: 'warning'}, job.reason) : null, h('div', {class: 'row'}, start), more));
   }

@@ -8,7 +8,7 @@ import {printNow, upload, uploadSliced} from '../queue_data';
 
 import type {Job} from '../types';
 import {duration, number, plural, shortName, t} from '../words';
-import {gramsOf, picture} from './job_parts';
+import {gramsOf, picture, pictureOf} from './job_parts';
 
 interface Row extends HTMLElement {
   draw(job: Job, first: boolean, last: boolean): void
@@ -64,6 +64,7 @@ export class QueueView extends View {
     const name = h('h3', {class: 'job'}), facts = h('p', {class: 'soft'}),
           reason = h('p', {class: 'warning'});
     const id = job.id;
+    let shown = pictureOf(job), image = picture(shown, job.job, 'small');
     const bare = (label: string, drawing: string, run: () => Promise<unknown>) => command({
       label: `${label}: ${shortName(job.job)}`,
       icon: drawing,
@@ -98,9 +99,14 @@ export class QueueView extends View {
                   dragover: (event: DragEvent) => this.over(event),
                   drop: (event: DragEvent) => this.drop(id, event)
                 },
-                  picture(id, job.job, 'small'), h('div', {class: 'stack'}, name, facts, reason),
+                  image, h('div', {class: 'stack'}, name, facts, reason),
                   h('div', {class: 'tools'}, up, down, copy, remove), start) as unknown as Row;
     row.draw = (now, first, last) => {
+      if (pictureOf(now) !== shown) {
+        const better = picture(shown = pictureOf(now), now.job, 'small');
+        image.replaceWith(better);
+        image = better;
+      }
       setText(name, shortName(now.job));
       name.title = now.job;
       const layers = rangeOf(now.layers);
