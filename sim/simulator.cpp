@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "sim/bed/bead_log.hpp"
 #include "sim/bed/bead_pictures.hpp"
 #include "sim/bed/deposit.hpp"
 #include "sim/bed/raster.hpp"
@@ -153,11 +154,13 @@ int run_simulator(const SimulatorOptions& options, const std::function<void(cons
     spread.emplace(BedSize{options.bed[0], options.bed[1]}, options.raster_pixel, options.feeders);
     deposit = Deposit({pictures ? &*pictures : nullptr, &*spread, &*rasters, &strikes});
   }
+  std::ofstream beads = open_output(options.beads);
+  BeadLog bead_log(beads, options.feeders, deposit);
   Nozzle nozzle(
       options.filament_diameter,
       Chamber({options.dead_volume, options.mixing_volume, options.tanks.value_or(ChamberSize{}.tanks)},
               options.feeders),
-      deposit);
+      options.beads ? static_cast<BedSink&>(bead_log) : deposit);
   FeedLog feed;
   MotionLog motion(nozzle.filament_area());
   MoveSinks sinks({&feed, &nozzle, &motion});

@@ -27,6 +27,8 @@ struct SimulatorOptions {
   double speed = 0;                   ///< Printer seconds per real second; 0 = as fast as lines arrive.
   /// File for every executed command, one on each line.
   std::optional<std::filesystem::path> transcript;
+  /// File for every bead that is laid (sim/bed/bead_log.hpp).
+  std::optional<std::filesystem::path> beads;
   std::optional<std::filesystem::path> report;  ///< JSON file, written when the simulation ends.
   /// Folder for deposit-NNNN.png of each layer, part.png and motion.png.
   std::optional<std::filesystem::path> pictures;

@@ -23,9 +23,11 @@ void keep_commands(std::vector<std::string>& lines) {
 
 void keep_commands(Chunk& chunk) {
   auto next = chunk.mixtures.begin();
+  auto asked = chunk.asked.begin();
   std::size_t commands = 0;
   for (std::size_t line = 0; line < chunk.lines.size(); ++line) {
     for (; next != chunk.mixtures.end() && next->line == line; ++next) next->line = commands;
+    for (; asked != chunk.asked.end() && asked->line == line; ++asked) asked->line = commands;
     commands += is_command(chunk.lines[line]) ? 1 : 0;
   }
   keep_commands(chunk.lines);

@@ -36,14 +36,21 @@ struct MixtureStart {
   friend bool operator==(const MixtureStart&, const MixtureStart&) = default;
 };
 
+/// From a line of the chunk on, beads are to become this material, whatever is fed and comes out meanwhile.
+struct MaterialStart {
+  std::size_t line = 0;      ///< index of the line before which that begins
+  std::size_t material = 0;  ///< index into the materials of the print
+};
+
 /// Lines have no number, no checksum and no newline. Comment lines (starting with ';') belong in files only;
 /// they must not be sent to a printer.
 struct Chunk {
   std::vector<std::string> lines;
   /// By line, rising; before the first one, the mixture of the chunk before stays in use.
   std::vector<MixtureStart> mixtures;
-  double seconds = 0;  ///< s, estimated
-  double volume = 0;   ///< mm³ extruded along beads and the prime line; excludes retractions
+  std::vector<MaterialStart> asked;  ///< the same for what the beads are to become
+  double seconds = 0;                ///< s, estimated
+  double volume = 0;                 ///< mm³ extruded along beads and the prime line; excludes retractions
   /// The same volume, by mixture; each mixture once.
   std::vector<MixtureVolume> mixture_volumes;
   double prime_volume = 0;  ///< mm³ of `volume` in the prime line, purges included, and the skirt

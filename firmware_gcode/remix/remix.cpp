@@ -234,6 +234,7 @@ void Remix::State::write(const Go& entry) {
 /// Cuts the move where a switch falls inside it. What was drawn back is pushed forward with the first piece.
 void Remix::State::write_feed(const Go& entry) {
   if (last_material && *last_material != entry.material) ++mixing.changes;
+  if (last_material != entry.material) chunk.asked.push_back({chunk.lines.size(), entry.material});
   last_material = entry.material;
   Place from = entry.from;
   for (double done = 0;;) {

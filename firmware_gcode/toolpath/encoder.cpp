@@ -153,6 +153,7 @@ struct Encoder::State {
   bool layer_ends = false;            ///< its end is being written
   double layer_height = 0;
   std::size_t prime_material = 0;
+  std::optional<std::size_t> asked_material;  ///< of the last bead that is written
   bool drawn_back = true;
   bool begun = false;  ///< a layer with beads has been accepted
   bool primed = false;
@@ -269,7 +270,7 @@ void Encoder::State::plan_prime(const RoutedLayer& routed) {
   steps.push_back(Approach{{}, line->from, routed.layer.top, line->width});
   const double purged = line->purge * static_cast<double>(printer.feeders);
   if (purged > 0) steps.push_back(Purge{line->from, line->at(purged), purged});
-  steps.push_back(Lay{line->at(purged), line->to, line->volume - purged, true});
+  steps.push_back(Lay{line->at(purged), line->to, line->volume - purged, prime_material, true});
   want({line->volume - purged, prime_material, 0, unseen, false, routed.layer.index, nullptr});
 }
 
@@ -289,7 +290,7 @@ void Encoder::State::plan_skirt(const RoutedLayer& routed) {
     steps.push_back(Approach{{}, ring.start(0), of.top, ring.width(0)});
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const double volume = ring.beads[i].area * of.height;
-      steps.push_back(Lay{ring.start(i), ring.end(i), volume, true});
+      steps.push_back(Lay{ring.start(i), ring.end(i), volume, prime_material, true});
       want({volume, prime_material, 0, unseen, false, of.index, nullptr});
     }
   }
@@ -318,7 +319,7 @@ void Encoder::State::plan_path(const PlacedLayer& of, const core::BeadPath& whol
       want({volume / pieces, index, part, material.transition ? unseen : 1, material.transition, of.index,
             layer_materials});
     }
-    steps.push_back(Lay{from, to, volume});
+    steps.push_back(Lay{from, to, volume, index});
   }
 }
 
@@ -368,6 +369,8 @@ void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
   chunk.layers.push_back({layer, part.volume, part.seconds, std::exchange(layer_ends, false)});
   for (MixtureStart& start : part.mixtures)
     chunk.mixtures.push_back({chunk.lines.size() + start.line, std::move(start.name)});
+  for (const MaterialStart& start : part.asked)
+    chunk.asked.push_back({chunk.lines.size() + start.line, start.material});
   append(chunk.lines, std::move(part.lines));
   append(chunk.warnings, std::move(part.warnings));
   for (const auto& [what, volume] : part.mixture_volumes) add(chunk.mixture_volumes, what, volume);
@@ -489,6 +492,8 @@ void Encoder::State::write(Chunk& chunk, const Lay& bead) {
   const double speed =
       way.norm() > 0 ? pace.speed(way, bead.volume, level, layer_height) : printer.max_speed[0];
   if (way.norm() > 0) write_width(chunk, width);
+  if (std::exchange(asked_material, bead.material) != bead.material)
+    chunk.asked.push_back({chunk.lines.size(), bead.material});
   for (double done = 0;;) {
     switch_mixture(chunk);
     const double left = bead.volume - done;

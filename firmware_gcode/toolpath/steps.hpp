@@ -35,6 +35,7 @@ struct Approach {
 struct Lay {
   core::Vec2 from, to;
   double volume;
+  std::size_t material;  ///< that it is to become
   bool prime = false;
 };
 /// The beginning of the prime line, in which one feeder after the other purges its inlet. It is laid before

@@ -77,6 +77,9 @@ CLI::App& Simulate::declare(CLI::App& program) {
   add_value(app, "--rasters", options.rasters, "FILE",
             "Write every deposited layer to this file or pipe (sim/bed/raster.hpp).")
       .group("Output");
+  add_value(app, "--beads", options.beads, "FILE",
+            "Write every bead that is laid to this file: times, ends, volume and shares of the feeders.")
+      .group("Output");
   add_value(app, "--transcript", options.transcript, "FILE", "Write each command when it is executed.")
       .group("Output");
   add_value(app, "--profile", profile_, "PROFILE", "Simulate the printer that this profile describes.")
@@ -101,7 +104,7 @@ Exit Simulate::run() {
   if (feeders_) options.feeders = *feeders_;
   printer_.check();
   check_outputs(present({profile_, options.fault_file}),
-                present({options.report, options.transcript, options.rasters}));
+                present({options.report, options.transcript, options.rasters, options.beads}));
   const int code = sim::run_simulator(options, [](const std::string& port) {
     show(stdout, "{}\n", port);
     std::fflush(stdout);

@@ -90,6 +90,9 @@ class Api : public HttpHandler {
   asio::awaitable<Response> renew_token(Request request);
 
   // Of a print that goes on (live_api.cpp)
+  asio::awaitable<Response> layers(Request request);
+  asio::awaitable<Response> layer_path(Request request);
+  asio::awaitable<Response> position(Request request);
   asio::awaitable<Response> temperatures(Request request);
   asio::awaitable<Response> log(Request request);
 

@@ -31,8 +31,7 @@ using Why = Refused::Why;
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr auto progress_interval = 250ms;  ///< between two events of progress
-constexpr std::size_t most_checks = 2;     ///< at once: each may take a core and much memory
+constexpr std::size_t most_checks = 2;  ///< at once: each may take a core and much memory
 
 std::string text_of(const json& event) {
   return event.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -250,6 +249,13 @@ void Daemon::broadcast(const json& event) {
   for (const auto& follower : followers_) follower->send(text);
 }
 
+void Daemon::broadcast_motion(const json& event) {
+  std::erase_if(followers_, [](const auto& one) { return !one->open(); });
+  const std::string text = text_of(event);
+  for (const auto& follower : followers_)
+    if (follower->follows_line()) follower->send(text);
+}
+
 void Daemon::broadcast_status() {
   broadcast({{"event", "status"}, {"status", status()}});
 }
@@ -260,7 +266,7 @@ void Daemon::on_session_event(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::heat && session)
     temperature_record_.note(session->status().temperatures);
   if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
-    return show_progress_soon();
+    return note_progress();
   if (!session) return;
   if (event.kind == SessionEvent::Kind::printer) log_record_.note(LogRecord::From::printer, event.text);
   if (event.kind == SessionEvent::Kind::notice) log_record_.note(LogRecord::From::notice, event.text);
@@ -274,19 +280,6 @@ void Daemon::on_session_event(const SessionEvent& event) {
   SessionEvent shown = event;
   shown.text = event.kind == SessionEvent::Kind::printer ? core::printable(event.text) : event.text;
   broadcast(to_json(shown, session->status()));
-}
-
-/// Sends at most four events a second; the last one is never lost.
-void Daemon::show_progress_soon() {
-  if (progress_waits_ || followers_.empty()) return;
-  progress_waits_ = true;
-  progress_.expires_after(progress_interval);
-  progress_.async_wait([this](const asio::error_code& cut) {
-    progress_waits_ = false;
-    const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
-    if (!cut && session)
-      broadcast(to_json(SessionEvent{SessionEvent::Kind::progress, {}}, session->status()));
-  });
 }
 
 }  // namespace unicursal::host

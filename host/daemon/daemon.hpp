@@ -13,6 +13,7 @@
 #include <asio/thread_pool.hpp>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -31,6 +32,7 @@
 #include "host/daemon/temperature_record.hpp"
 #include "host/engine/print.hpp"
 #include "host/history/keep.hpp"
+#include "host/live/live_line.hpp"
 
 namespace unicursal::host {
 
@@ -54,6 +56,8 @@ class Follower {
   virtual bool open() const = 0;
   /// `event`: JSON, as in API.md.
   virtual void send(const std::string& event) = 0;
+  /// Whether it wants to hear where the nozzle is and how layers grow.
+  virtual bool follows_line() const { return true; }
 };
 
 class Daemon {
@@ -69,6 +73,11 @@ class Daemon {
   const Queue& queue() const { return queue_; }
   const JobFiles& files() const { return files_; }
   PastPrints& past_prints() { return past_prints_; }
+  /// The line of the current print. Throws Refused when there is none.
+  LiveLine& live();
+  asio::awaitable<std::optional<PathPiece>> path_of(std::uint64_t layer, std::uint64_t from);
+  /// Where the nozzle is; empty while that is not known. Throws Refused when nothing is being printed.
+  nlohmann::json position();
   TemperatureRecord& temperature_record() { return temperature_record_; }
   LogRecord& log_record() { return log_record_; }
 
@@ -134,6 +143,7 @@ class Daemon {
  private:
   struct Current {
     std::uint64_t id = 0;
+    std::shared_ptr<LiveLine> live;        ///< null until the first session; outlives all of them
     std::unique_ptr<Print> print;          ///< null until it is prepared
     std::optional<std::string> cancelled;  ///< the reason, if it was cancelled before that
     std::stop_source preparing;            ///< ends the preparation, and the waiting for a printer
@@ -175,7 +185,13 @@ class Daemon {
   asio::awaitable<void> enter(std::uint64_t id, QueuedJob::State state, std::string reason);
   void on_session_event(const SessionEvent& event);
   void broadcast(const nlohmann::json& event);
-  void show_progress_soon();
+  void broadcast_motion(const nlohmann::json& event);
+  // What is shown of the line (watching.cpp)
+  void follow_line();
+  std::optional<LiveNozzle> nozzle();
+  void note_progress();
+  void show_soon();
+  void show();
   nlohmann::json job_and_print() const;
 
   asio::io_context& loop_;
@@ -198,7 +214,11 @@ class Daemon {
   LogRecord log_record_;
   DryRuns dry_runs_;
   asio::steady_timer progress_;
-  bool progress_waits_ = false;
+  bool progress_waits_ = false;  ///< the timer runs
+  bool progress_due_ = false;
+  std::chrono::steady_clock::time_point shown_progress_{}, shown_layer_{};
+  std::map<std::size_t, KnownLayer> changed_layers_;  ///< that nobody was shown yet
+  nlohmann::json shown_position_;
   asio::thread_pool disk_{1}, preparing_{1};
   asio::thread_pool ending_{1};  ///< where prints go away, so that the next one is prepared meanwhile
 };

@@ -1,9 +1,43 @@
 // What a page asks about a print that goes on: its line, its heat, what was said.
+#include <string>
+
 #include "host/daemon/api.hpp"
 #include "host/daemon/api_body.hpp"
+#include "host/daemon/live_json.hpp"
 #include "host/daemon/query.hpp"
 
 namespace unicursal::host {
+namespace {
+
+constexpr std::string_view layers_path = "/api/print/layers/", path_word = "/path";
+
+/// N of "/api/print/layers/N/path", which the path is. Throws HttpError 404.
+std::uint64_t layer_in(const std::string& path) {
+  return number_behind(path.substr(0, path.size() - path_word.size()), layers_path);
+}
+
+}  // namespace
+
+asio::awaitable<Response> Api::layers(Request) {
+  co_return reply(to_json(daemon_.live().overview()));
+}
+
+asio::awaitable<Response> Api::layer_path(Request request) {
+  const std::uint64_t layer = layer_in(request.path);
+  const std::uint64_t from = query_whole_number(request, "from").value_or(0);
+  const auto piece = co_await daemon_.path_of(layer, from);
+  if (!piece) throw HttpError(404, "that layer is not known yet, or not any more");
+  if (from > piece->beads)
+    throw HttpError(422, "from is behind the layer's last bead; ask from 0 on, since its end has changed");
+  Response response;
+  response.type = "application/octet-stream";
+  response.body = to_bytes(*piece);
+  co_return response;
+}
+
+asio::awaitable<Response> Api::position(Request) {
+  co_return reply(daemon_.position());
+}
 
 asio::awaitable<Response> Api::temperatures(Request request) {
   co_return reply(daemon_.temperature_record().since(query_number(request, "since").value_or(0)));

@@ -76,6 +76,7 @@ class PushFollower final : public Follower {
  public:
   explicit PushFollower(std::shared_ptr<Push> push) : push_(std::move(push)) {}
   bool open() const override { return push_->open(); }
+  bool follows_line() const override { return false; }
   void send(const std::string& event) override { push_->take(json::parse(event, nullptr, false)); }
 
  private:

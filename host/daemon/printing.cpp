@@ -327,6 +327,7 @@ asio::awaitable<StreamResult> Daemon::run_sessions(std::uint64_t id) {
 
 asio::awaitable<StreamResult> Daemon::run_session(std::uint64_t id) {
   if (!current_->started) current_->started = std::chrono::steady_clock::now();
+  follow_line();
   Session& session = current_->print->begin(loop_.get_executor());
   session.on_event([this](const SessionEvent& event) { on_session_event(event); });
   // It was cancelled while the printer was being found again: the session still parks and cools it.

@@ -42,6 +42,7 @@ asio::awaitable<void> PlaceKeeper::send(std::vector<std::string> lines) {
 asio::awaitable<void> PlaceKeeper::interpose(std::vector<std::string> lines) {
   gcode::keep_commands(lines);
   if (lines.empty()) co_return;
+  if (on_interposed_ && !left_) on_interposed_(lines);
   const std::uint64_t before = link_.statistics().lines;
   interposed_ += lines.size();
   interposing_ = true;
@@ -53,11 +54,14 @@ asio::awaitable<void> PlaceKeeper::interpose(std::vector<std::string> lines) {
   interposing_ = false;
 }
 
-void PlaceKeeper::record_progress() {
-  if (!spool_ || left_) return;
+std::uint64_t PlaceKeeper::acknowledged() const {
   const std::uint64_t taken = link_.statistics().acknowledged;
   const std::uint64_t of_print = taken > interposed_ ? taken - interposed_ : 0;
-  spool_->journal().progress(next_, std::min(next_, begin_ + of_print));
+  return std::min(next_, begin_ + of_print);
+}
+
+void PlaceKeeper::record_progress() {
+  if (spool_ && !left_) spool_->journal().progress(next_, acknowledged());
 }
 
 void PlaceKeeper::record_way(const std::vector<std::string>& lines) {

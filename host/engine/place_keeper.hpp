@@ -9,7 +9,9 @@
 
 #include <asio/awaitable.hpp>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/link/link.hpp"
@@ -32,10 +34,16 @@ class PlaceKeeper {
   asio::awaitable<void> send(std::vector<std::string> lines);
   /// Sends lines of the session's own between two of the print; comments are left out. Throws LinkError.
   asio::awaitable<void> interpose(std::vector<std::string> lines);
+  /// Sets a listener for such lines, before they are sent.
+  void on_interposed(std::function<void(const std::vector<std::string>&)> listener) {
+    on_interposed_ = std::move(listener);
+  }
   /// The place at which the session has begun.
   std::uint64_t begin() const { return begin_; }
   /// The place of the print's next line.
   std::uint64_t next() const { return next_; }
+  /// The places before this one were acknowledged.
+  std::uint64_t acknowledged() const;
 
   /// Writes down how far the print has come.
   void record_progress();
@@ -61,6 +69,7 @@ class PlaceKeeper {
   bool first_numbering_ = true;   ///< no number of this session is known yet
   Anchor numbering_;              ///< of a line; `place` counts all lines of this session
   bool left_ = false;
+  std::function<void(const std::vector<std::string>&)> on_interposed_;
 };
 
 }  // namespace unicursal::host

@@ -50,6 +50,16 @@ void PlannedProduction::catch_up(const Spool& spool) {
   }
 }
 
+AskedMaterials PlannedProduction::asked() const {
+  AskedMaterials asked{print_settings(prepared_).materials, prepared_.frame.zone_materials};
+  for (std::size_t i = 0; i < asked.materials.size(); ++i) {
+    gcode::Material& material = asked.materials[i];
+    material.mixture = maker_.encoder().intended(i, 0);
+    if (material.gradient) material.gradient->to = maker_.encoder().intended(i, 1);
+  }
+  return asked;
+}
+
 std::optional<Planning> PlannedProduction::planning() const {
   if (!lookahead_) return std::nullopt;
   return Planning{lookahead_->effort(), lookahead_->threads()};

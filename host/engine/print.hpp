@@ -55,6 +55,8 @@ class Print {
   Source& source() { return *source_; }
   const StreamSettings& settings() const { return settings_; }
 
+  /// From the next session on.
+  void follow(LineFollower* follower) { settings_.follower = follower; }
   /// Makes the session; once, on the loop's thread.
   Session& begin(asio::any_io_executor executor);
   Session* session() { return session_ ? &*session_ : nullptr; }

@@ -16,6 +16,7 @@
 
 #include "core/geometry/polygon.hpp"
 #include "host/engine/layer_range.hpp"
+#include "host/engine/line_follower.hpp"
 #include "host/engine/source.hpp"
 #include "host/job/job.hpp"
 #include "host/lookahead/planned_layer.hpp"
@@ -57,6 +58,9 @@ class Production {
   /// For a print that continues, after open() and before the source's first step: brings it to where the
   /// spool's last chunk ends. Throws SpoolError if the same lines are not made again.
   virtual void catch_up(const Spool& spool) = 0;
+
+  /// What the print asks for, as it is delivered.
+  virtual AskedMaterials asked() const = 0;
 
   /// What became known while layers were made, one sentence each.
   virtual std::vector<std::string> late_warnings() const = 0;

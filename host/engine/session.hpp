@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/engine/line_follower.hpp"
 #include "host/engine/session_types.hpp"
 #include "host/engine/source.hpp"
 #include "host/job/profile.hpp"
@@ -78,6 +79,8 @@ class Session {
   Refusal set_bed(double temperature);
 
   SessionStatus status() const;
+  /// How far the printer is in the print's lines.
+  LinePlace line_place() const;
   /// Called after every change; keep it short. An observer may ask for status() and give commands.
   void on_event(std::function<void(const SessionEvent&)> observer);
   /// Cools the printer and returns the result when the loop itself has failed.

@@ -10,6 +10,7 @@
 #include <exception>
 
 #include "host/engine/kept_layers.hpp"
+#include "host/engine/line_follower.hpp"
 #include "host/engine/printer_check.hpp"
 #include "host/engine/rejoining.hpp"
 #include "host/engine/seconds.hpp"
@@ -71,6 +72,9 @@ Session::State::State(asio::any_io_executor on, int descriptor, Source& of, Stre
       places(link, spool),
       holding({link, wake, source, settings, places, printer, announcer, intent, progress}) {
   link.on_message([this](const std::string& line) { hear(line); });
+  places.on_interposed([this](const std::vector<std::string>& lines) {
+    if (settings.follower) settings.follower->interposed(lines, leg().line(places.next()));
+  });
   source.on_ready([on, weak = std::weak_ptr(alive)] {
     asio::post(on, [weak] {
       if (const auto state = weak.lock()) (*state)->wake.notify();
@@ -216,10 +220,18 @@ asio::awaitable<void> Session::State::catch_up() {
   co_await wake.wait(TimePoint::max(), done);
 }
 
+/// The leg that this session sends.
+const Leg& Session::State::leg() const {
+  static const Leg whole;
+  const auto& continuation = settings.continuation;
+  if (!continuation) return whole;
+  return continuation->leg ? *continuation->leg : spool->before().leg;
+}
+
 /// Sends what is spooled from here on in this leg.
 asio::awaitable<void> Session::State::send_spooled() {
   begin_to_catch_up();
-  const Leg& leg = settings.continuation->leg ? *settings.continuation->leg : spool->before().leg;
+  const Leg& leg = this->leg();
   const std::uint64_t hot = leg.lead_in.empty() ? spool->extent().start_lines : heat_lines(leg.lead_in);
   LegReader reader(spool->chunks(), leg, places.begin());
   const KeptLayers layers(spool->chunks());
@@ -339,6 +351,7 @@ asio::awaitable<void> Session::State::finish() {
     announcer.notice("Error: the end of the print is sent without being kept: " + problem);
     co_return co_await send_end(std::move(chunk));
   }
+  if (settings.follower) settings.follower->chunk_kept(record, chunk);
   result.parked = std::any_of(chunk.lines.begin(), chunk.lines.end(), moves_away);
   co_await send(chunk);
   co_await link.drain();

@@ -27,6 +27,7 @@
 #include "host/engine/heat_watch.hpp"
 #include "host/engine/holding.hpp"
 #include "host/engine/intent.hpp"
+#include "host/engine/line_follower.hpp"
 #include "host/engine/place_keeper.hpp"
 #include "host/engine/printer_view.hpp"
 #include "host/engine/progress.hpp"
@@ -48,6 +49,7 @@ struct Session::State {
   asio::awaitable<void> ask(std::vector<std::string> questions);
   asio::awaitable<void> check_abilities();
   const std::vector<std::string>& first_lines();
+  const Leg& leg() const;
   asio::awaitable<void> send_spooled();
   void begin_to_catch_up();
   asio::awaitable<void> catch_up();
@@ -90,6 +92,7 @@ struct Session::State {
 
   // What is reported (session_status.cpp)
   SessionStatus status() const;
+  LinePlace line_place() const;
   Ahead ahead() const;
   std::optional<double> left() const;
 

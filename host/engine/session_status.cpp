@@ -1,4 +1,5 @@
 // A session's status, and the words for its states and events.
+#include <algorithm>
 
 #include "host/engine/seconds.hpp"
 #include "host/engine/session_impl.hpp"
@@ -93,6 +94,17 @@ SessionStatus Session::State::status() const {
   const std::vector<std::string>& own = announcer.warnings();
   status.warnings.insert(status.warnings.end(), own.begin(), own.end());
   return status;
+}
+
+LinePlace Session::State::line_place() const {
+  LinePlace place{leg().line(places.next()), leg().line(places.acknowledged()), std::nullopt};
+  if (const auto& queues = link.queues(); queues && queues->planner_size > 0)
+    place.queued_moves = queues->planner_size - std::min(queues->planner_size, queues->planner_free);
+  return place;
+}
+
+LinePlace Session::line_place() const {
+  return state_->line_place();
 }
 
 }  // namespace unicursal::host

@@ -69,6 +69,8 @@ enum class PauseHeat {
   lower  ///< lower it until nothing drips or chars; the nozzle is heated again before the print goes on
 };
 
+class LineFollower;
+
 struct StreamSettings {
   std::shared_ptr<Clock> clock = real_clock();
   Spool* spool = nullptr;         ///< keeps the print; nullptr: it is not kept
@@ -77,7 +79,8 @@ struct StreamSettings {
   /// For a resumed print. Precondition: a spool that holds the first layers; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;
-  bool display = false;  ///< the printer's own display shows how far the print is
+  bool display = false;              ///< the printer's own display shows how far the print is
+  LineFollower* follower = nullptr;  ///< looks at the lines; it must outlive the session
   /// s after which a pause ends by itself, for prints without an operator; absent: never.
   std::optional<double> longest_pause;
 };

@@ -126,6 +126,12 @@ void SlicedProduction::listen(RemixListener* listener) {
   if (listener) remix_.listen();
 }
 
+AskedMaterials SlicedProduction::asked() const {
+  AskedMaterials asked{remix_settings(prepared_).materials, {}};
+  for (std::size_t i = 0; i < asked.materials.size(); ++i) asked.materials[i].mixture = remix_.intended(i);
+  return asked;
+}
+
 /// A print that continues is remixed from its beginning first (catch_up()).
 void SlicedProduction::begin(const std::shared_ptr<Clock>&, const SpoolExtent& kept) {
   begun_ = kept.chunks == 0;

@@ -1,0 +1,136 @@
+#include "host/live/live_layers.hpp"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace unicursal::host {
+
+void LiveLayers::begin(double top) {
+  end();
+  const double below = layers_.empty() ? 0 : layers_.back().top;
+  Layer next;
+  next.top = top;
+  next.height = top > below ? top - below : top;  // the first one of a further part lies on the bed
+  next.revision = revision_;
+  planned_.erase(layers_.size());
+  layers_.push_back(std::move(next));
+}
+
+void LiveLayers::end() {
+  if (layers_.empty()) return;
+  layers_.back().complete = layers_.back().changed = true;
+}
+
+LaidPath& LiveLayers::path(const core::Vec2& from) {
+  assert(!layers_.empty());
+  Layer& layer = layers_.back();
+  if (!layer.path) {
+    layer.path.emplace(from);
+    layer.first = layer.path->first();
+  }
+  layer.changed = true;
+  return *layer.path;
+}
+
+std::vector<KnownLayer> LiveLayers::take_changed() {
+  std::vector<KnownLayer> changed;
+  for (std::size_t i = 0; i < layers_.size(); ++i)
+    if (std::exchange(layers_[i].changed, false)) changed.push_back(layers_[i].known(i));
+  for (auto& [number, layer] : planned_)
+    if (std::exchange(layer.changed, false))
+      changed.push_back({number, layer.top, layer.path.size(), false, true});
+  return changed;
+}
+
+void LiveLayers::plan(std::size_t layer, double top, LaidPath path) {
+  if (layer >= layers_.size()) planned_.insert_or_assign(layer, Planned{top, std::move(path), true});
+}
+
+void LiveLayers::back_to(const Mark& mark) {
+  ++revision_;
+  layers_.resize(std::min(layers_.size(), mark.layers));
+  if (layers_.empty()) return;
+  Layer& last = layers_.back();
+  if (last.path) last.path->cut(mark.beads);
+  if (last.path && mark.beads == 0) last.path.reset();
+  last.complete = false;
+  last.changed = true;
+  last.revision = revision_;
+}
+
+std::vector<KnownLayer> LiveLayers::known() const {
+  std::vector<KnownLayer> known;
+  for (std::size_t i = 0; i < layers_.size(); ++i)
+    if (!layers_[i].lost) known.push_back(layers_[i].known(i));
+  for (const auto& [number, layer] : planned_)
+    known.push_back({number, layer.top, layer.path.size(), false, true});
+  return known;
+}
+
+std::optional<PathPiece> LiveLayers::piece(std::size_t number, std::size_t from) const {
+  PathPiece piece;
+  std::string records;
+  LaidPath::Place first;
+  if (number < layers_.size()) {
+    const Layer& layer = layers_[number];
+    if (layer.lost) return std::nullopt;
+    static_cast<KnownLayer&>(piece) = layer.known(number);
+    piece.revision = layer.revision;
+    records = records_of(layer);
+    if (records.size() != layer.beads() * LaidPath::record) return std::nullopt;
+    first = layer.first;
+  } else {
+    const auto planned = planned_.find(number);
+    if (planned == planned_.end()) return std::nullopt;
+    static_cast<KnownLayer&>(piece) = {number, planned->second.top, planned->second.path.size(), false, true};
+    records = planned->second.path.bytes();
+    first = planned->second.path.first();
+  }
+  piece.first = std::min(from, piece.beads);
+  piece.begin = LaidPath::begin_of(records, first, piece.first);
+  piece.records = records.substr(piece.first * LaidPath::record);
+  return piece;
+}
+
+std::string LiveLayers::records_of(const Layer& layer) const {
+  if (layer.path) return layer.path->bytes();
+  std::string records(layer.on_disk * LaidPath::record, '\0');
+  if (!layer.offset) return records;
+  const ssize_t read =
+      ::pread(file_.get(), records.data(), records.size(), static_cast<off_t>(*layer.offset));
+  records.resize(read > 0 ? static_cast<std::size_t>(read) : 0);
+  return records;
+}
+
+void LiveLayers::make_room(std::size_t number) {
+  std::size_t bytes = 0;
+  for (std::size_t i = moved_; i < layers_.size(); ++i) bytes += layers_[i].beads() * LaidPath::record;
+  for (; moved_ < std::min(number, layers_.size()) && bytes > most_in_memory; ++moved_) {
+    Layer& layer = layers_[moved_];
+    if (!layer.complete) break;
+    bytes -= layer.beads() * LaidPath::record;
+    if (layer.path) put_on_disk(layer);
+  }
+}
+
+/// The file has no name, so that nothing is left of it however this program ends.
+void LiveLayers::put_on_disk(Layer& layer) {
+  if (!file_ && !no_file_ && !folder_.empty())
+    file_.reset(::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  no_file_ = !file_;
+  const std::string& bytes = layer.path->bytes();
+  const ssize_t written =
+      file_ ? ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(file_size_)) : -1;
+  if (written == static_cast<ssize_t>(bytes.size())) {
+    layer.on_disk = layer.path->size();
+    layer.offset = file_size_;
+    file_size_ += bytes.size();
+  } else {
+    layer.lost = true;
+  }
+  layer.path.reset();
+}
+
+}  // namespace unicursal::host
