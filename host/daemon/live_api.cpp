@@ -28,7 +28,8 @@ asio::awaitable<Response> Api::layer_path(Request request) {
   const auto piece = co_await daemon_.path_of(layer, from);
   if (!piece) throw HttpError(404, "that layer is not known yet, or not any more");
   if (from > piece->beads)
-    throw HttpError(422, "from is behind the layer's last bead; ask from 0 on, since its end has changed");
+    throw HttpError(422, "out_of_range",
+                    "from is behind the layer's last bead; ask from 0 on, since its end has changed");
   Response response;
   response.type = "application/octet-stream";
   response.body = to_bytes(*piece);
