@@ -95,9 +95,15 @@ class Serve final : public Command {
   void show_page_address(const std::string& address) const {
     if (isatty(STDOUT_FILENO) == 0) return;
     const auto token = options_.no_token ? std::nullopt : read_line(options_.daemon.state / "token");
-    const std::string page = "http://" + address + "/" + (token ? "#token=" + *token : "");
+    const std::string page = "http://" + within_reach(address) + "/" + (token ? "#token=" + *token : "");
     if (options_.lan && look_of(STDOUT_FILENO).rewrites) show_as_it_is(stdout, qr_code(page));
     show_as_it_is(stdout, "open " + page + "\n");
+  }
+
+  /// A daemon that listens on all addresses is reached by that of this computer.
+  static std::string within_reach(const std::string& address) {
+    constexpr std::string_view everywhere = "0.0.0.0:";
+    return address.starts_with(everywhere) ? "127.0.0.1:" + address.substr(everywhere.size()) : address;
   }
 
   static constexpr std::uint64_t most_megabytes = 1 << 24;

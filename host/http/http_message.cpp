@@ -162,12 +162,11 @@ HttpError HttpError::late(std::chrono::milliseconds wait) const {
 
 const char* HttpError::usual_code(int status) {
   constexpr std::pair<int, const char*> known[] = {
-      {400, "bad_request"},  {401, "wrong_token"}, {403, "no_right"},   {404, "not_found"},
-      {405, "wrong_method"}, {408, "too_slow"},    {409, "conflict"},   {411, "no_length"},
-      {413, "too_large"},    {414, "too_large"},   {415, "wrong_type"}, {421, "wrong_host"},
-      {422, "bad_job"},      {426, "no_upgrade"},  {429, "too_many"},   {431, "too_large"},
-      {502, "no_answer"},    {503, "too_many"},    {504, "no_answer"},  {505, "bad_request"},
-      {507, "no_room"}};
+      {400, "bad_request"},  {401, "wrong_token"}, {403, "no_right"},    {404, "not_found"},
+      {405, "wrong_method"}, {408, "too_slow"},    {409, "conflict"},    {411, "no_length"},
+      {413, "too_large"},    {414, "too_large"},   {415, "wrong_type"},  {421, "wrong_host"},
+      {422, "bad_job"},      {426, "no_upgrade"},  {431, "too_large"},   {502, "no_answer"},
+      {503, "too_many"},     {504, "no_answer"},   {505, "bad_request"}, {507, "no_room"}};
   for (const auto& [number, code] : known) {
     if (number == status) return code;
   }
@@ -225,7 +224,6 @@ const char* status_words(int status) {
                                                    {421, "Misdirected Request"},
                                                    {422, "Unprocessable Content"},
                                                    {426, "Upgrade Required"},
-                                                   {429, "Too Many Requests"},
                                                    {431, "Request Header Fields Too Large"},
                                                    {500, "Internal Server Error"},
                                                    {502, "Bad Gateway"},
