@@ -116,6 +116,7 @@ export class CurveView extends HTMLElement {
 
   fit(): void {
     this.fitted = true;
+    this.stage.classList.remove('zoomed');
     this.fitFrame();
     this.begin();
   }
@@ -278,6 +279,7 @@ export class CurveView extends HTMLElement {
   private move(frame: Frame): void {
     this.frame = frame;
     this.fitted = false;
+    this.stage.classList.add('zoomed');
     this.begin();
   }
 
@@ -285,6 +287,7 @@ export class CurveView extends HTMLElement {
     this.move({...this.frame, left: this.frame.left + dx, top: this.frame.top + dy});
   }
 
+  /** A finger scrolls the page until the curve was zoomed (page.css); two fingers always zoom. */
   private listen(): void {
     const stage = this.stage;
     const at = (event: MouseEvent): [number, number] => {
@@ -306,10 +309,6 @@ export class CurveView extends HTMLElement {
     stage.addEventListener('pointermove', (event) => {
       if (this.pointers.has(event.pointerId)) this.drag(event.pointerId, at(event), event.pointerType);
     });
-    // A finger scrolls the page until the curve was zoomed; two fingers always zoom.
-    stage.addEventListener('touchmove', (event) => {
-      if (event.touches.length > 1 || !this.fitted) event.preventDefault();
-    }, {passive: false});
     stage.addEventListener('dblclick', (event) => (this.fitted ? this.zoom(3, ...at(event)) : this.fit()));
     stage.addEventListener('keydown', (event) => this.key(event));
   }

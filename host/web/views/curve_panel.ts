@@ -35,6 +35,7 @@ export class CurvePanel extends View {
   private nextBox!: HTMLElement;
   private changeAt = 0;
   private print = -1;
+  private fetching = 0;
   private absent = -1;  ///< a layer that the daemon does not know yet
 
   protected show(): void {
@@ -72,8 +73,7 @@ export class CurvePanel extends View {
         this.curve, h('div', {class: 'layer-row'}, this.label, this.slider, this.follow),
         h('div', {class: 'colours'}, leaving, fed, next));
     this.until(
-        live.on('position', () => this.move()),
-        live.on('layer', (layer: KnownLayer) => void this.learn(layer)),
+        live.on('position', () => this.move()), live.on('layer', (layer: KnownLayer) => this.learn(layer)),
         live.on('up', () => void this.begin()), live.on('status', () => this.noticePrint()),
         live.on('printer', () => this.showBed()));
     this.every(500, () => this.showNext());
@@ -119,11 +119,16 @@ export class CurvePanel extends View {
     return live.position?.layer ?? known[0]?.layer ?? -1;
   }
 
-  private async learn(layer: KnownLayer): Promise<void> {
-    if (!this.layers.info) return this.begin();
+  private learn(layer: KnownLayer): void {
+    if (!this.layers.info) return void this.begin();
     this.layers.learn(layer);
     this.showSlider();
-    if (layer.layer === this.shownLayer) await this.fetchShown();
+    if (layer.layer !== this.shownLayer || this.fetching) return;
+    // Layers grow a few times a second; half a second's beads are fetched together.
+    this.fetching = window.setTimeout(() => {
+      this.fetching = 0;
+      void this.fetchShown();
+    }, this.path?.layer === layer.layer ? 500 : 0);
   }
 
   private async fetchShown(again = true): Promise<void> {
