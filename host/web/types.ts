@@ -141,6 +141,7 @@ export interface UsedFilament extends Filament {
   metres?: number;
   grams?: number;
   cost?: number;
+  currency?: string;
 }
 
 export interface PastPrint {

@@ -148,22 +148,26 @@ export class HistoryView extends View {
 
 function usedList(used: UsedFilament[]|undefined, currency: string|undefined): HTMLElement|null {
   if (!used?.length) return null;
-  const cost = (value: number|undefined) => (value === undefined ? '' : money(value, currency));
-  return h(
-      'ul', {class: 'used'},
-      ...used.map(
-          (one) =>
-              h('li', {}, swatchOf(one.colour),
-                h('span', {}, [one.name, one.spool].filter(Boolean).join(', ')), h('span', {class: 'soft'}, [
-                  one.metres === undefined ? '' : `${number(one.metres, 2)} m`,
-                  one.grams === undefined ? '' : `${number(one.grams, 1)} g`, cost(one.cost)
-                ].filter(Boolean).join(' · ')))));
+  const row = (one: UsedFilament) => {
+    const facts = [
+      one.metres === undefined ? '' : `${number(one.metres, 2)} m`,
+      one.grams === undefined ? '' : `${number(one.grams, 1)} g`,
+      one.cost === undefined ? '' : money(one.cost, one.currency ?? currency)
+    ];
+    return h(
+        'li', {}, swatchOf(one.colour), h('span', {}, [one.name, one.spool].filter(Boolean).join(', ')),
+        h('span', {class: 'soft'}, facts.filter(Boolean).join(' · ')));
+  };
+  return h('ul', {class: 'used'}, ...used.map(row));
 }
 
+/** Small sums with three digits, so that a little is not shown as 0. */
 function money(value: number, currency: string|undefined): string {
-  if (currency && /^[A-Z]{3}$/.test(currency))
-    return new Intl.NumberFormat(language(), {style: 'currency', currency}).format(value);
-  return [number(value, 2), currency].filter(Boolean).join(' ');
+  const digits = value > 0 && value < 0.1 ? 3 : 2;
+  if (!currency || !/^[A-Z]{3}$/.test(currency))
+    return [number(value, digits), currency].filter(Boolean).join(' ');
+  return new Intl.NumberFormat(language(), {style: 'currency', currency, maximumFractionDigits: digits})
+      .format(value);
 }
 
 customElements.define('history-view', HistoryView);
