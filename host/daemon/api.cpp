@@ -44,12 +44,18 @@ asio::awaitable<Response> Api::status(Request) {
   co_return reply(daemon_.status());
 }
 
-/// With what OctoPrint's clients look for. To them, who have a key in X-Api-Key, a printer that is switched
+/// With what OctoPrint's clients look for.
+json Api::whole_printer() const {
+  json body = daemon_.printer();
+  body.update(octo::printer(daemon_.status(), daemon_.port_exists()));
+  return body;
+}
+
+/// To OctoPrint's clients, who have a key in X-Api-Key, a printer that is switched
 /// off is a conflict.
 asio::awaitable<Response> Api::printer(Request request) {
-  json body = daemon_.printer();
+  json body = whole_printer();
   const bool there = daemon_.port_exists();
-  body.update(octo::printer(daemon_.status(), there));
   const bool octoprint = request.header("x-api-key").has_value();
   if (there || !octoprint) co_return reply(std::move(body));
   body["error"] = "the printer is not connected: plug it in and switch it on";

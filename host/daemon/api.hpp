@@ -114,6 +114,17 @@ class Api : public HttpHandler {
   asio::awaitable<Response> arrange_jobs(Request request);
   asio::awaitable<Response> copy_job(Request request);
 
+  // Of a printer while nothing is printed (idle_api.cpp)
+  nlohmann::json whole_printer() const;
+  asio::awaitable<Response> connect_printer(Request request);
+  asio::awaitable<Response> disconnect_printer(Request request);
+  asio::awaitable<Response> heat(Request request);
+  asio::awaitable<Response> home(Request request);
+  asio::awaitable<Response> move_head(Request request);
+  asio::awaitable<Response> set_fan(Request request);
+  asio::awaitable<Response> feed(Request request);
+  asio::awaitable<Response> cancel_idle(Request request);
+
   // OctoPrint's (octoprint_api.cpp)
   asio::awaitable<Response> octo_version(Request request);
   asio::awaitable<Response> octo_server(Request request);

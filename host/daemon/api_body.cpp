@@ -51,6 +51,11 @@ HttpError http_error(const Refused& refused) {
   return {status, code, refused.what()};
 }
 
+HttpError http_error(const IdleRefused& refused) {
+  if (refused.why() == IdleRefused::Why::limit) return {422, "out_of_range", refused.what()};
+  return {409, refused.what()};
+}
+
 Response plain_reply(const json& body, int status) {
   Response response;
   response.status = status;

@@ -11,6 +11,7 @@
 #include "host/daemon/refused.hpp"
 #include "host/engine/prepared_job.hpp"
 #include "host/http/http_message.hpp"
+#include "host/idle/idle_printer.hpp"
 
 namespace unicursal::host {
 
@@ -37,6 +38,7 @@ void obeyed(const std::optional<std::string>& refusal);
 
 /// With the status that fits.
 HttpError http_error(const Refused& refused);
+HttpError http_error(const IdleRefused& refused);
 
 /// The number behind `prefix` in a path. Throws HttpError 404.
 std::uint64_t number_behind(const std::string& path, std::string_view prefix);

@@ -53,8 +53,12 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
       queue_(options.state / "queue.json"),
       past_prints_(folder_of_prints(options)),
       dry_runs_(loop, options.state / "dry-runs", [this](const json& event) { broadcast(event); }),
-      progress_(loop) {
+      progress_(loop),
+      idle_(loop.get_executor(), opening_.get_executor()),
+      idle_shown_(loop) {
   if (options.profile) profile_ = load_profile(*options.profile);
+  load_own_profile();
+  watch_idle_printer();
   write_state(options_.state / "queue.json", queue_.text());
   interrupted_ = interrupted_print(options_.state);
   if (interrupted_) log_line(fmt::format("job {} {}: interrupted", interrupted_->id, interrupted_->job));
@@ -62,6 +66,8 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
 
 Daemon::~Daemon() {
   if (current_) current_->preparing.request_stop();
+  idle_.on_change(nullptr);
+  opening_.join();
   disk_.join();
   preparing_.join();
   ending_.join();
@@ -93,6 +99,8 @@ json Daemon::status() const {
     if (!interrupted_->question.empty()) print["question"] = interrupted_->question;
   }
   if (!last_.is_null()) status["last"] = last_;
+  if (const IdleStatus idle = idle_.status(); !current_ && idle.connection == IdleStatus::Connection::open)
+    status["idle"] = idle_heat(idle.temperatures);
   status["bed_clear"] = bed_clear_;
   if (!problem_.empty()) status["problem"] = problem_;
   return status;
@@ -102,20 +110,23 @@ json Daemon::printer() const {
   json printer = {{"version", 1}, {"busy", busy()}};
   if (options_.port) printer["port"] = *options_.port;
   if (!firmware_.empty()) printer["firmware"] = core::printable(firmware_);
-  const Profile* profile = profile_ ? &*profile_ : nullptr;
+  const Profile* profile = own();
   if (current_ && current_->print) profile = &current_->print->job().profile;
-  if (!profile) return printer;
+  if (chosen_port_) printer["port"] = *chosen_port_;
+  if (!profile) return add_idle(printer), printer;
   printer["name"] = profile->printer.name;
   printer["baud"] = profile->baud;
   printer["bed_mm"] = profile->printer.bed;
   printer["nozzle_mm"] = profile->printer.nozzle;
-  if (!options_.port) printer["port"] = profile->port;
+  if (!options_.port && !chosen_port_) printer["port"] = profile->port;
+  add_profile(printer, *profile);
+  add_idle(printer);
   return printer;
 }
 
 const gcode::Printer* Daemon::profile() const {
   if (current_ && current_->print) return &current_->print->job().profile.printer;
-  return profile_ ? &profile_->printer : nullptr;
+  return own() ? &own()->printer : nullptr;
 }
 
 Session& Daemon::session() {

@@ -32,6 +32,7 @@
 #include "host/daemon/temperature_record.hpp"
 #include "host/engine/print.hpp"
 #include "host/history/keep.hpp"
+#include "host/idle/idle_printer.hpp"
 #include "host/live/live_line.hpp"
 
 namespace unicursal::host {
@@ -129,6 +130,13 @@ class Daemon {
   void cancel(const std::string& reason);
   void stop_at_once();
 
+  /// The printer while nothing is printed (idling.cpp). Throws Refused, for example while a print goes on.
+  IdlePrinter& idle();
+  /// Opens the port; `named`: another one than the daemon's. Throws Refused.
+  void connect_printer(const std::string& named);
+  /// Switches off what is hot, and closes the port. Throws Refused during a print.
+  void disconnect_printer();
+
   /// Sends it the present status, and every event from now on.
   void join(std::unique_ptr<Follower> follower);
   /// No further print begins; the current one is parked and cooled, or stopped at once by a second call.
@@ -136,7 +144,9 @@ class Daemon {
   void shut_down(std::function<void()> done);
   bool busy() const { return current_.has_value(); }
   /// Whether a print is going on that is to be parked and cooled before the daemon ends.
-  bool printing() const { return current_ && current_->print && current_->print->session(); }
+  bool printing() const {
+    return (current_ && current_->print && current_->print->session()) || idle_.feeding();
+  }
   /// The name of the print that is going on, as it is kept; empty: there is none.
   std::string printing_as() const;
 
@@ -173,6 +183,7 @@ class Daemon {
   void broadcast_status();
   asio::awaitable<std::unique_ptr<Print>> prepare_print(const QueuedJob& job, std::stop_token stop);
   std::unique_ptr<Print> prepared(const QueuedJob& job) const;
+  void note_begun(const QueuedJob& job, Print& print) const;
   JobCheck check_of(const std::string& name, const std::optional<LayerRange>& layers) const;
   asio::awaitable<void> check(std::string name, std::optional<LayerRange> layers);
   void check_not_needed(const std::string& upload) const;
@@ -183,6 +194,21 @@ class Daemon {
   std::string way_on() const;
   asio::awaitable<void> save();
   asio::awaitable<void> enter(std::uint64_t id, QueuedJob::State state, std::string reason);
+  void check_idle() const;
+  void check_not_at_work() const;
+  void check_nothing_interrupted() const;
+  std::string checked_port(const std::string& named) const;
+  std::optional<std::filesystem::path> profile_file() const;
+  void load_own_profile();
+  const Profile* own() const;
+  asio::awaitable<void> connect_print(Print& print, std::optional<Leg> leg = {});
+  void take_printer_back();
+  void let_printer_go(bool again);
+  void watch_idle_printer();
+  void show_idle_soon();
+  void add_idle(nlohmann::json& printer) const;
+  static nlohmann::json idle_heat(const gcode::Temperatures& known);
+  static void add_profile(nlohmann::json& printer, const Profile& profile);
   void on_session_event(const SessionEvent& event);
   void broadcast(const nlohmann::json& event);
   void broadcast_motion(const nlohmann::json& event);
@@ -197,6 +223,8 @@ class Daemon {
   asio::io_context& loop_;
   const DaemonOptions options_;
   std::optional<Profile> profile_;
+  std::optional<Profile> own_profile_;      ///< of the user, if the daemon was given none
+  std::optional<std::string> chosen_port_;  ///< by a client, if the daemon was given none
   JobFiles files_;
   Queue queue_;
   /// Names of jobs that are being checked; shared with the checks, which a stopped loop ends later than this.
@@ -220,6 +248,15 @@ class Daemon {
   std::map<std::size_t, KnownLayer> changed_layers_;  ///< that nobody was shown yet
   nlohmann::json shown_position_;
   asio::thread_pool disk_{1}, preparing_{1};
+  asio::thread_pool opening_{1};  ///< where the idle printer's port is opened
+  IdlePrinter idle_;
+  bool idle_returns_ = false;  ///< the idle connection comes back after the print
+  bool examining_ = false;     ///< doctor has the port
+  std::string idle_note_;      ///< why the connection has not come back, a sentence
+  std::string idle_problem_;   ///< the last one that was logged
+  asio::steady_timer idle_shown_;
+  asio::steady_timer::time_point idle_next_{};  ///< of the next event of the idle printer
+  bool idle_waits_ = false;
   asio::thread_pool ending_{1};  ///< where prints go away, so that the next one is prepared meanwhile
 };
 

@@ -93,6 +93,7 @@ bool Api::wants_events(const RequestHead& head) const {
 bool Api::is_urgent(const RequestHead& head) const {
   return head.path == "/api/print/stop" || head.path == "/api/print/cancel" ||
          head.path == "/api/print/pause" || head.path == "/api/printer/command" ||
+         head.path == "/api/printer/cancel" ||
          (head.path == "/api/job" && head.method == "POST");
 }
 
@@ -104,6 +105,9 @@ asio::awaitable<Response> Api::answer(Request request) {
     if (!asked.empty()) log_line(asked + ": done");
     co_return response;
   } catch (const Refused& refused) {
+    if (!asked.empty()) log_line(asked + ": refused: " + refused.what());
+    throw http_error(refused);
+  } catch (const IdleRefused& refused) {
     if (!asked.empty()) log_line(asked + ": refused: " + refused.what());
     throw http_error(refused);
   } catch (const std::exception& error) {

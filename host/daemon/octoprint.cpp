@@ -209,7 +209,7 @@ namespace {
 
 json temperatures(const json& status) {
   const bool busy = status.value("state", "idle") != "idle";
-  const json print = busy ? status.value("print", json::object()) : json::object();
+  const json print = status.value(busy ? "print" : "idle", json::object());
   json temperature = json::object();
   if (json nozzle = heater(print, "nozzle"); !nozzle.is_null()) temperature["tool0"] = std::move(nozzle);
   if (json bed = heater(print, "bed"); !bed.is_null()) temperature["bed"] = std::move(bed);

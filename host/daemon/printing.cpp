@@ -45,6 +45,7 @@ QueuedJob::State state_after(Ending ending) {
 std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
   if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
   if (current_) throw Refused(Why::printing, "a print is going on");
+  check_not_at_work();
   const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
   if (!job)
     throw Refused(id ? Why::not_found : Why::conflict,
@@ -68,6 +69,7 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
 std::uint64_t Daemon::continue_interrupted(bool sure) {
   if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
   if (current_) throw Refused(Why::printing, "a print is going on");
+  check_not_at_work();
   if (interrupted_ && !interrupted_print(options_.state)) interrupted_.reset();
   if (!interrupted_) throw Refused(Why::conflict, "nothing is being printed, and no print was interrupted");
   if (sure && interrupted_->question.empty())
@@ -98,7 +100,8 @@ std::string Daemon::printing_as() const {
 }
 
 std::string Daemon::port() const {
-  return options_.port ? *options_.port : profile_ ? profile_->port : "";
+  if (options_.port) return *options_.port;
+  return chosen_port_ ? *chosen_port_ : profile_ ? profile_->port : "";
 }
 
 bool Daemon::port_exists() const {
@@ -138,7 +141,7 @@ void Daemon::start_sent() {
 
 PrintOptions Daemon::print_options(const std::string& job) const {
   PrintOptions options;
-  options.port = options_.port;
+  options.port = options_.port ? options_.port : chosen_port_;
   if (!options.port && profile_) options.port = profile_->port;
   if (!options.port && JobFiles::is_upload(job)) options.port = "auto";  // an upload may name any port
   options.spool = options_.spool;
@@ -146,18 +149,11 @@ PrintOptions Daemon::print_options(const std::string& job) const {
   return options;
 }
 
-/// Reads files and opens the port; blocks.
+/// Reads files; blocks.
 std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
   auto print = std::make_unique<Print>(
       produce(load_job_or_model(files_.find(job.name), options_.profile, UnnamedPrinter::refuse), job.layers),
       print_options(job.name));
-  print->connect();
-  try {
-    note_printing(options_.state, {job.id, job.name, print->spool().folder(), {}});
-  } catch (...) {
-    print->spool().discard();
-    throw;
-  }
   return print;
 }
 
@@ -172,7 +168,27 @@ asio::awaitable<std::unique_ptr<Print>> Daemon::prepare_print(const QueuedJob& j
     core::stop_point();
     return prepared(job);
   };
-  co_return co_await elsewhere(preparing_, prepare);
+  std::unique_ptr<Print> print = co_await elsewhere(preparing_, prepare);
+  std::exception_ptr error;
+  try {
+    co_await connect_print(*print);
+    co_await elsewhere(preparing_, [&] { return note_begun(job, *print), true; });
+  } catch (...) {
+    error = std::current_exception();
+  }
+  if (!error) co_return print;
+  print->end();
+  asio::post(ending_, [gone = std::shared_ptr<Print>(std::move(print))]() mutable { gone.reset(); });
+  std::rethrow_exception(error);
+}
+
+void Daemon::note_begun(const QueuedJob& job, Print& print) const {
+  try {
+    note_printing(options_.state, {job.id, job.name, print.spool().folder(), {}});
+  } catch (...) {
+    print.spool().discard();
+    throw;
+  }
 }
 
 asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> continuing) {
@@ -204,8 +220,9 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
   }
   current_.reset();
   notify_service("STATUS=idle");
+  take_printer_back();
   co_await enter(id, ending, reason);
-  if (when_idle_) when_idle_();
+  if (when_idle_) let_printer_go(false);
 }
 
 /// The print goes away in a thread of its own, and into the history there.
@@ -270,13 +287,10 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
   };
   current_->print = co_await elsewhere(preparing_, open);
   Print& print = *current_->print;
-  const auto connect = [&print](std::optional<Leg> leg) {
-    return [&print, leg = std::move(leg)] { return print.connect(leg), true; };
-  };
   if (current_->cancelled) throw core::Stopped();
   std::optional<Lost> lost = lost_before(print.spool().before());
   if (!lost && later.empty()) {
-    co_await elsewhere(preparing_, connect(std::nullopt));
+    co_await connect_print(print);
     const StreamResult result = co_await run_sessions(id);
     if (!result.lost) co_return conclude(result, ending);
     lost = result.lost;
@@ -294,7 +308,7 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
     interrupted_->question = std::move(question);
     co_return "a person has to agree to how it continues: see `unicursal resume`";
   }
-  co_await elsewhere(preparing_, connect(restart.leg));
+  co_await connect_print(print, restart.leg);
   co_return conclude(co_await run_sessions(id), ending);
 }
 
@@ -370,6 +384,7 @@ void Daemon::cancel(const std::string& reason) {
 }
 
 void Daemon::stop_at_once() {
+  if (!current_ && idle_.status().connection == IdleStatus::Connection::open) return idle_.stop_at_once();
   if (!current_) throw Refused(Why::conflict, "nothing is being printed");
   if (!current_->print || !current_->print->session()) return cancel("the user has stopped it");
   if (const Refusal no = session().emergency_stop()) throw Refused(Why::conflict, *no);
@@ -378,7 +393,7 @@ void Daemon::stop_at_once() {
 void Daemon::shut_down(std::function<void()> done) {
   const bool again = static_cast<bool>(when_idle_);
   when_idle_ = std::move(done);
-  if (!current_) return when_idle_();
+  if (!current_) return let_printer_go(again);
   try {
     if (again)
       stop_at_once();

@@ -55,6 +55,7 @@ void LockstepClock::forget(asio::steady_timer& timer) noexcept {
 }
 
 void LockstepClock::attach(int port, std::function<std::uint64_t()> written) {
+  if (written_) written_before_ += written_();
   port_ = port;
   written_ = std::move(written);
 }
@@ -84,7 +85,7 @@ void LockstepClock::step() {
 
 void LockstepClock::ask(TimePoint until) {
   const std::string question = fmt::format(
-      "wait {} {}\n", until == TimePoint::max() ? -1 : nanoseconds(until), written_ ? written_() : 0);
+      "wait {} {}\n", until == TimePoint::max() ? -1 : nanoseconds(until), written_before_ + (written_ ? written_() : 0));
   if (::send(socket_, question.data(), question.size(), MSG_NOSIGNAL) < 0) {
     throw SimulatorError("the simulator is gone");
   }

@@ -44,6 +44,7 @@ class LockstepClock final : public Clock {
   int socket_ = -1;
   int port_ = -1;
   std::function<std::uint64_t()> written_;
+  std::uint64_t written_before_ = 0;  ///< by earlier conversations on the same line
   std::vector<Alarm> alarms_;
   std::string pending_;       ///< an answer that is not yet complete
   TimePoint now_{};           ///< since the printer's power-up

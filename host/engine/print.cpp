@@ -7,6 +7,7 @@
 
 #include "host/engine/produce.hpp"
 #include "host/engine/restart.hpp"
+#include "host/files/descriptor.hpp"
 #include "host/link/find_port.hpp"
 #include "host/link/link.hpp"
 #include "host/spool/spool_error.hpp"
@@ -66,12 +67,19 @@ Print::~Print() {
   if (port_ >= 0) close(port_);
 }
 
-void Print::connect(std::optional<Leg> leg) {
+void Print::connect(std::optional<Leg> leg, const OpenPort& open) {
+  Descriptor in_hand(open.descriptor);
   const Profile& profile = job().profile;
   const std::string port = options_.port.value_or(continues_ ? spool_->order().port : profile.port);
   settings_.link = {};  // closes an earlier log
   settings_.link = link_options(profile, options_.log);
-  port_ = open_port(port, profile.baud, settings_.link);
+  if (in_hand && open.name == port && open.baud == profile.baud) {
+    port_ = in_hand.release();
+    settings_.link.boot = {};
+  } else {
+    in_hand.reset();
+    port_ = open_port(port, profile.baud, settings_.link);
+  }
   port_name_ = port;
   stable_name_ = stable_name_of(device_of(port_));
   if (continues_) {

@@ -30,6 +30,13 @@ struct PrintOptions {
   PauseHeat pause_heat = PauseHeat::keep;
 };
 
+/// A port that is open already.
+struct OpenPort {
+  int descriptor = -1;  ///< −1: none
+  std::string name;     ///< as it was asked for
+  unsigned baud = 0;
+};
+
 class Print {
  public:
   /// A new print: checks that its first layer can be printed, and begins to make it. Throws core::DataError.
@@ -42,8 +49,8 @@ class Print {
 
   /// Opens the port, makes the spool of a new print, and keeps this computer awake from now on. `leg`: as in
   /// Continuation, for a print that continues; call this again after a session that has lost its place.
-  /// Throws PortError, core::DataError.
-  void connect(std::optional<Leg> leg = {});
+  /// Throws PortError, core::DataError. `open` is taken over, and used if it is the print's port.
+  void connect(std::optional<Leg> leg = {}, const OpenPort& open = {});
 
   /// After end(), if the session's connection was cut: opens the port again, by whatever name the same
   /// adapter has now, to go on with the next line. Planning has gone on meanwhile. Throws PortError while the

@@ -166,12 +166,20 @@ void read_extruder(const Section& section, gcode::Printer& printer) {
   read_extruder_motion(section, printer.motion);
 }
 
-void read_temperature(const Section& section, gcode::Printer& printer) {
+void read_temperature(const Section& section, Profile& profile) {
+  gcode::Printer& printer = profile.printer;
   printer.nozzle_temperature = section.number_or("nozzle", printer.nozzle_temperature,
                                                  between(150, 450, "°C"), "write for example nozzle = 210");
   printer.bed_temperature =
       section.number_or("bed", printer.bed_temperature, within(gcode::bounds::bed_temperature, "°C"),
                         "write for example bed = 60");
+  profile.hottest_nozzle = section.number_or(
+      "hottest_nozzle", std::max(profile.hottest_nozzle, printer.nozzle_temperature),
+      between(printer.nozzle_temperature, 450, "°C"), "write for example hottest_nozzle = 260");
+  profile.hottest_bed =
+      section.number_or("hottest_bed", std::max(profile.hottest_bed, printer.bed_temperature),
+                        between(printer.bed_temperature, gcode::bounds::bed_temperature.greatest, "°C"),
+                        "write for example hottest_bed = 100");
 }
 
 void read_transition(const Section& section, gcode::Printer& printer) {
@@ -208,7 +216,7 @@ Profile read_profile(const SettingsFile& file, const std::filesystem::path& path
         extruder.number("tube_length", between(1, longest_tube, "mm"),
                         "measure from the feeder to the hot end, for example tube_length = 450");
   profile.filaments = read_filaments(root, extruder, profile.printer);
-  read_temperature(root.section_or_empty("temperature", keys::temperature), profile.printer);
+  read_temperature(root.section_or_empty("temperature", keys::temperature), profile);
   read_transition(root.section_or_empty("transition", keys::transition), profile.printer);
   const Section gcode = root.section_or_empty("gcode", keys::gcode);
   profile.printer.start_gcode = read_script(gcode, "start");

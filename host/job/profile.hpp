@@ -26,6 +26,8 @@ struct Profile {
   std::optional<double> tube_length;       ///< mm from a feeder to the hot end; absent: not measured
   Filaments filaments = usual_filaments(gcode::Printer());
   unsigned receive_buffer = 128;  ///< bytes, of the firmware
+  double hottest_nozzle = 300;    ///< °C that a user may ask for while nothing is printed
+  double hottest_bed = 120;
   bool display = true;            ///< the printer's own display shows how far a print is
 };
 

@@ -1,5 +1,7 @@
 #include "host/link/link.hpp"
 
+#include <fcntl.h>
+
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
 #include <cassert>
@@ -77,6 +79,18 @@ asio::awaitable<void> Link::drain() {
   state->signal.notify();
   co_await state->until(settled);
   state->draining = false;
+}
+
+asio::awaitable<void> Link::until_failure() {
+  const auto state = state_;
+  const std::function<bool()> never = [] { return false; };
+  co_await state->until(never);
+}
+
+int Link::take_port() {
+  const int descriptor = ::fcntl(state_->port.native_handle(), F_DUPFD_CLOEXEC, 0);
+  state_->close();
+  return descriptor;
 }
 
 void Link::cool_down() noexcept {

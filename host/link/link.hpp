@@ -81,6 +81,12 @@ class Link {
   asio::awaitable<void> send(std::vector<std::string> lines);
   /// Returns when every line has been acknowledged. Throws LinkError. Precondition: connected.
   asio::awaitable<void> drain();
+  /// Never returns: throws LinkError as soon as the conversation fails, for example since the cable was
+  /// pulled, also while nothing is sent.
+  asio::awaitable<void> until_failure();
+  /// Ends the conversation and returns the port's descriptor, which stays open and locked and is the caller's
+  /// from now on; −1 if the port has gone. To be called when drain() has returned.
+  int take_port();
   /// Out of band: ends a wait for heat, switches the heaters off, and drops the lines that have no number
   /// yet. Best effort; may be repeated. The conversation continues.
   void cool_down() noexcept;
