@@ -33,6 +33,10 @@ bool changes_feed(const std::string& line) {
   return std::any_of(words.begin(), words.end(), [&](const char* word) { return line.starts_with(word); });
 }
 
+std::uint8_t asked_number(std::size_t material) {
+  return static_cast<std::uint8_t>(std::min<std::size_t>(material, LaidPath::nothing_asked));
+}
+
 LineBatch batch_of(const SpooledChunk& kept, const gcode::Chunk* made) {
   LineBatch batch;
   std::size_t bytes = 0;
@@ -73,7 +77,7 @@ struct LiveLine::State {
   void take(Chunk chunk, const std::stop_token& stop);
   void take(Interposed interposed, const std::stop_token& stop);
   void run(const std::stop_token& stop);
-  void plan(const gcode::PlacedLayer& layer);
+  std::optional<LaidPath> planned_path(const gcode::PlacedLayer& layer) const;
   gcode::Shares asked_at(std::size_t material, const core::Vec2& place, double z) const;
   NamedMixture named(std::string name, const gcode::Shares& shares) const;
   std::string nearest(const gcode::Shares& shares) const;
@@ -154,13 +158,17 @@ void LiveLine::State::read_kept(const std::stop_token& stop) {
 }
 
 void LiveLine::State::take(Chunk chunk, const std::stop_token& stop) {
+  const gcode::PlacedLayer& next = chunk.planned;
+  std::optional<LaidPath> planned = planned_path(next);
   {
     const std::lock_guard lock(mutex);
     const std::uint64_t done = executed;
     lines.drop_before(done);
     layers.make_room(lines.first_open_layer());
     lines.append(std::move(chunk.batch));
-    if (!chunk.planned.paths.empty()) plan(chunk.planned);
+    if (planned && !first_layer) first_layer = next.index;
+    if (planned && next.index >= *first_layer)
+      layers.plan(next.index - *first_layer, next.top, std::move(*planned));
   }
   run(stop);
 }
@@ -189,9 +197,11 @@ gcode::Shares LiveLine::State::asked_at(std::size_t material, const core::Vec2& 
   return shares;
 }
 
-void LiveLine::State::plan(const gcode::PlacedLayer& layer) {
-  if (!first_layer) first_layer = layer.index;
+/// The layer's beads in the order in which they were planned, in the colours asked for.
+std::optional<LaidPath> LiveLine::State::planned_path(const gcode::PlacedLayer& layer) const {
   std::optional<LaidPath> path;
+  std::optional<gcode::Shares> coloured;
+  picture::Colour colour;
   for (const core::BeadPath& beads : layer.paths) {
     if (beads.size() == 0) continue;
     if (!path)
@@ -200,17 +210,16 @@ void LiveLine::State::plan(const gcode::PlacedLayer& layer) {
       path->travel(beads.start(0));
     for (std::size_t i = 0; i < beads.size(); ++i) {
       const std::size_t zone = beads.beads[i].zone;
-      if (zone >= subject.asked.zone_materials.size()) return;
+      if (zone >= subject.asked.zone_materials.size()) return std::nullopt;
       const std::size_t material = subject.asked.zone_materials[zone];
       const core::Vec2 middle = (beads.start(i) + beads.end(i)) / 2;
       const gcode::Shares shares = asked_at(material, middle, layer.top - layer.height / 2);
-      path->lay(beads.end(i), beads.width(i),
-                static_cast<std::uint8_t>(std::min<std::size_t>(material, LaidPath::nothing_asked)),
-                picture::colour_of({shares.begin(), shares.size()}, colours));
+      if (coloured != shares) colour = picture::colour_of({shares.begin(), shares.size()}, colours);
+      coloured = shares;
+      path->lay(beads.end(i), beads.width(i), asked_number(material), colour);
     }
   }
-  if (path && layer.index >= *first_layer)
-    layers.plan(layer.index - *first_layer, layer.top, std::move(*path));
+  return path;
 }
 
 NamedMixture LiveLine::State::named(std::string name, const gcode::Shares& shares) const {
