@@ -38,8 +38,7 @@ namespace {
 constexpr double width_comment_step = 0.2;  ///< relative change of width that gets a new comment for viewers
 constexpr double park_lift = 10;            ///< mm above the last layer, if the printer's height allows
 
-constexpr double unseen =
-    0.02;  ///< weight of plastic whose mixture hardly matters (prime line, transition zones)
+constexpr double unseen = 0.02;  ///< weight of plastic whose mixture hardly matters (prime, transitions)
 constexpr double gradient_piece = 0.5;  ///< mm of path that count as one mixture
 constexpr double least_piece = 1e-3;    ///< mm³; beads are not cut nearer to their ends
 
@@ -369,8 +368,7 @@ void Encoder::State::finish_part(Chunk& part, Chunk& chunk) {
   chunk.layers.push_back({layer, part.volume, part.seconds, std::exchange(layer_ends, false)});
   for (MixtureStart& start : part.mixtures)
     chunk.mixtures.push_back({chunk.lines.size() + start.line, std::move(start.name)});
-  for (const MaterialStart& start : part.asked)
-    chunk.asked.push_back({chunk.lines.size() + start.line, start.material});
+  for (const auto& [line, what] : part.asked) chunk.asked.push_back({chunk.lines.size() + line, what});
   append(chunk.lines, std::move(part.lines));
   append(chunk.warnings, std::move(part.warnings));
   for (const auto& [what, volume] : part.mixture_volumes) add(chunk.mixture_volumes, what, volume);
