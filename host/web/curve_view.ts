@@ -6,15 +6,21 @@ import {h, icon, setText} from './dom';
 import {LayerPath} from './path';
 import {t} from './words';
 
-const paleShare = 0.26;  // of the bead's colour, the rest is the ground
-const sliceTime = 4;     // ms, so that a slice stays below 8 when one stroke is dear
+const shares = {
+  plan: 0.14,
+  pale: 0.26,
+  laid: 1
+};                    // of the bead's colour; the rest is the ground
+const sliceTime = 4;  // ms, so that a slice stays below 8 when one stroke is dear
+
+const nowhere = [Infinity, Infinity, -Infinity, -Infinity];
 
 interface Work {
   frame: Frame;
   at: number;
   laid: number;
   known: number;
-  pass: 'pale'|'laid'
+  pass: 'plan'|'pale'|'laid'
 }
 
 export class CurveView extends HTMLElement {
@@ -28,6 +34,8 @@ export class CurveView extends HTMLElement {
   private readonly stage =
       h('div', {class: 'stage', role: 'group', tabindex: 0, 'aria-label': t('curve.title')});
   private path: LayerPath|null = null;
+  private plan: LayerPath|null = null;
+  private extent = nowhere;  ///< of all layers that were shown, mm
   private colours: number[] = [];
   private ground = 0;
   private size: Size = {width: 0, height: 0};
@@ -91,10 +99,15 @@ export class CurveView extends HTMLElement {
     this.redraw();
   }
 
-  /** Shows a layer of which `laid` beads are laid; null: none. */
-  show(path: LayerPath|null, laid: number): void {
-    const grown = path !== null && path === this.path, before = this.frame;
+  /**
+   * Shows a layer of which `laid` beads are laid; null: none. `plan`: what lies beneath while the layer is
+   * not known to its end.
+   */
+  show(path: LayerPath|null, laid: number, plan: LayerPath|null = null): void {
+    const grown = path !== null && path === this.path && plan === this.plan, before = this.frame;
     this.path = path;
+    this.plan = plan;
+    for (const one of [path, plan]) this.widen(one);
     this.target = path ? Math.min(laid, path.count) : 0;
     if (this.fitted) this.fitFrame();
     const still =
@@ -128,10 +141,22 @@ export class CurveView extends HTMLElement {
     this.begin();
   };
 
+  /** The frame holds all layers that were shown, so that it stands still from layer to layer. */
+  private widen(path: LayerPath|null): void {
+    if (!path) return;
+    const [a, b] = [this.extent, path.bounds];
+    this.extent = [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+  }
+
+  /** Another print. */
+  forget(): void {
+    this.extent = nowhere;
+    this.show(null, 0);
+  }
+
   private fitFrame(): void {
-    const known = this.path && this.path.bounds[2] > this.path.bounds[0];
-    this.frame = fitting(
-        known && this.path ? this.path.bounds : this.bed, this.size, 18 * this.ratio, 58 * this.ratio);
+    const known = this.extent[2] > this.extent[0];
+    this.frame = fitting(known ? this.extent : this.bed, this.size, 18 * this.ratio, 58 * this.ratio);
   }
 
   private resize(): void {
@@ -157,7 +182,7 @@ export class CurveView extends HTMLElement {
   private begin(): void {
     if (!this.size.width) return;
     this.place();
-    this.work = {frame: this.frame, at: this.target, laid: this.target, known: 0, pass: 'pale'};
+    this.work = {frame: this.frame, at: 0, laid: this.target, known: 0, pass: 'plan'};
     this.workBegan = performance.now();
     this.timing.slice = this.timing.slices = 0;
     brushOf(this.hiddenOne).clearRect(0, 0, this.size.width, this.size.height);
@@ -189,16 +214,18 @@ export class CurveView extends HTMLElement {
     const work = this.work, path = this.path, began = performance.now();
     if (!work) return;
     const brush = brushOf(this.hiddenOne);
-    const ground = this.ground;
     while (path && performance.now() - began < sliceTime) {
-      const end = work.pass === 'pale' ? path.count : work.laid;
-      if (work.at < end) {
-        const shade = work.pass === 'pale' ? (colour: number) => pale(colour, ground, paleShare) :
-                                             (colour: number) => colour;
+      const what = work.pass === 'plan' ? this.plan : path;
+      const end = work.pass === 'laid' ? work.laid : what?.count ?? 0;
+      if (what && work.at < end) {
         const before = performance.now();
-        work.at = paintStroke(brush, path, work.at, end, work.frame, this.size, shade, this.perStroke);
+        work.at = paintStroke(
+            brush, what, work.at, end, work.frame, this.size, this.shade(shares[work.pass]), this.perStroke);
         flush(brush);
         this.perStroke = adapted(this.perStroke, performance.now() - before);
+      } else if (work.pass === 'plan') {
+        work.pass = 'pale';
+        work.at = work.laid;
       } else if (work.pass === 'pale') {
         work.pass = 'laid';
         work.known = path.count;
@@ -209,6 +236,10 @@ export class CurveView extends HTMLElement {
     this.timing.slices++;
     this.timing.slice = Math.max(this.timing.slice, performance.now() - began);
     if (!path || (work.pass === 'laid' && work.at >= work.laid)) this.swap(work);
+  }
+
+  private shade(share: number): (colour: number) => number {
+    return share === 1 ? (colour) => colour : (colour) => pale(colour, this.ground, share);
   }
 
   private swap(work: Work): void {
@@ -236,7 +267,7 @@ export class CurveView extends HTMLElement {
     while (this.known < path.count && performance.now() - began < 2)
       this.known = paintStroke(
           brush, path, Math.max(this.known, this.painted), path.count, this.drawn, this.size,
-          (colour) => pale(colour, this.ground, paleShare), 40);
+          this.shade(shares.pale), 40);
     const end = Math.min(
         this.target, this.known,
         this.painted + (this.pace === Infinity ? this.target : Math.max(1, Math.ceil(this.pace))));

@@ -8,6 +8,7 @@ const keptPaths = 4;
 export class PrintLayers {
   info: Layers|null = null;
   private readonly paths = new Map<number, LayerPath>();
+  private readonly plans = new Map<number, LayerPath>();
   private readonly loading = new Map<number, Promise<LayerPath|null>>();
 
   /** Fetches what is known now; null while no print goes on. */
@@ -24,6 +25,7 @@ export class PrintLayers {
   clear(): void {
     this.info = null;
     this.paths.clear();
+    this.plans.clear();
   }
 
   get known(): KnownLayer[] {
@@ -62,9 +64,10 @@ export class PrintLayers {
     // pause.
     const void_ = path && about &&
         (path.planned !== !!about.planned || about.beads < path.count || (path.complete && !about.complete));
-    if (!path || void_)
+    if (!path || void_) {
+      if (path?.planned) this.plans.set(layer, path);
       path = new LayerPath(layer);
-    else if (path.complete || (about && about.beads <= path.count && !about.complete))
+    } else if (path.complete || (about && about.beads <= path.count && !about.complete))
       return path;
     try {
       const grows = path.count > 0 && this.paths.get(layer) === path;
@@ -80,7 +83,13 @@ export class PrintLayers {
     this.paths.delete(layer);
     this.paths.set(layer, path);
     for (const old of [...this.paths.keys()].slice(0, -keptPaths)) this.paths.delete(old);
+    for (const old of [...this.plans.keys()].slice(0, -keptPaths)) this.plans.delete(old);
     return path;
+  }
+
+  /** The plan of a layer that is not encoded to its end yet; null if this page did not see it. */
+  plan(path: LayerPath|null): LayerPath|null {
+    return path && !path.complete && !path.planned ? this.plans.get(path.layer) ?? null : null;
   }
 }
 

@@ -47,10 +47,15 @@ export class LayerPath {
   revision = 0;
   x = new Float32Array(1);  ///< mm
   y = new Float32Array(1);
-  width = new Uint8Array(0);                            ///< of 20 µm; 0: a travel
-  asked = new Uint8Array(0);                            ///< index of a mixture; 255: none
-  colour = new Uint32Array(0);                          ///< 0xrrggbb
-  bounds = [Infinity, Infinity, -Infinity, -Infinity];  ///< of what is laid: least x and y, greatest x and y
+  width = new Uint8Array(0);    ///< of 20 µm; 0: a travel
+  asked = new Uint8Array(0);    ///< index of a mixture; 255: none
+  colour = new Uint32Array(0);  ///< 0xrrggbb
+  /**
+   * Of what is laid, mm: least x and y, greatest x and y. The line at the edge of the bed that primes the
+   *  nozzle is left out: no mixture is asked for at its begin, and a travel leads away from it.
+   */
+  bounds = [Infinity, Infinity, -Infinity, -Infinity];
+  private priming = false;
 
   constructor(readonly layer: number) {}
 
@@ -75,7 +80,11 @@ export class LayerPath {
       this.asked[k] = beads.getUint8(at + 5);
       this.colour[k] =
           (beads.getUint8(at + 6) << 16) | (beads.getUint8(at + 7) << 8) | beads.getUint8(at + 8);
-      if (this.width[k]) this.widen(k);
+      if (k === 0) this.priming = this.layer === 0 && this.asked[0] === 255;
+      if (!this.width[k])
+        this.priming = false;
+      else if (!this.priming)
+        this.widen(k);
     }
     this.count += chunk.count;
     this.top = chunk.top;

@@ -110,6 +110,8 @@ export class CurvePanel extends View {
     const print = live.status?.print ? live.status.job?.id ?? 0 : -1;
     if (print === this.print) return;
     this.print = print;
+    this.layers.clear();
+    this.curve.forget();
     if (print >= 0) void this.begin();
   }
 
@@ -123,6 +125,7 @@ export class CurvePanel extends View {
     if (!this.layers.info) return void this.begin();
     this.layers.learn(layer);
     this.showSlider();
+    if (layer.layer === this.shownLayer + 1) this.readPlan();
     if (layer.layer !== this.shownLayer || this.fetching) return;
     // Layers grow a few times a second; half a second's beads are fetched together.
     this.fetching = window.setTimeout(() => {
@@ -144,10 +147,17 @@ export class CurvePanel extends View {
     this.path = path;
     this.absent = path ? -1 : layer;
     this.curve.say(path && path.count ? '' : t('curve.unknown'));
-    this.curve.show(path, path ? laidOf(layer, live.position, path.count) : 0);
+    this.curve.show(path, path ? laidOf(layer, live.position, path.count) : 0, this.layers.plan(path));
     this.showLabel();
+    this.readPlan();
     const about = this.layers.about(layer);
     if (again && path && about && about.beads > path.count && !path.complete) await this.fetchShown(false);
+  }
+
+  /** The plan of the next layer lies beneath it later, while the layer is encoded piece by piece. */
+  private readPlan(): void {
+    const next = this.layers.about(this.shownLayer + 1);
+    if (this.following && next?.planned) void this.layers.path(next.layer).catch(() => null);
   }
 
   private move(): void {

@@ -45,6 +45,16 @@ test('a layer begins where its head says, and each bead leads on', () => {
   close(path.bounds[2], 13.34 + 0.4);
 });
 
+test('the line that primes the nozzle does not make the part small', () => {
+  const path = new LayerPath(0), far = [30_000, 0, 40, 255, 1, 1, 1];
+  const part = [100, 100, 40, 0, 1, 1, 1], travel = [0, 9000, 0, 255, 0, 0, 0];
+  path.add(decodeChunk(
+      bytes({layer: 0, at: [0, 0], beads: [far, [...far.slice(0, 3), 0, 1, 1, 1], travel, part]})));
+  close(path.bounds[0], 600 - 0.4);
+  close(path.bounds[1], 90 - 0.4);
+  close(path.bounds[3], 91 + 0.4);
+});
+
 test('a layer grows by what follows, and refuses what does not', () => {
   const path = new LayerPath(3), bead = [10, 0, 40, 0, 9, 9, 9];
   assert.ok(path.add(decodeChunk(bytes({beads: [bead, bead]}))));
