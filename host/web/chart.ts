@@ -13,6 +13,7 @@ export interface Chart extends HTMLElement {
   draw(lines: Line[], now: number): void
 }
 
+const longestGap = 15;  // s without a value that are still drawn through
 const hour = 3600, left = 34, bottom = 20, above = 8;
 
 export function chart(label: string): Chart {
@@ -101,15 +102,14 @@ function trace(
   brush.lineWidth = line.dashed ? 1.5 : 2;
   brush.lineJoin = 'round';
   brush.beginPath();
-  let drawing = false;
+  let before = -Infinity;  // when the last value was known, s
   for (const [time, value] of line.points) {
-    if (value === null)
-      drawing = false;
-    else if (drawing)
+    if (value === null) continue;
+    if (time - before < longestGap)
       brush.lineTo(x(time), y(value));
     else
       brush.moveTo(x(time), y(value));
-    drawing = value !== null;
+    before = time;
   }
   brush.stroke();
   brush.setLineDash([]);
