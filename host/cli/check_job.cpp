@@ -16,6 +16,8 @@ class CheckJob final : public Command {
     add_value(app, "JOB", check_.job, " ", "Job to check.").required();
     add_value(app, "--profile", check_.profile, "PROFILE", "Use this printer profile.");
     declare_layers(app, check_.layers, "Check only these layers: A to B.");
+    add_value(app, "--sketch", check_.sketch, "DIR",
+              "Only write a picture and an estimate into this folder.");
     add_value(app, "--memory", memory_, "MB", "Address space that it may take.")
         .check(integer_between(16, most_megabytes));
     add_value(app, "--time", time_, "S", "Time that it may take.").check(integer_between(1, 86400));

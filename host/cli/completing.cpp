@@ -129,6 +129,7 @@ const std::map<std::string, Values>& placeholders() {
       {"ADDRESS", free_value},
       {"HOST", free_value},
       {"NAME", free_value},
+      {"COMMAND", free_value},
   };
   return all;
 }

@@ -137,7 +137,7 @@ ForegroundResult stream_with_progress(Print& print, const DisplayOptions& option
 void note_in_history(Print& print, const ForegroundResult& result) {
   const std::string& why = result.stream.reason.empty() ? result.reason : result.stream.reason;
   const EndedSession ended{{}, why, result.seconds, result.foretold, result.warnings};
-  for (const std::string& note : keep_in_history(print.spool(), print.job(), ended))
+  for (const std::string& note : keep_in_history(print.spool(), print.production(), ended))
     show(stderr, "warning: {}\n", note);
 }
 

@@ -1,6 +1,7 @@
 #include "host/history/history.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -72,7 +73,7 @@ class HistoryCommand final : public Command {
     if (note_) return changed(history.set_note(*number_, note_->substr(0, History::longest_note)), *number_);
     const std::vector<PastPrint> prints = wanted(history);
     if (csv_)
-      show_as_it_is(stdout, csv_of(prints));
+      show_table(csv_of(prints));
     else if (json_)
       show_all_json(prints, history);
     else
@@ -109,6 +110,14 @@ class HistoryCommand final : public Command {
     nlohmann::json list = nlohmann::json::array();
     for (const PastPrint& print : prints) list.push_back(to_json(print));
     show_json({{"prints", list}, {"filaments", to_json(history.totals())["filaments"]}});
+  }
+
+  /// Its texts may be a stranger's, and must not command a terminal.
+  static void show_table(const std::string& table) {
+    if (::isatty(STDOUT_FILENO) == 1)
+      show_text(stdout, table);
+    else
+      show_as_it_is(stdout, table);
   }
 
   void show_all(const std::vector<PastPrint>& prints, History& history) const {

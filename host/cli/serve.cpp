@@ -55,6 +55,9 @@ class Serve final : public Command {
         "Start files that a slicer sends to be printed, once the bed was confirmed clear with `unicursal "
         "queue --bed-clear` and nothing has been printed since.");
     app.add_flag("--openapi", openapi_, "Write a description of the HTTP interface as OpenAPI 3.1, and end.");
+    add_value(app, "--on-event", daemon.on_event, "COMMAND",
+              "Run this command (by sh) when a print has started, is paused, asks a question, has a problem "
+              "or has ended. It gets a JSON object on standard input.");
     declare_state(app, state_);
     declare_spool(app, daemon.spool);
     declare_pause_heat(app, daemon.pause_heat);

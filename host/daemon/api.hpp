@@ -113,6 +113,8 @@ class Api : public HttpHandler {
   asio::awaitable<Response> list_prints(Request request);
   asio::awaitable<Response> arrange_jobs(Request request);
   asio::awaitable<Response> copy_job(Request request);
+  asio::awaitable<Response> job_picture(Request request);
+  asio::awaitable<Response> resume_print(Request request);
 
   // Of a printer while nothing is printed (idle_api.cpp)
   nlohmann::json whole_printer() const;

@@ -52,6 +52,7 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
       files_(options.jobs, options.state / "files"),
       queue_(options.state / "queue.json"),
       past_prints_(folder_of_prints(options)),
+      sketch_timer_(loop),
       dry_runs_(loop, options.state / "dry-runs", [this](const json& event) { broadcast(event); }),
       progress_(loop),
       idle_(loop.get_executor(), opening_.get_executor()),
@@ -62,6 +63,8 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
   write_state(options_.state / "queue.json", queue_.text());
   interrupted_ = interrupted_print(options_.state);
   if (interrupted_) log_line(fmt::format("job {} {}: interrupted", interrupted_->id, interrupted_->job));
+  if (options.on_event) event_command_.emplace(*options.on_event);
+  sketch_soon();
 }
 
 Daemon::~Daemon() {
@@ -176,6 +179,7 @@ asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<Layer
   }
   if (job) broadcast({{"event", "queue"}, {"job", to_json(*job)}});
   start_sent();
+  sketch_soon();
   co_return id;
 }
 
@@ -241,6 +245,7 @@ asio::awaitable<void> Daemon::enter(std::uint64_t id, QueuedJob::State state, st
   } catch (const std::exception& error) {
     trouble = error.what();
   }
+  if (!trouble.empty() && problem_.empty()) announce("problem", {}, trouble);
   problem_ = trouble;
   if (const QueuedJob* job = queue_.find(id)) broadcast({{"event", "queue"}, {"job", to_json(*job)}});
 }
@@ -279,6 +284,7 @@ void Daemon::on_session_event(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::progress || event.kind == SessionEvent::Kind::heat)
     return note_progress();
   if (!session) return;
+  announce_session(event);
   if (event.kind == SessionEvent::Kind::printer) log_record_.note(LogRecord::From::printer, event.text);
   if (event.kind == SessionEvent::Kind::notice) log_record_.note(LogRecord::From::notice, event.text);
   if (event.kind == SessionEvent::Kind::state) {

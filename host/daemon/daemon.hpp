@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "host/daemon/dry_runs.hpp"
+#include "host/daemon/event_command.hpp"
 #include "host/daemon/interrupted.hpp"
 #include "host/daemon/job_check.hpp"
 #include "host/daemon/job_files.hpp"
@@ -44,6 +45,7 @@ struct DaemonOptions {
   std::optional<std::filesystem::path> profile;  ///< of the printer, instead of the jobs' own
   std::optional<std::filesystem::path> spool;    ///< folder of the prints
   PauseHeat pause_heat = PauseHeat::keep;
+  std::optional<std::string> on_event;  ///< a command that hears of prints (event_command.hpp)
   bool start_uploads = false;  ///< those that are sent to be printed, once the bed is confirmed clear
   CheckLimits upload_limits{1024 * 1024 * 1024,
                             std::chrono::seconds(20)};  ///< for uploads, when they are queued
@@ -83,8 +85,8 @@ class Daemon {
   LogRecord& log_record() { return log_record_; }
 
   DryRuns& dry_runs() { return dry_runs_; }
-  /// Begins a dry run of a job, which is checked as by add(), and returns its number. Throws Refused, also while
-  /// a print has hardly anything planned ahead.
+  /// Begins a dry run of a job, which is checked as by add(), and returns its number. Throws Refused, also
+  /// while a print has hardly anything planned ahead.
   asio::awaitable<std::uint64_t> try_job(std::string name, std::optional<LayerRange> layers);
 
   /// The session of the current print. Throws Refused when there is none.
@@ -101,6 +103,12 @@ class Daemon {
   /// The waiting jobs are printed in this order, and those that it does not name afterwards. Throws Refused,
   /// also if one of these does not wait.
   asio::awaitable<void> arrange(std::vector<std::uint64_t> ids);
+  /// A small picture of a job, PNG. Throws Refused while there is none yet, or if none can be made.
+  asio::awaitable<std::string> job_picture(std::uint64_t id);
+  /// What continuing a kept print will do, sentences; nothing is done yet. Throws Refused.
+  asio::awaitable<std::string> would_resume(std::string name);
+  /// Continues it, as continue_interrupted() does. Returns its job's number at once. Throws Refused.
+  asio::awaitable<std::uint64_t> resume_kept(std::string name);
   /// Removes a job from the queue. Throws Refused, also for the one that is being printed.
   asio::awaitable<void> remove(std::uint64_t id);
   /// A file that arrives piece by piece: room for it, a piece of it, and the whole, which gets a name of its
@@ -161,6 +169,9 @@ class Daemon {
     bool begun = false;          ///< lines of it may have been sent
     nlohmann::json last_status;  ///< of its last session, or null
     EndedSession told;           ///< for the history
+    bool announced = false;      ///< the user's command has heard of it
+    bool paused = false;         ///< and of the present pause
+    std::string asked;           ///< the printer's question that the command has heard of
     std::optional<std::chrono::steady_clock::time_point> started;  ///< its first session
   };
   /// How an interrupted print is continued.
@@ -177,6 +188,14 @@ class Daemon {
   asio::awaitable<StreamResult> run_session(std::uint64_t id);
   std::string conclude(const StreamResult& result, QueuedJob::State& ending);
   void foretell();
+  void announce(const std::string& event, const std::string& state, const std::string& reason);
+  void announce_session(const SessionEvent& event);
+  void sketch_soon();
+  asio::awaitable<void> sketch_waiting();
+  bool may_sketch() const;
+  const QueuedJob* next_to_sketch() const;
+  asio::awaitable<nlohmann::json> sketch(QueuedJob job);
+  void check_may_begin() const;
   void end_print();
   void remember(std::uint64_t id, QueuedJob::State ending);
   PrintOptions print_options(const std::string& job) const;
@@ -238,6 +257,11 @@ class Daemon {
   std::function<void()> when_idle_;
   std::vector<std::unique_ptr<Follower>> followers_;
   PastPrints past_prints_;
+  std::optional<EventCommand> event_command_;
+  std::set<std::uint64_t> not_sketched_;  ///< jobs of which no picture can be made
+  bool sketching_ = false;
+  asio::steady_timer sketch_timer_;
+  std::stop_source sketch_stop_;  ///< of the child that makes one
   TemperatureRecord temperature_record_;
   LogRecord log_record_;
   DryRuns dry_runs_;

@@ -10,7 +10,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view history_path = "/api/history/", jobs_prefix = "/api/jobs/";
+constexpr std::string_view history_path = "/api/history/", jobs_prefix = "/api/jobs/",
+                           prints_prefix = "/api/prints/";
 constexpr std::size_t usual_count = 50;  ///< prints in an answer
 
 /// The number of a parameter behind the question mark. Throws HttpError 400.
@@ -89,6 +90,28 @@ asio::awaitable<Response> Api::print_again(Request request) {
   PastPrint print = co_await daemon_.past_prints().find(id);
   const std::uint64_t queued = co_await daemon_.print_again(std::move(print));
   co_return reply({{"id", queued}}, 201);
+}
+
+asio::awaitable<Response> Api::job_picture(Request request) {
+  const auto id = static_cast<std::uint64_t>(id_behind(request.path, jobs_prefix));
+  Response picture = with_type("image/png", co_await daemon_.job_picture(id));
+  picture.headers.emplace_back("Cache-Control", "private, max-age=3600");  // numbers are never given twice
+  co_return picture;
+}
+
+/// A print whose name cannot stand in an address is named in the body.
+asio::awaitable<Response> Api::resume_print(Request request) {
+  const json body = read_object(request, {"name", "sure"});
+  std::string name = text_in(body, "name");
+  if (request.path != std::string(prints_prefix) + "resume")
+    name = request.path.substr(prints_prefix.size(), request.path.rfind('/') - prints_prefix.size());
+  if (name.empty()) throw HttpError(400, "name is missing: of the print");
+  if (yes(body, "sure")) {
+    const std::uint64_t id = co_await daemon_.resume_kept(std::move(name));
+    co_return reply({{"id", id}}, 202);
+  }
+  const std::string will = co_await daemon_.would_resume(std::move(name));
+  co_return reply({{"will", will}});
 }
 
 asio::awaitable<Response> Api::copy_job(Request request) {

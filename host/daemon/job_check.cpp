@@ -30,6 +30,7 @@
 
 #include "core/error.hpp"
 #include "core/stopping.hpp"
+#include "host/daemon/job_sketch.hpp"
 #include "host/engine/prepared_sliced.hpp"
 #include "host/files/descriptor.hpp"
 #include "host/job/load_job.hpp"
@@ -188,6 +189,7 @@ std::vector<std::string> words_for(const JobCheck& check) {
   if (check.profile) words.insert(words.end(), {"--profile", check.profile->string()});
   if (check.layers)
     words.insert(words.end(), {"--layers", fmt::format("{}:{}", check.layers->first, check.layers->last)});
+  if (check.sketch) words.insert(words.end(), {"--sketch", check.sketch->string()});
   if (check.limits.memory)
     words.insert(words.end(), {"--memory", std::to_string(*check.limits.memory / megabyte)});
   if (check.limits.time) words.insert(words.end(), {"--time", std::to_string(check.limits.time->count())});
@@ -265,10 +267,12 @@ void check_here(const JobCheck& check) {
   try {
     Job job = load_job_or_model(check.job, check.profile, UnnamedPrinter::refuse);
     if (job.sliced) {
-      prepare_sliced(std::move(job), check.layers);
+      const PreparedSliced prepared = prepare_sliced(std::move(job), check.layers);
+      if (check.sketch) write_sketch(*check.sketch, prepared);
       return;
     }
     const PreparedJob prepared = prepare(std::move(job), check.layers);
+    if (check.sketch) return write_sketch(*check.sketch, prepared);
     check_beginning(prepared);
     if (check.limits.time) probe(prepared, *check.limits.time / 2);
   } catch (const std::bad_alloc&) {

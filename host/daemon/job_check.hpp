@@ -27,6 +27,9 @@ struct JobCheck {
   std::optional<std::filesystem::path> profile;  ///< instead of the job's own
   std::optional<LayerRange> layers;
   CheckLimits limits;
+  /// A folder into which the child writes a small picture of the job and an estimate (job_sketch.hpp); a job
+  /// is only read then, and nothing of it is planned.
+  std::optional<std::filesystem::path> sketch = {};
 };
 
 /// Why a job cannot be printed, found by a child process; empty if it can. `stop` ends the child at once:

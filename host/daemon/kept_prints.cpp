@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/engine/restart.hpp"
 #include "host/files/descriptor.hpp"
 #include "host/spool/chunk_reader.hpp"
 #include "host/spool/spool.hpp"
@@ -35,7 +36,9 @@ std::string why_not_resumed(const fs::path& folder, const JournalState& journal,
   return {};
 }
 
-KeptPrint kept_print(const fs::path& folder, const std::string& printing) {
+}  // namespace
+
+KeptPrint kept_print(const fs::path& folder, const std::string& printing, KeptDetail detail) {
   KeptPrint print;
   print.name = print.job = folder.filename().string();
   try {
@@ -44,9 +47,12 @@ KeptPrint kept_print(const fs::path& folder, const std::string& printing) {
     print.job = order.at("name").get<std::string>();
     print.layers = order.at("layer_count").get<std::size_t>();
     const JournalState journal = read_journal(folder / "journal");
-    if (const auto layer = layer_of(folder / "chunks", journal.furthest)) print.layer = layer->index + 1;
+    if (detail == KeptDetail::all) {
+      if (const auto layer = layer_of(folder / "chunks", journal.furthest)) print.layer = layer->index + 1;
+    }
     print.why_not = why_not_resumed(folder, journal, printing);
     print.may_resume = print.why_not.empty();
+    print.lost = lost_before(journal).has_value();
   } catch (const json::exception&) {
     print.why_not = "its record is damaged";
   } catch (const SpoolError& error) {
@@ -55,11 +61,11 @@ KeptPrint kept_print(const fs::path& folder, const std::string& printing) {
   return print;
 }
 
-}  // namespace
-
-std::vector<KeptPrint> list_kept_prints(const fs::path& root, const std::string& printing) {
+std::vector<KeptPrint> list_kept_prints(const fs::path& root, const std::string& printing,
+                                        KeptDetail detail) {
   std::vector<KeptPrint> prints;
-  for (const fs::path& folder : host::kept_prints(root)) prints.push_back(kept_print(folder, printing));
+  for (const fs::path& folder : host::kept_prints(root))
+    prints.push_back(kept_print(folder, printing, detail));
   return prints;
 }
 

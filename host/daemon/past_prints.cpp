@@ -57,7 +57,7 @@ asio::awaitable<json> PastPrints::list(std::optional<std::int64_t> before, std::
                                        std::string printing) {
   const auto read = [=, root = root_](History& history) {
     json prints = json::array();
-    const std::vector<KeptPrint> kept = list_kept_prints(root, printing);
+    const std::vector<KeptPrint> kept = list_kept_prints(root, printing, KeptDetail::whether);
     for (const PastPrint& print : history.list(before, std::min(most, most_at_once))) {
       json one = to_json(print);
       one["can_resume"] = std::any_of(kept.begin(), kept.end(), [&](const KeptPrint& k) {
@@ -103,7 +103,8 @@ asio::awaitable<void> PastPrints::remove(std::int64_t id) {
 asio::awaitable<json> PastPrints::kept(std::string printing) {
   const auto read = [=, root = root_] {
     json prints = json::array();
-    for (const KeptPrint& print : list_kept_prints(root, printing)) prints.push_back(json_of(print));
+    for (const KeptPrint& print : list_kept_prints(root, printing, KeptDetail::all))
+      prints.push_back(json_of(print));
     return json{{"prints", prints}};
   };
   co_return co_await elsewhere(thread_, read);

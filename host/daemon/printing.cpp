@@ -84,6 +84,7 @@ std::uint64_t Daemon::continue_interrupted(bool sure) {
 
 void Daemon::begin(std::uint64_t id, std::optional<Continuing> continuing) {
   bed_clear_ = false;
+  sketch_stop_.request_stop();
   current_.emplace();
   current_->id = id;
   queue_.enter(id, QueuedJob::State::preparing);
@@ -214,6 +215,7 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
   if (error && continuing) ending = QueuedJob::State::interrupted;
   if (continuing && !interrupted_) interrupted_ = continuing->print;
   remember(id, ending);
+  if (current_->announced) announce("print_ended", host::name(ending), current_->told.reason);
   if (current_->print) {
     last_ = current_->print->session() || !current_->last_status.is_null() ? job_and_print() : json();
     end_print();
@@ -223,6 +225,7 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
   take_printer_back();
   co_await enter(id, ending, reason);
   if (when_idle_) let_printer_go(false);
+  sketch_soon();
 }
 
 /// The print goes away in a thread of its own, and into the history there.
@@ -235,7 +238,7 @@ void Daemon::end_print() {
   asio::post(ending_, [gone = std::shared_ptr<Print>(std::move(current_->print)), told = std::move(told),
                        printed]() mutable {
     if (printed && gone->has_spool()) {
-      for (const std::string& note : keep_in_history(gone->spool(), gone->job(), told)) log_line(note);
+      for (const std::string& note : keep_in_history(gone->spool(), gone->production(), told)) log_line(note);
     }
     gone.reset();
   });
@@ -321,6 +324,7 @@ asio::awaitable<StreamResult> Daemon::run_sessions(std::uint64_t id) {
     current_->print->end();
     current_->reconnecting = true;
     broadcast_status();
+    announce("problem", "reconnecting", result.reason);
     std::string problem;
     bool back = false;
     try {

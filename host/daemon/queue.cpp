@@ -17,6 +17,8 @@ using State = QueuedJob::State;
 constexpr State all_states[] = {State::queued,  State::preparing, State::printing,   State::done,
                                 State::stopped, State::failed,    State::interrupted};
 
+constexpr const char* estimate_keys[] = {"seconds", "grams", "layer_count"};
+
 bool is_over(const QueuedJob& job) {
   return job.state != State::queued && job.state != State::preparing && job.state != State::printing;
 }
@@ -39,6 +41,11 @@ QueuedJob job_from(const json& entry) {
   job.added = entry.value("added", std::int64_t{0});
   job.began = entry.value("began", std::int64_t{0});
   job.ended = entry.value("ended", std::int64_t{0});
+  if (entry.contains("layer_count")) {
+    for (const char* key : estimate_keys) {
+      if (entry.contains(key)) job.estimate[key] = entry[key];
+    }
+  }
   if (const auto layers = entry.find("layers"); layers != entry.end())
     job.layers = LayerRange{layers->at(0).get<std::size_t>(), layers->at(1).get<std::size_t>()};
   return job;
@@ -73,6 +80,7 @@ json to_json(const QueuedJob& job) {
   if (!job.reason.empty()) entry["reason"] = job.reason;
   if (job.began != 0) entry["began"] = job.began;
   if (job.ended != 0) entry["ended"] = job.ended;
+  if (job.estimate.is_object()) entry.update(job.estimate);
   return entry;
 }
 
@@ -176,6 +184,12 @@ void Queue::enter(std::uint64_t id, State state, const std::string& reason) {
   if (state == State::preparing) job->began = now();
   if (is_over(*job)) job->ended = now();
   forget_oldest();
+}
+
+void Queue::estimate(std::uint64_t id, json estimate) {
+  const auto job = std::find_if(jobs_.begin(), jobs_.end(), [id](const QueuedJob& j) { return j.id == id; });
+  assert(job != jobs_.end());
+  job->estimate = std::move(estimate);
 }
 
 void Queue::forget_oldest() {

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +33,7 @@ struct QueuedJob {
   std::string reason;      ///< why it was not completed, a sentence; empty if it was
   std::int64_t added = 0;  ///< s since 1970
   std::int64_t began = 0, ended = 0;
+  nlohmann::json estimate;  ///< as of host/report/estimate.hpp; null: not known
 };
 
 const char* name(QueuedJob::State state);
@@ -66,6 +67,8 @@ class Queue {
   std::vector<std::uint64_t> order() const;
   /// Changes a job's state. Precondition: the job exists.
   void enter(std::uint64_t id, QueuedJob::State state, const std::string& reason = {});
+  /// What a job is expected to take. Precondition: the job exists.
+  void estimate(std::uint64_t id, nlohmann::json estimate);
   /// The content of the file.
   std::string text() const;
 

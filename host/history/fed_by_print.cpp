@@ -33,6 +33,10 @@ gcode::PerFeeder fed_by_print(const std::filesystem::path& chunks, const Journal
   gcode::FedFilament fed(feeders);
   for (const GivenUpLeg& before : journal.given_up) run_leg(fed, chunks, before.leg, before.acknowledged);
   run_leg(fed, chunks, journal.leg, journal.handed);
+  const bool parked = journal.aside || (journal.ended && journal.ended->outcome == LegOutcome::stopped);
+  if (parked) {
+    for (const std::string& line : journal.parking) fed.run(line);
+  }
   return fed.turned();
 }
 

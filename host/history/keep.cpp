@@ -7,6 +7,7 @@
 #include "core/picture/hex_colour.hpp"
 #include "host/history/fed_by_print.hpp"
 #include "host/history/history.hpp"
+#include "host/history/print_picture.hpp"
 
 namespace unicursal::host {
 namespace {
@@ -76,8 +77,10 @@ PastPrint past_print(const Spool& spool, const Job& job, const EndedSession& ses
 
 }  // namespace
 
-std::vector<std::string> keep_in_history(Spool& spool, const Job& job, const EndedSession& ended) noexcept {
+std::vector<std::string> keep_in_history(Spool& spool, const Production& production,
+                                         const EndedSession& ended) noexcept {
   try {
+    const Job& job = production.job();
     std::error_code unknown;
     if (!fs::exists(spool.folder() / "journal", unknown)) return {};  // nothing was sent, so it is not kept
     spool.journal().sync();
@@ -92,7 +95,7 @@ std::vector<std::string> keep_in_history(Spool& spool, const Job& job, const End
         print.foretold.reset();  // of the rest only
         if (print.seconds && print.began) *print.seconds += seconds_before(spool, *print.began);
       }
-      history.add(print, {}, goes_on);
+      history.add(print, print_picture(production, spool.chunks()), goes_on);
       return history.notes();
     } catch (const HistoryError& error) {
       const bool waits = History::let_wait(root, print, goes_on);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/engine/production.hpp"
 #include "host/history/past_print.hpp"
-#include "host/job/job.hpp"
 #include "host/spool/spool.hpp"
 
 namespace unicursal::host {
@@ -24,6 +24,7 @@ struct EndedSession {
 
 /// Waits a few seconds for other programs that use the history. A print of which nothing was sent is left
 /// out. Never fails: returns sentences for the user.
-std::vector<std::string> keep_in_history(Spool& spool, const Job& job, const EndedSession& ended) noexcept;
+std::vector<std::string> keep_in_history(Spool& spool, const Production& production,
+                                         const EndedSession& ended) noexcept;
 
 }  // namespace unicursal::host

@@ -1,5 +1,6 @@
 #include "host/history/past_print.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -69,7 +70,13 @@ json to_json(const PastTotals& totals) {
     object["prints"] = one.prints;
     filaments.push_back(std::move(object));
   }
-  return {{"prints", totals.prints}, {"seconds", totals.seconds}, {"filaments", filaments}};
+  json object = {{"prints", totals.prints}, {"seconds", totals.seconds}, {"filaments", filaments}};
+  const auto same = [&](const SpentFilament& one) {
+    return one.currency == totals.filaments.front().currency;
+  };
+  if (!totals.filaments.empty() && std::all_of(totals.filaments.begin(), totals.filaments.end(), same))
+    object["currency"] = totals.filaments.front().currency;
+  return object;
 }
 
 std::string waiting_line(const PastPrint& print, bool goes_on) {

@@ -125,13 +125,13 @@ export class HistoryView extends View {
   }
 
   private async resume(print: PastPrint): Promise<void> {
-    const path = `/api/prints/${encodeURIComponent(print.print ?? '')}/resume`;
-    const answer = await api.post<{will?: string}>(path, {});
+    const path = '/api/prints/resume', name = print.print;  // a name may hold what an address cannot
+    const answer = await api.post<{will?: string}>(path, {name});
     if (await ask(
             t('resume.title'), answer.will ?? t('resume.text'), [{label: t('resume.sure'), kind: 'main'}]) !==
         0)
       return;
-    await api.post(path, {sure: true});
+    await api.post(path, {name, sure: true});
     location.hash = '#/print';
   }
 

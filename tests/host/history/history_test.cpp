@@ -66,7 +66,7 @@ TEST_CASE("The history of prints has the filament that the printer's feeders hav
 
 TEST_CASE("A print that is killed and resumed on a cold printer is one row with the purge of its restart",
           "[optimised]") {
-  PrintBench bench(0, {"--fault", "reset@line=900"}, priced_profile);
+  PrintBench bench(0, {"--fault", "reset@line=250"}, priced_profile);
   REQUIRE(test::run(bench.print({"--quiet"})).code == 1);
   const json failed = history_of(bench);
   REQUIRE(failed["prints"].size() == 1);
