@@ -56,9 +56,7 @@ void Image::stroke(double x0, double y0, double x1, double y1, double thickness,
   }
 }
 
-namespace {
-
-std::vector<png_byte> samples_of(const Image& image) {
+void write_png(const std::filesystem::path& file, const Image& image) {
   std::vector<png_byte> bytes;
   bytes.reserve(image.width() * image.height() * 3);
   for (std::size_t y = 0; y < image.height(); ++y) {
@@ -67,37 +65,14 @@ std::vector<png_byte> samples_of(const Image& image) {
       bytes.insert(bytes.end(), {c.r, c.g, c.b});
     }
   }
-  return bytes;
-}
-
-png_image header_of(const Image& image) {
   png_image png;
   std::memset(&png, 0, sizeof png);
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.width());
   png.height = static_cast<png_uint_32>(image.height());
   png.format = PNG_FORMAT_RGB;
-  return png;
-}
-
-}  // namespace
-
-std::string png_bytes(const Image& image) {
-  const std::vector<png_byte> samples = samples_of(image);
-  png_image png = header_of(image);
-  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
-  png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, samples.data(), 0, nullptr) == 0)
-    throw std::system_error(ENOMEM, std::generic_category(), "a picture");
-  bytes.resize(size);
-  return bytes;
-}
-
-void write_png(const std::filesystem::path& file, const Image& image) {
-  const std::vector<png_byte> samples = samples_of(image);
-  png_image png = header_of(image);
   errno = 0;
-  if (png_image_write_to_file(&png, file.c_str(), 0, samples.data(), 0, nullptr) == 0) {
+  if (png_image_write_to_file(&png, file.c_str(), 0, bytes.data(), 0, nullptr) == 0) {
     throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), file.string());
   }
 }

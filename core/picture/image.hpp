@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace unicursal::picture {
@@ -33,9 +32,6 @@ class Image {
   std::size_t width_, height_;
   std::vector<Colour> pixels_;
 };
-
-/// The content of a PNG file.
-std::string png_bytes(const Image& image);
 
 /// Throws std::system_error with the path if the file cannot be written.
 void write_png(const std::filesystem::path& file, const Image& image);

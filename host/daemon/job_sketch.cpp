@@ -13,7 +13,7 @@ template <class Prepared>
 void write_both(const std::filesystem::path& folder, const Prepared& prepared) {
   picture::write_png(folder / sketch_picture, small_picture(prepared));
   const std::string text =
-      to_json(estimate(prepared)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      to_json(estimate_of(prepared)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   write_whole_file(folder / sketch_estimate, text, WholeFile::Access::owner_only);
 }
 

@@ -1,5 +1,6 @@
 #include "host/history/print_picture.hpp"
 
+#include "core/picture/png_bytes.hpp"
 #include "host/engine/planned_production.hpp"
 #include "host/engine/sliced_production.hpp"
 #include "host/report/small_picture.hpp"

@@ -28,7 +28,7 @@ std::vector<EstimatedFilament> filaments_of(const gcode::PerFeeder& volumes, con
 
 }  // namespace
 
-Estimate estimate(const PreparedJob& prepared) {
+JobEstimate estimate_of(const PreparedJob& prepared) {
   const Job& job = prepared.job;
   const double flow = lookahead_options(prepared).flow;
   gcode::PerFeeder volumes = gcode::PerFeeder::zeros(job.profile.printer.feeders);
@@ -45,12 +45,12 @@ Estimate estimate(const PreparedJob& prepared) {
       }
     }
   }
-  Estimate estimate{std::nullopt, filaments_of(volumes, job.profile), prepared.count};
+  JobEstimate estimate{std::nullopt, filaments_of(volumes, job.profile), prepared.count};
   if (flow > 0) estimate.seconds = seconds;
   return estimate;
 }
 
-Estimate estimate(const PreparedSliced& prepared) {
+JobEstimate estimate_of(const PreparedSliced& prepared) {
   const Job& job = prepared.job;
   gcode::PerFeeder volumes = gcode::PerFeeder::zeros(job.profile.printer.feeders);
   for (const gcode::SlicedTool& tool : prepared.survey.tools) {
@@ -61,7 +61,7 @@ Estimate estimate(const PreparedSliced& prepared) {
   return {prepared.survey.seconds, filaments_of(volumes, job.profile), prepared.survey.layers};
 }
 
-nlohmann::json to_json(const Estimate& estimate) {
+nlohmann::json to_json(const JobEstimate& estimate) {
   nlohmann::json grams = nlohmann::json::array();
   for (const EstimatedFilament& one : estimate.filaments)
     grams.push_back({{"name", one.name}, {"colour", one.colour}, {"grams", one.grams}});

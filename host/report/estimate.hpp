@@ -18,18 +18,18 @@ struct EstimatedFilament {
   double grams = 0;
 };
 
-struct Estimate {
+struct JobEstimate {
   std::optional<double> seconds;             ///< absent: the flow is not known yet
   std::vector<EstimatedFilament> filaments;  ///< those that are fed
   std::size_t layers = 0;
 };
 
 /// Slices every layer. A core::StopScope around it is obeyed.
-Estimate estimate(const PreparedJob& prepared);
+JobEstimate estimate_of(const PreparedJob& prepared);
 /// From a slicer's own file: exact but for what remixing adds.
-Estimate estimate(const PreparedSliced& prepared);
+JobEstimate estimate_of(const PreparedSliced& prepared);
 
 /// `seconds`, `grams` with `name`, `colour` and `grams`, and `layer_count`.
-nlohmann::json to_json(const Estimate& estimate);
+nlohmann::json to_json(const JobEstimate& estimate);
 
 }  // namespace unicursal::host

@@ -11,6 +11,10 @@ using test::DaemonBench;
 
 namespace {
 
+std::string at(const test::TempFolder& folder, const std::string& name) {
+  return (folder / name).string();
+}
+
 /// The events that the command has written, one JSON object a line.
 std::vector<json> events_in(const std::string& file) {
   std::vector<json> events;
@@ -41,7 +45,7 @@ void await_file(const std::string& file, std::size_t size) {
 
 TEST_CASE("a command that hangs is killed with all its children, and the next event is heard") {
   const test::TempFolder folder;
-  const std::string log = folder / "log";
+  const std::string log = at(folder, "log");
   host::EventCommand command("if [ \"$UNICURSAL_EVENT\" = first ]; then sleep 1000 & echo $! >> " + log +
                                  "; wait; fi; cat >> " + log,
                              std::chrono::milliseconds(300));
@@ -61,18 +65,45 @@ TEST_CASE("a command that hangs is killed with all its children, and the next ev
 TEST_CASE("a command gets no secrets of the daemon's environment, and hostile texts as they are") {
   const test::TempFolder folder;
   setenv("UNICURSAL_TOKEN", "very secret", 1);
-  const std::string text = "$(touch " + folder / "harm" + "); `id` @file";
+  const std::string text = "$(touch " + at(folder, "harm") + "); `id` @file";
   {
-    host::EventCommand command("env > " + folder / "env" + "; printf '%s' \"$UNICURSAL_TEXT\" > " +
-                               folder / "text");
+    host::EventCommand command("env > " + at(folder, "env") + "; printf '%s' \"$UNICURSAL_TEXT\" > " +
+                               at(folder, "text"));
     command.run({"print_ended", text, "{}"});
-    await_file(folder / "text", text.size());
+    await_file(at(folder, "text"), text.size());
   }
   unsetenv("UNICURSAL_TOKEN");
-  CHECK(test::read_text(folder / "text") == text);
-  CHECK(test::read_text(folder / "env").find("PATH=") != std::string::npos);
-  CHECK(test::read_text(folder / "env").find("secret") == std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(folder / "harm"));
+  CHECK(test::read_text(at(folder, "text")) == text);
+  CHECK(test::read_text(at(folder, "env")).find("PATH=") != std::string::npos);
+  CHECK(test::read_text(at(folder, "env")).find("secret") == std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(at(folder, "harm")));
+}
+
+TEST_CASE("the examples pass a hostile sentence on as text") {
+  const test::TempFolder folder;
+  std::filesystem::create_directory(at(folder, "bin"));
+  for (const char* program : {"bin/curl", "bin/sendmail"}) {
+    folder.write(program, "#!/bin/sh\nprintf '%s\\n' \"$@\" > " + at(folder, "words") + "; cat > " +
+                              at(folder, "input") + "\n");
+    std::filesystem::permissions(at(folder, program), std::filesystem::perms::owner_all);
+  }
+  folder.write("event.json", "{\"event\":\"problem\"}\n");
+  const auto run_example = [&](const std::string& example) {
+    const std::string words =
+        "PATH=" + at(folder, "bin") + ":$PATH UNICURSAL_EVENT=problem UNICURSAL_TEXT='@/etc/passwd $(id)' " +
+        (test::source_folder() / "host/examples" / example).string() + " < " + at(folder, "event.json");
+    return std::system(words.c_str());
+  };
+  REQUIRE(run_example("notify-ntfy https://ntfy.example/topic") == 0);
+  const std::string sent = test::read_text(at(folder, "words"));
+  CHECK(sent.find("--data-raw\n@/etc/passwd $(id)\n") != std::string::npos);
+  CHECK(sent.find("--\nhttps://ntfy.example/topic\n") != std::string::npos);
+  REQUIRE(run_example("notify-mail me@example.org") == 0);
+  CHECK(test::read_text(at(folder, "words")) == "-i\n--\nme@example.org\n");
+  const std::string mail = test::read_text(at(folder, "input"));
+  CHECK(mail.find("Subject: unicursal: problem\n") != std::string::npos);
+  CHECK(mail.find("\n\n@/etc/passwd $(id)\n\n{\"event\":\"problem\"}\n") != std::string::npos);
+  CHECK(run_example("notify-mail") != 0);
 }
 
 TEST_CASE("each kind of event of a print is heard once", "[optimised]") {
