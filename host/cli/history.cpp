@@ -52,11 +52,10 @@ class HistoryCommand final : public Command {
     add_value(app, "--remove", remove_, "NUMBER", "Remove the print of this number from the history.")
         .check(integer_between(1, most_number));
     declare_spool(app, spool_);
-    auto& json = *app.add_flag("--json", json_, "Write one JSON object to standard output.")->group("Output");
+    app.add_flag("--json", json_, "Write one JSON object to standard output.")->group("Output");
     app.add_flag("--csv", csv_,
                  "Write a table for spreadsheets (CSV) to standard output: a line for each filament of "
                  "each print.")
-        ->excludes(&json)
         ->group("Output");
     add_note(app, "Prints stay in the history until --remove removes them.");
     return app;
@@ -66,6 +65,8 @@ class HistoryCommand final : public Command {
     if (note_ && !number_)
       throw core::DataError("", "--note", "is for one print",
                             "name its number, as `unicursal history` shows it");
+    if (csv_ && json_)
+      throw core::DataError("", "--csv", "cannot be written together with --json", "leave one of them out");
     History history(spool_ ? *spool_ : default_spool_root(),
                     note_ || remove_ ? History::For::changing : History::For::reading);
     for (const std::string& note : history.notes()) show(stderr, "note: {}\n", note);

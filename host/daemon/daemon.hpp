@@ -169,6 +169,7 @@ class Daemon {
     bool begun = false;          ///< lines of it may have been sent
     nlohmann::json last_status;  ///< of its last session, or null
     EndedSession told;           ///< for the history
+    bool sent = false;           ///< a session has had its printer
     bool announced = false;      ///< the user's command has heard of it
     bool paused = false;         ///< and of the present pause
     std::string asked;           ///< the printer's question that the command has heard of

@@ -1,6 +1,7 @@
 #include "host/daemon/past_prints.hpp"
 
 #include <algorithm>
+#include <asio/post.hpp>
 
 #include "host/daemon/elsewhere.hpp"
 #include "host/daemon/kept_prints.hpp"
@@ -98,6 +99,12 @@ asio::awaitable<void> PastPrints::set_note(std::int64_t id, std::string note) {
 
 asio::awaitable<void> PastPrints::remove(std::int64_t id) {
   if (!co_await with_history([id](History& history) { return history.remove(id); })) throw no_such_print();
+}
+
+void PastPrints::keep(HistoryEntry entry) {
+  asio::post(thread_, [entry = std::move(entry)]() mutable {
+    for (const std::string& note : keep_in_history(std::move(entry))) log_line(note);
+  });
 }
 
 asio::awaitable<json> PastPrints::kept(std::string printing) {

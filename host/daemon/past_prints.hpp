@@ -11,6 +11,7 @@
 #include <string>
 
 #include "host/history/history.hpp"
+#include "host/history/keep.hpp"
 
 namespace unicursal::host {
 
@@ -31,6 +32,8 @@ class PastPrints {
   asio::awaitable<PastPrint> find(std::int64_t id);
   asio::awaitable<void> set_note(std::int64_t id, std::string note);
   asio::awaitable<void> remove(std::int64_t id);
+  /// Adds a print that has ended, in the other thread; may be called from any.
+  void keep(HistoryEntry entry);
   /// `prints`: those that are kept, the newest first.
   asio::awaitable<nlohmann::json> kept(std::string printing);
   /// The folder of a kept print: by its name, or the only one that begins so.

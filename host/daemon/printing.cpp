@@ -232,15 +232,19 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
 void Daemon::end_print() {
   EndedSession told = std::move(current_->told);
   told.job = queue_.find(current_->id)->name;
-  const bool printed = current_->started.has_value();
-  if (printed) told.seconds = seconds(std::chrono::steady_clock::now() - *current_->started);
+  if (current_->started) told.seconds = seconds(std::chrono::steady_clock::now() - *current_->started);
   current_->print->end();
-  asio::post(ending_, [gone = std::shared_ptr<Print>(std::move(current_->print)), told = std::move(told),
-                       printed]() mutable {
-    if (printed && gone->has_spool()) {
-      for (const std::string& note : keep_in_history(gone->spool(), gone->production(), told)) log_line(note);
+  // A session that has found its printer lost has sent nothing.
+  const bool sent = current_->sent;
+  asio::post(ending_, [this, gone = std::shared_ptr<Print>(std::move(current_->print)),
+                       told = std::move(told), sent]() mutable {
+    try {
+      auto entry = sent ? history_entry(gone->spool(), gone->production(), told) : std::nullopt;
+      gone.reset();  // somebody may continue it
+      if (entry) past_prints_.keep(std::move(*entry));
+    } catch (const std::exception& error) {
+      log_line(std::string("the print could not be added to the history: ") + error.what());
     }
-    gone.reset();
   });
 }
 
@@ -288,6 +292,8 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
     later = check_not_superseded(spool, options.port);
     return std::make_unique<Print>(std::move(spool), options);
   };
+  const auto away = [] { return true; };
+  co_await elsewhere(ending_, away);  // this print may have ended a moment ago
   current_->print = co_await elsewhere(preparing_, open);
   Print& print = *current_->print;
   if (current_->cancelled) throw core::Stopped();
@@ -354,6 +360,7 @@ asio::awaitable<StreamResult> Daemon::run_session(std::uint64_t id) {
   notify_service("STATUS=printing " + core::printable(queue_.find(id)->name));
   const StreamResult result = co_await session.run();
   firmware_ = result.firmware;
+  current_->sent = current_->sent || !result.lost;
   current_->begun = current_->begun || result.begun;
   co_return result;
 }

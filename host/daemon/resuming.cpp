@@ -60,6 +60,8 @@ asio::awaitable<std::string> Daemon::would_resume(std::string name) {
       throw Refused(Why::conflict, error.what());
     }
   };
+  const auto away = [] { return true; };
+  co_await elsewhere(ending_, away);  // the print may have ended a moment ago
   co_return co_await elsewhere(preparing_, look);
 }
 

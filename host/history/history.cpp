@@ -225,7 +225,7 @@ void History::take_over() {
       try {
         if (line.size() > longest_waiting_line) throw std::length_error("a line");
         const WaitingPrint waiting = print_in_line(line);
-        add_row(waiting.print, {}, waiting.goes_on);
+        if (!has_taken(waiting.print)) add_row(waiting.print, {}, waiting.goes_on);
         ++taken;
       } catch (const HistoryError&) {
         throw;
@@ -245,6 +245,12 @@ void History::take_over() {
       fmt::format("{} lines of an older history were taken over; they are kept in {}", taken, old.string());
   if (left > 0) note += fmt::format(", with {} that could not be read", left);
   notes_.push_back(std::move(note));
+}
+
+/// A line may come twice, if the file could not be renamed after it had been taken over.
+bool History::has_taken(const PastPrint& print) {
+  Statement find(*database_, "SELECT 1 FROM prints WHERE print = ? AND ended_at = ?");
+  return find.bind(std::string_view(print.print)).bind(print.ended_at).step();
 }
 
 // ---- rows
@@ -278,8 +284,6 @@ std::int64_t History::add_row(const PastPrint& print, std::string_view picture, 
     Statement find(*database_, (std::string(columns) + "WHERE id = ?").c_str());
     find.bind(*before).step();
     PastPrint old = row(find);
-    // A line may be taken over twice, if the file could not be renamed.
-    if (old.ended_at && old.ended_at == print.ended_at) return *before;
     const bool known = old.seconds && print.seconds;
     whole.seconds = known ? std::optional(*old.seconds + *print.seconds) : std::nullopt;
     whole.foretold = old.foretold;

@@ -59,6 +59,7 @@ class History {
   void set_aside();
   void take_over();
   void attempt(const std::function<void()>& work);
+  bool has_taken(const PastPrint& print);
   std::int64_t add_row(const PastPrint& print, std::string_view picture, bool goes_on);
   std::optional<std::int64_t> newest_named(const std::string& print);
   void put_filaments(std::int64_t id, const PastPrint& print);

@@ -77,35 +77,50 @@ PastPrint past_print(const Spool& spool, const Job& job, const EndedSession& ses
 
 }  // namespace
 
-std::vector<std::string> keep_in_history(Spool& spool, const Production& production,
-                                         const EndedSession& ended) noexcept {
+std::optional<HistoryEntry> history_entry(Spool& spool, const Production& production,
+                                          const EndedSession& ended) {
+  std::error_code unknown;
+  if (!fs::exists(spool.folder() / "journal", unknown)) return std::nullopt;  // nothing was sent
+  spool.journal().sync();
+  const JournalState journal = read_journal(spool.folder() / "journal");
+  if (!journal.connected || journal.furthest == 0) return std::nullopt;
+  HistoryEntry entry;
+  entry.root = spool.folder().parent_path();
+  entry.goes_on = spool.last_written().has_value();
+  entry.print = past_print(spool, production.job(), ended, journal);
+  entry.picture = print_picture(production, spool.chunks());
+  if (entry.goes_on && entry.print.began) entry.seconds_before = seconds_before(spool, *entry.print.began);
+  return entry;
+}
+
+std::vector<std::string> keep_in_history(HistoryEntry entry) noexcept {
   try {
-    const Job& job = production.job();
-    std::error_code unknown;
-    if (!fs::exists(spool.folder() / "journal", unknown)) return {};  // nothing was sent, so it is not kept
-    spool.journal().sync();
-    const JournalState journal = read_journal(spool.folder() / "journal");
-    if (!journal.connected || journal.furthest == 0) return {};
-    const fs::path root = spool.folder().parent_path();
-    const bool goes_on = spool.last_written().has_value();
-    PastPrint print = past_print(spool, job, ended, journal);
+    PastPrint& print = entry.print;
     try {
-      History history(root, History::For::changing);
-      if (goes_on && !history.knows(print.print)) {
+      History history(entry.root, History::For::changing);
+      if (entry.goes_on && !history.knows(print.print)) {
         print.foretold.reset();  // of the rest only
-        if (print.seconds && print.began) *print.seconds += seconds_before(spool, *print.began);
+        if (print.seconds) *print.seconds += entry.seconds_before;
       }
-      history.add(print, print_picture(production, spool.chunks()), goes_on);
+      history.add(print, entry.picture, entry.goes_on);
       return history.notes();
     } catch (const HistoryError& error) {
-      const bool waits = History::let_wait(root, print, goes_on);
+      const bool waits = History::let_wait(entry.root, print, entry.goes_on);
       return {std::string("the history of prints cannot be written: ") + error.what() +
               (waits ? "; the print is added to it later" : "; the print is missing from it")};
     }
-  } catch (const std::exception& error) {
-    return {std::string("the print could not be added to the history: ") + error.what()};
   } catch (...) {
     return {"the print could not be added to the history: out of memory"};
+  }
+}
+
+std::vector<std::string> keep_in_history(Spool& spool, const Production& production,
+                                         const EndedSession& ended) noexcept {
+  try {
+    const auto entry = history_entry(spool, production, ended);
+    return entry ? keep_in_history(*entry) : std::vector<std::string>();
+  } catch (const std::exception& error) {
+    return {std::string("the print could not be added to the history: ") + error.what()};
   }
 }
 

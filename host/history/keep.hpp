@@ -3,6 +3,7 @@
 // a restart purges and repeats is among it. A flow that was changed by hand (M221) is not counted.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,22 @@ struct EndedSession {
   std::vector<std::string> warnings;
 };
 
-/// Waits a few seconds for other programs that use the history. A print of which nothing was sent is left
-/// out. Never fails: returns sentences for the user.
+/// What the history is to keep of a print.
+struct HistoryEntry {
+  std::filesystem::path root;  ///< the folder of the prints
+  PastPrint print;
+  std::string picture;
+  bool goes_on = false;
+  double seconds_before = 0;  ///< that sessions took which have left no row
+};
+
+/// Reads the spool. Absent: nothing of the print was sent. Throws SpoolError.
+std::optional<HistoryEntry> history_entry(Spool& spool, const Production& production,
+                                          const EndedSession& ended);
+/// Waits a few seconds for other programs that use the history. Returns sentences for the user.
+std::vector<std::string> keep_in_history(HistoryEntry entry) noexcept;
+
+/// Both. Never fails: returns sentences for the user.
 std::vector<std::string> keep_in_history(Spool& spool, const Production& production,
                                          const EndedSession& ended) noexcept;
 

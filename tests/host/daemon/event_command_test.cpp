@@ -126,7 +126,7 @@ TEST_CASE("each kind of event of a print is heard once", "[optimised]") {
   bench.await_job(1, "done");
   await([&] { return times(events_in(log), "print_ended") == 1; }, bench.daemon());
   const std::vector<json> events = events_in(log);
-  for (const json& event : events) UNSCOPED_INFO(event.dump());
+  CAPTURE(test::read_text(log));
   CHECK(times(events, "print_started") == 1);
   CHECK(times(events, "paused") == 1);
   CHECK(times(events, "question") == 2);  // two questions

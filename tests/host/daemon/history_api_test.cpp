@@ -50,7 +50,8 @@ std::vector<std::string> reporting(const DaemonBench& bench, const std::vector<s
 
 std::vector<int> order_of(const DaemonBench& bench) {
   std::vector<int> ids;
-  for (const json& job : bench.ask("GET", "/api/jobs")["jobs"]) ids.push_back(job["id"]);
+  const json jobs = bench.ask("GET", "/api/jobs")["jobs"];
+  for (const json& job : jobs) ids.push_back(job["id"]);
   return ids;
 }
 
