@@ -193,6 +193,7 @@ void Daemon::watch_idle_printer() {
       idle_problem_ = now.problem;
       if (!now.problem.empty()) {
         log_line("printer: " + now.problem);
+        announce("problem", {}, now.problem);
         log_record_.note(LogRecord::From::notice, now.problem);
       }
     }
