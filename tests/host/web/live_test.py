@@ -7,7 +7,7 @@ import unittest
 
 from bench import DESK, PHONE, Bench, Browser, until
 
-COARSE = 8  # the page rounds colours to 5 bits
+COARSE = 16  # the page rounds colours to 5 bits; where they change, a pixel may be the next bead's
 # Where things are on the canvas that is shown, by the parts of the page that paint it.
 PIXELS = """
 const view = document.querySelector('curve-view'), canvas = view.shown, {scale, left, top} = view.drawn;
