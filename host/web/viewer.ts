@@ -259,5 +259,21 @@ function shortened(text: string): string {
   return letters.length > most ? `${letters.slice(0, most).join('')}…` : text;
 }
 
+/** Light or dark as this browser was asked for on the page of the daemon, or as the device has it. */
+function followTheme(): void {
+  const night = matchMedia('(prefers-color-scheme: dark)');
+  const apply = () => {
+    let chosen: string | null = null;
+    try {
+      chosen = localStorage.getItem('theme');
+    } catch { /* storage may be forbidden to pages of a folder */ }
+    const dark = chosen === 'dark' || (chosen !== 'light' && night.matches);
+    document.documentElement.dataset.theme = dark ? 'dark' : 'light';
+  };
+  night.addEventListener('change', apply);
+  apply();
+}
+
+followTheme();
 const data = document.getElementById('dry-run')?.textContent;
 if (data) new Viewer(JSON.parse(data));

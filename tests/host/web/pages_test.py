@@ -47,6 +47,16 @@ class Pages(unittest.TestCase):
         self.bench.queue(layers=[0, 1])
         self.bench.queue()
         self.look_everywhere(PAGES)
+        self.browser.speak("en")
+        self.browser.go("printer")
+        for tab in range(len(self.browser.find("[role=tab]"))):
+            for size, dark in ((PHONE, True), (DESK, False)):
+                self.browser.view(size, dark)
+                self.browser.find("[role=tab]")[tab].click()
+                self.browser.settled()
+                with self.subTest(page="printer", tab=self.browser.find("[role=tab]")[tab].text, width=size[0]):
+                    self.check("a part of the page of the printer")
+        self.none(self.browser.errors(), "the console")
 
     def test_2_the_focus_is_seen_and_comes_round(self):
         self.browser.open(self.bench)
