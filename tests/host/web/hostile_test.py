@@ -8,6 +8,7 @@ from bench import PROFILE, Bench, Browser, until
 import page_faults
 
 MARKUP = "<img src=x onerror=document.title='owned'><script>document.title='owned'</script>"
+SAID = "<img src=x onerror=owned()>"  # a command has at most 80 characters
 TURNED = "leaf\u202etxt.toml"  # reads backwards after the mark
 LONG = "n" * 10_000
 
@@ -22,8 +23,8 @@ class Hostile(unittest.TestCase):
         bench = cls.bench
         profile = PROFILE.replace('"Test bench"', json.dumps(f"Bench {MARKUP}")).replace('"blue PLA"', json.dumps(MARKUP)) \
             .replace('"red PLA"', json.dumps(LONG))
-        said = [f"M118 E1 {MARKUP}", f"M118 A1 action:notification {MARKUP}", f"M118 A1 action:prompt_begin {MARKUP}",
-                f"M118 A1 action:prompt_button {MARKUP}", "M118 A1 action:prompt_show"]  # the simulated printer says it
+        said = [f"M118 {word} {SAID}" for word in ("E1", "A1 action:notification", "A1 action:prompt_begin", "A1 action:prompt_button")]
+        said.append("M118 A1 action:prompt_show")  # the simulated printer says all that
         bench.write("jobs/bench.profile", profile + "[gcode]\nstart = " + json.dumps("\n".join(said)) + "\n")
         job = (bench.folder / "jobs/plate.toml").read_text()
         cls.named = "<img src=x onerror=alert(1)>.toml"
@@ -60,7 +61,7 @@ class Hostile(unittest.TestCase):
         browser.view()
         bench.ask("POST", "/api/print/start", {})
         bench.until_state("printing", "paused")  # the question may hold it
-        until(lambda: browser.text("body").count(MARKUP) >= 3, "notices, the question and its answer are shown as they are")
+        until(lambda: browser.text("body").count(SAID) >= 2, "the question and its answer are shown as they are")
         self.assertIn(self.named, browser.text("main"))
         self.sound("a print")
         bench.ask("POST", "/api/print/cancel", {})
