@@ -121,7 +121,7 @@ export class CurveView extends HTMLElement {
   grow(laid: number, atOnce: boolean): void {
     if (!this.path) return;
     const target = Math.min(laid, this.path.count);
-    if (target < this.painted) return this.show(this.path, target);
+    if (target < this.painted) return this.show(this.path, target, this.plan);
     this.target = target;
     this.pace = atOnce ? Infinity : Math.max(1, (target - this.painted) / 15);
     this.tick();
