@@ -93,8 +93,7 @@ bool Api::wants_events(const RequestHead& head) const {
 bool Api::is_urgent(const RequestHead& head) const {
   return head.path == "/api/print/stop" || head.path == "/api/print/cancel" ||
          head.path == "/api/print/pause" || head.path == "/api/printer/command" ||
-         head.path == "/api/printer/cancel" ||
-         (head.path == "/api/job" && head.method == "POST");
+         head.path == "/api/printer/cancel" || (head.path == "/api/job" && head.method == "POST");
 }
 
 asio::awaitable<Response> Api::answer(Request request) {

@@ -84,8 +84,9 @@ void LockstepClock::step() {
 }
 
 void LockstepClock::ask(TimePoint until) {
-  const std::string question = fmt::format(
-      "wait {} {}\n", until == TimePoint::max() ? -1 : nanoseconds(until), written_before_ + (written_ ? written_() : 0));
+  const std::string question =
+      fmt::format("wait {} {}\n", until == TimePoint::max() ? -1 : nanoseconds(until),
+                  written_before_ + (written_ ? written_() : 0));
   if (::send(socket_, question.data(), question.size(), MSG_NOSIGNAL) < 0) {
     throw SimulatorError("the simulator is gone");
   }

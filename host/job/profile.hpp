@@ -28,7 +28,7 @@ struct Profile {
   unsigned receive_buffer = 128;  ///< bytes, of the firmware
   double hottest_nozzle = 300;    ///< °C that a user may ask for while nothing is printed
   double hottest_bed = 120;
-  bool display = true;            ///< the printer's own display shows how far a print is
+  bool display = true;  ///< the printer's own display shows how far a print is
 };
 
 /// Throws core::FileError or JobError.
