@@ -17,7 +17,7 @@
 #include "host/cli/terminal_output.hpp"
 #include "host/doctor/examine.hpp"
 #include "host/doctor/findings.hpp"
-#include "host/engine/printer_check.hpp"
+#include "host/doctor/reported_profile.hpp"
 #include "host/engine/session.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/job/frames.hpp"
@@ -63,12 +63,6 @@ std::vector<double> ask_numbers(const std::string& question, const std::vector<d
          least, greatest);
   }
 }
-
-struct FoundPrinter {
-  Examination examination;
-  unsigned baud = 0;
-  std::string port;  ///< as the profile is to name it
-};
 
 class Setup final : public Command {
  public:
@@ -188,40 +182,6 @@ const ShippedFrame& Setup::chosen_frame(const FoundPrinter* printer) const {
   }
 }
 
-std::string list_of(const auto& values) {
-  std::vector<std::string> words;
-  for (const double value : values) {
-    std::string word = fmt::format("{:.10g}", value);
-    if (word.find_first_of(".e") == std::string::npos) word += ".0";
-    words.push_back(word);
-  }
-  return fmt::format("[{}]", fmt::join(words, ", "));
-}
-
-/// What the printer has reported, as far as it is stricter than the frame.
-void note_reported(ProfileDraft& draft, const FoundPrinter& found, const gcode::Printer& frame) {
-  const Examination& seen = found.examination;
-  draft.set("printer", "port", toml_text(found.port));
-  draft.set("printer", "baud", fmt::format("{}", found.baud));
-  if (const auto firmware = dialect_of(seen.identity.family))
-    draft.set("printer", "firmware", toml_text(*firmware));
-  const auto limit = [&](const char* key, std::array<double, 3> values,
-                         const std::optional<std::array<double, 4>>& reported) {
-    if (!reported) return;
-    for (std::size_t axis = 0; axis < values.size(); ++axis) {
-      const double own = (*reported)[axis];
-      if (own >= 0.1 && own < values[axis]) values[axis] = own;
-    }
-    draft.set("printer", key, list_of(values));
-  };
-  limit("max_speed", frame.max_speed, seen.settings.max_speed);
-  limit("max_acceleration", frame.max_acceleration, seen.settings.max_acceleration);
-  std::optional<std::size_t> feeders = seen.feeders;
-  if (seen.identity.family == gcode::Family::repetier) feeders = seen.identity.extruders;
-  if (feeders && *feeders >= gcode::least_feeders && *feeders <= gcode::most_feeders)
-    draft.set("extruder", "feeders", fmt::format("{}", *feeders));
-}
-
 Exit Setup::run() {
   constexpr double least_width = 0.6, greatest_width = 2.5;  // of a bead ÷ nozzle
   try {
@@ -239,12 +199,11 @@ Exit Setup::run() {
     const double nozzle = ask_numbers("Opening of the nozzle, mm", {profile.printer.nozzle}, 0.1, 2).front();
     if (nozzle != profile.printer.nozzle) {
       draft.set("printer", "nozzle", fmt::format("{:g}", nozzle));
-      draft.set("printer", "bead_width_range",
-                list_of(std::array{least_width * nozzle, greatest_width * nozzle}));
+      draft.set("printer", "bead_width_range", toml_list({least_width * nozzle, greatest_width * nozzle}));
     }
     const auto& bed = profile.printer.bed;
     draft.set("printer", "bed",
-              list_of(ask_numbers("Size of the bed and height, mm", {bed.begin(), bed.end()}, 10, 2000)));
+              toml_list(ask_numbers("Size of the bed and height, mm", {bed.begin(), bed.end()}, 10, 2000)));
     const std::size_t feeders = profile_in(draft.text(), output).printer.feeders;
     std::vector<std::string> filaments;
     for (std::size_t feeder = 1; feeder <= feeders; ++feeder)

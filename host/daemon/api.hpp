@@ -127,6 +127,14 @@ class Api : public HttpHandler {
   asio::awaitable<Response> feed(Request request);
   asio::awaitable<Response> cancel_idle(Request request);
 
+  // Of ports, doctor and profile (profile_api.cpp)
+  asio::awaitable<Response> list_ports(Request request);
+  asio::awaitable<Response> examine(Request request);
+  asio::awaitable<Response> show_profile(Request request);
+  asio::awaitable<Response> change_profile(Request request);
+  asio::awaitable<Response> list_frames(Request request);
+  asio::awaitable<Response> make_profile(Request request);
+
   // OctoPrint's (octoprint_api.cpp)
   asio::awaitable<Response> octo_version(Request request);
   asio::awaitable<Response> octo_server(Request request);

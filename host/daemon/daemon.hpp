@@ -31,6 +31,7 @@
 #include "host/daemon/past_prints.hpp"
 #include "host/daemon/queue.hpp"
 #include "host/daemon/temperature_record.hpp"
+#include "host/doctor/reported_profile.hpp"
 #include "host/engine/print.hpp"
 #include "host/history/keep.hpp"
 #include "host/idle/idle_printer.hpp"
@@ -145,6 +146,22 @@ class Daemon {
   /// Switches off what is hot, and closes the port. Throws Refused during a print.
   void disconnect_printer();
 
+  /// Asks what hangs on a port; `named`: another one than the daemon's. Throws Refused.
+  asio::awaitable<FoundPrinter> examine_printer(std::string named);
+  asio::awaitable<std::vector<PortInfo>> ports();
+  /// Of the printer: the daemon's, or else the user's; null if there is none.
+  const Profile* whole_profile() const { return own(); }
+  struct ProfileAsText {
+    std::filesystem::path file;
+    std::string text;
+  };
+  /// Throws Refused if there is none, core::FileError.
+  asio::awaitable<ProfileAsText> profile_text();
+  /// Writes it, and uses it from now on. Throws Refused during a print, JobError, core::FileError.
+  asio::awaitable<void> keep_profile(std::filesystem::path file, std::string text);
+  /// Where a new one goes. Throws Refused, also if it exists and is not to be replaced.
+  std::filesystem::path new_profile_file(bool replace) const;
+
   /// Sends it the present status, and every event from now on.
   void join(std::unique_ptr<Follower> follower);
   /// No further print begins; the current one is parked and cooled, or stopped at once by a second call.
@@ -214,6 +231,7 @@ class Daemon {
   std::string way_on() const;
   asio::awaitable<void> save();
   asio::awaitable<void> enter(std::uint64_t id, QueuedJob::State state, std::string reason);
+  asio::awaitable<FoundPrinter> examine_at(const std::string& port, unsigned baud, int& descriptor);
   void check_idle() const;
   void check_not_at_work() const;
   void check_nothing_interrupted() const;

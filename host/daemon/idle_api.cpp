@@ -16,22 +16,6 @@ std::optional<double> measure_in(const json& body, const char* key) {
   return found->get<double>();
 }
 
-/// Absent: all axes.
-std::array<bool, 3> axes_in(const json& body) {
-  const auto found = body.find("axes");
-  if (found == body.end()) return {true, true, true};
-  std::array<bool, 3> axes{};
-  if (!found->is_array() || found->empty()) throw HttpError(400, "axes is a list such as [\"x\", \"y\"]");
-  for (const json& axis : *found) {
-    const std::string name = axis.is_string() ? axis.get<std::string>() : "";
-    const auto at = std::string_view("xyz").find(name);
-    if (name.size() != 1 || at == std::string_view::npos)
-      throw HttpError(400, "axes is a list of \"x\", \"y\" and \"z\"");
-    axes[at] = true;
-  }
-  return axes;
-}
-
 FeedingOrder order_in(const json& body) {
   const std::string action = text_in(body, "action");
   FeedingOrder order;

@@ -229,6 +229,25 @@ double temperature(const json& target) {
   return target.get<double>();
 }
 
+double millimetres(const json& body, const char* key) {
+  const auto found = body.find(key);
+  if (found == body.end() || !found->is_number())
+    throw HttpError(400, std::string(key) + " is missing: a number of mm");
+  return found->get<double>();
+}
+
+std::array<double, 3> jog(const json& body, const std::optional<std::array<double, 3>>& at) {
+  const bool absolute = body.contains("absolute") && body["absolute"].is_boolean() && body["absolute"];
+  if (absolute && !at) throw HttpError(409, "nobody knows where the nozzle is; home it first");
+  std::array<double, 3> by{};
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    if (!body.contains(axes[axis])) continue;
+    by[axis] = millimetres(body, axes[axis]) - (absolute ? (*at)[axis] : 0);
+  }
+  return by;
+}
+
 double percent(const json& factor) {
   if (!factor.is_number())
     throw HttpError(400, "factor is missing: per cent as a whole number, or a fraction such as 0.95");

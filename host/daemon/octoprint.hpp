@@ -10,6 +10,7 @@
 // - Files have no folders, no history and no analysis.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -50,6 +51,11 @@ nlohmann::json printer(const nlohmann::json& status, bool there);
 /// The heater "tool0" or "bed" alone; empty while it is not known.
 nlohmann::json heaters(const nlohmann::json& status, const char* which);
 /// A target, °C. Throws HttpError 400.
+/// A number of mm. Throws HttpError 400.
+double millimetres(const nlohmann::json& body, const char* key);
+/// How far a "jog" moves from where the nozzle is. Throws HttpError 400, or 409 if that is unknown and asked
+/// for.
+std::array<double, 3> jog(const nlohmann::json& body, const std::optional<std::array<double, 3>>& at);
 double temperature(const nlohmann::json& target);
 /// A factor of speed or flow: a whole number is per cent, another one a fraction (docs/api/printer.rst).
 /// Throws HttpError 400.

@@ -75,7 +75,7 @@ asio::awaitable<Response> Api::octo_connection(Request) {
   co_return plain_reply(octo::connection(daemon_.status(), daemon_.printer(), daemon_.port_exists()));
 }
 
-/// The daemon opens the port for a print, and closes it behind; so there is little to do.
+/// During a print the port is open anyway. Without a profile there is nothing to open it with.
 asio::awaitable<Response> Api::octo_connect(Request request) {
   const json body = read_object(request);
   const std::string command = text_in(body, "command");
@@ -85,8 +85,10 @@ asio::awaitable<Response> Api::octo_connect(Request request) {
       throw HttpError(400, "the daemon has one port; choose another with `unicursal serve --port`");
     if (!daemon_.port_exists())
       throw HttpError(412, "the printer's port is not there: plug the printer in and switch it on");
+    if (!daemon_.busy() && daemon_.whole_profile()) daemon_.connect_printer({});
   } else if (command == "disconnect") {
     if (daemon_.busy()) throw HttpError(409, "a print is going on; cancel it first");
+    daemon_.disconnect_printer();
   } else {
     throw HttpError(400, "command is \"connect\" or \"disconnect\"");
   }
@@ -110,15 +112,21 @@ asio::awaitable<Response> Api::octo_set_tool(Request request) {
     const json targets = body.value("targets", json());
     if (!targets.is_object() || targets.size() != 1 || !targets.contains("tool0"))
       throw HttpError(400, "targets is {\"tool0\": 210}: there is one nozzle, however many feeders");
-    obeyed(daemon_.session().set_nozzle(octo::temperature(targets["tool0"])));
+    const double target = octo::temperature(targets["tool0"]);
+    if (daemon_.busy())
+      obeyed(daemon_.session().set_nozzle(target));
+    else
+      daemon_.idle().heat(target, std::nullopt);
   } else if (command == "flowrate") {
     obeyed(daemon_.session().set_flow(octo::percent(body.value("factor", json()))));
   } else if (command == "select") {
     if (text_in(body, "tool") != "tool0")
       throw HttpError(400, "tool is \"tool0\": there is one nozzle, however many feeders");
-  } else if (command == "extrude" || command == "offset") {
-    throw HttpError(409, command == "extrude" ? "plastic is not extruded by hand during a print"
-                                              : "targets have no offset here; set the target itself");
+  } else if (command == "extrude") {
+    if (daemon_.busy()) throw HttpError(409, "plastic is not extruded by hand during a print");
+    daemon_.idle().extrude(octo::millimetres(body, "amount"));
+  } else if (command == "offset") {
+    throw HttpError(409, "targets have no offset here; set the target itself");
   } else {
     throw HttpError(400, "command is \"target\", \"flowrate\" or \"select\"");
   }
@@ -130,15 +138,27 @@ asio::awaitable<Response> Api::octo_set_bed(Request request) {
   const std::string command = text_in(body, "command");
   if (command == "offset") throw HttpError(409, "targets have no offset here; set the target itself");
   if (command != "target") throw HttpError(400, "command is \"target\"");
-  obeyed(daemon_.session().set_bed(octo::temperature(body.value("target", json()))));
+  const double target = octo::temperature(body.value("target", json()));
+  if (daemon_.busy())
+    obeyed(daemon_.session().set_bed(target));
+  else
+    daemon_.idle().heat(std::nullopt, target);
   co_return no_content();
 }
 
 asio::awaitable<Response> Api::octo_move(Request request) {
   const json body = read_object(request);
   const std::string command = text_in(body, "command");
-  if (command == "jog" || command == "home")
-    throw HttpError(409, "the head is moved by prints only; the port is open during a print only");
+  if ((command == "jog" || command == "home") && daemon_.busy())
+    throw HttpError(409, "a print is going on, which moves the head itself");
+  if (command == "home") {
+    daemon_.idle().home(axes_in(body));
+    co_return no_content();
+  }
+  if (command == "jog") {
+    daemon_.idle().move(octo::jog(body, daemon_.idle().status().at));
+    co_return no_content();
+  }
   if (command != "feedrate") throw HttpError(400, "command is \"feedrate\"");
   obeyed(daemon_.session().set_speed(octo::percent(body.value("factor", json()))));
   co_return no_content();

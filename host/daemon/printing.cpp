@@ -173,7 +173,8 @@ asio::awaitable<std::unique_ptr<Print>> Daemon::prepare_print(const QueuedJob& j
   std::exception_ptr error;
   try {
     co_await connect_print(*print);
-    co_await elsewhere(preparing_, [&] { return note_begun(job, *print), true; });
+    const auto note = [&] { return note_begun(job, *print), true; };
+    co_await elsewhere(preparing_, note);
   } catch (...) {
     error = std::current_exception();
   }
