@@ -4,7 +4,7 @@ import {fill, h, setText, View} from '../dom';
 import {live} from '../live';
 import {t} from '../words';
 
-import {steerable, tell} from './machine';
+import {free, tell} from './machine';
 
 export class FilamentPanel extends View {
   private drawn = '';
@@ -22,7 +22,7 @@ export class FilamentPanel extends View {
         fill(list, ...Array.from({length: count}, (_, n) => this.feeder(n + 1)));
       }
       setText(hint, count ? t('feed.help') : t('feed.unknown'));
-      for (const button of this.buttons) button.allow(steerable() && !printer?.action);
+      for (const button of this.buttons) button.allow(free());
     };
     this.className = 'card';
     this.append(h('h2', {}, t('feed.title')), hint, list, h('div', {class: 'row'}, all));

@@ -18,6 +18,12 @@ export function steerable(): boolean {
   return live.printer?.connection === 'open' && !live.busy;
 }
 
+/** Whether it may move and feed as well: it does neither. It may heat meanwhile. */
+export function free(): boolean {
+  const action = live.printer?.action;
+  return steerable() && (!action || action === 'heating');
+}
+
 export class MachinePanel extends View {
   private readonly buttons: CommandButton[] = [];
   private nozzle!: Stepper;

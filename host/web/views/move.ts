@@ -4,7 +4,7 @@ import {h, setText, View} from '../dom';
 import {live} from '../live';
 import {number, t} from '../words';
 
-import {steerable, tell} from './machine';
+import {free, steerable, tell} from './machine';
 
 const steps = [0.1, 1, 10, 50];  // mm
 
@@ -65,7 +65,7 @@ export class MovePanel extends View {
           at,
           where ? t('move.at', {x: number(where[0], 1), y: number(where[1], 1), z: number(where[2], 2)}) :
                   t(printer?.homed ? 'move.unknown' : 'move.not_homed'));
-      const may = steerable() && !printer?.action;
+      const may = free();
       for (const button of buttons) button.allow(may && (button === home || printer?.homed !== false));
       fan.show(this.fan, '');
       fan.allow(steerable());
