@@ -83,9 +83,11 @@ void Daemon::announce_session(const SessionEvent& event) {
     announce("print_started", name(status.state), {});
   }
   const bool paused = status.state == SessionState::paused;
-  if (paused && !std::exchange(current_->paused, paused)) announce("paused", "paused", status.reason);
-  current_->paused = paused;
-  const std::string asked = status.prompt ? status.prompt->text : "";
+  if (paused && !std::exchange(current_->paused, true)) announce("paused", "paused", status.reason);
+  // A printer that pauses by itself lets a pause begin once more.
+  if (!paused && status.state != SessionState::pausing) current_->paused = false;
+  // Before the print is paused, questions follow one another without waiting for an answer.
+  const std::string asked = paused && status.prompt ? status.prompt->text : "";
   if (!asked.empty() && asked != current_->asked) announce("question", name(status.state), asked);
   current_->asked = asked;
   constexpr std::string_view error_mark = "Error: ";
