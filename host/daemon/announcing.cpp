@@ -86,8 +86,7 @@ void Daemon::announce_session(const SessionEvent& event) {
   if (paused && !std::exchange(current_->paused, true)) announce("paused", "paused", status.reason);
   // A printer that pauses by itself lets a pause begin once more.
   if (!paused && status.state != SessionState::pausing) current_->paused = false;
-  // Before the print is paused, questions follow one another without waiting for an answer.
-  const std::string asked = paused && status.prompt ? status.prompt->text : "";
+  const std::string asked = status.prompt ? status.prompt->text : "";
   if (!asked.empty() && asked != current_->asked) announce("question", name(status.state), asked);
   current_->asked = asked;
   constexpr std::string_view error_mark = "Error: ";

@@ -28,16 +28,17 @@ json history_of(const PrintBench& bench) {
   return json::parse(outcome.out);
 }
 
-/// The rows hold what the feeders of the bench's printers have turned.
-void check_fed(const json& history, const json& feeders) {
+/// The rows hold what the feeders of the bench's printers have turned, to half a per cent or `margin` in m.
+void check_fed(const json& history, const json& feeders, double margin = 0) {
   REQUIRE(history["filaments"].size() == 3);
   for (std::size_t f = 0; f < 3; ++f) {
     const double mm = feeders[f]["mm"];
     const json& spent = history["filaments"][f];
-    CHECK(spent["metres"].get<double>() == Approx(mm / 1000).epsilon(0.005));
+    CHECK(spent["metres"].get<double>() == Approx(mm / 1000).epsilon(0.005).margin(margin));
     const double density = f == 1 ? 1.27 : 1.24;
-    CHECK(spent["grams"].get<double>() ==
-          Approx(mm / 1000 * std::numbers::pi / 4 * 1.75 * 1.75 * density).epsilon(0.005));
+    CHECK(
+        spent["grams"].get<double>() ==
+        Approx(mm / 1000 * std::numbers::pi / 4 * 1.75 * 1.75 * density).epsilon(0.005).margin(margin * 3.1));
   }
 }
 
@@ -84,7 +85,8 @@ TEST_CASE("A print that is killed and resumed on a cold printer is one row with 
   CHECK(print["began"] == failed["prints"][0]["began"]);
   CHECK(print["foretold_seconds"] == failed["prints"][0]["foretold_seconds"]);
   CHECK(print["seconds"] > failed["prints"][0]["seconds"]);
-  check_fed(history, bench.seen().report["feeders"]);
+  // The board has forgotten its mixture: what it moves before the next one comes from other feeders.
+  check_fed(history, bench.seen().report["feeders"], 0.001);
 }
 
 TEST_CASE("A print can be given a note and be removed from the history, and a spreadsheet reads the rest") {
