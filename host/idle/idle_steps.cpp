@@ -12,8 +12,9 @@
 namespace unicursal::host {
 namespace {
 
-constexpr auto late_place = std::chrono::seconds(1);  ///< after the ok, of a firmware that answers later
-constexpr double barely_short = 3;                    ///< °C below its target at which something still heats
+/// After the ok, of a firmware that says it when a line has come, and answers when it has run it.
+constexpr auto late_place = std::chrono::minutes(3);
+constexpr double barely_short = 3;  ///< °C below its target at which something still heats
 
 bool heats(const std::optional<double>& actual, const std::optional<double>& target) {
   return actual && target && *target > 0 && *actual < *target - barely_short;
@@ -38,12 +39,12 @@ asio::awaitable<void> IdlePrinter::State::perform(Step step) {
     co_await feed(*current->feeding);
   } else {
     co_await send(current->lines);
+    if (current->kind == Step::Kind::cool) nozzle = bed = 0;
+    if (current->kind == Step::Kind::home || current->kind == Step::Kind::move) co_await ask_place();
     if (current->kind == Step::Kind::home) {
       for (std::size_t axis = 0; axis < known_axes.size(); ++axis)
         known_axes[axis] = known_axes[axis] || current->axes[axis];
     }
-    if (current->kind == Step::Kind::cool) nozzle = bed = 0;
-    if (current->kind == Step::Kind::home || current->kind == Step::Kind::move) co_await ask_place();
   }
   current.reset();
   changed();
@@ -53,7 +54,7 @@ asio::awaitable<void> IdlePrinter::State::ask_place() {
   heard_place.reset();
   std::vector<std::string> question(1, "M114");
   co_await send(std::move(question));
-  const std::function<bool()> answered = [this] { return heard_place || failure; };
+  const std::function<bool()> answered = [this] { return heard_place || failure || leave != Leave::no; };
   co_await wake.wait(clock->now() + late_place, answered);
   const bool moves_on = std::any_of(steps.begin(), steps.end(), [](const Step& step) {
     return step.kind == Step::Kind::move || step.kind == Step::Kind::home;
