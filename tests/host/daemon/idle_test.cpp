@@ -1,0 +1,174 @@
+// The daemon's idle printer, its profile and its examination, over HTTP against a simulated printer.
+#include <catch2/catch.hpp>
+
+#include "tests/host/support/daemon_process.hpp"
+
+using namespace unicursal;
+using nlohmann::json;
+using test::DaemonBench;
+
+namespace {
+
+class IdleDaemon : public DaemonBench {
+ public:
+  explicit IdleDaemon(const std::string& speed = "200", const std::vector<std::string>& more = {}) {
+    start_printer(speed, more);
+    serve({"--profile", path("jobs/bench.toml.profile")});
+  }
+  json printer() const { return ask("GET", "/api/printer"); }
+  int post(const std::string& what, const std::string& body = "{}") const {
+    return status(request("POST", "/api/printer/" + what, body));
+  }
+  void until(const std::function<bool(const json&)>& so) {
+    test::await([&] { return so(printer()); }, daemon());
+  }
+  void connect() {
+    REQUIRE(post("connect") == 202);
+    until([](const json& now) { return now["connection"] == "open" && now["nozzle"].contains("actual_c"); });
+  }
+};
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a print takes the port over from the idle printer, and gives it back", "[optimised]") {
+  IdleDaemon bench;
+  bench.connect();
+  REQUIRE(bench.post("heat", R"({"nozzle_c": 150})") == 202);
+  REQUIRE(bench.post("home") == 202);
+  bench.until([](const json& now) { return now["homed"] == true; });
+  REQUIRE(bench.command({"queue", "--add", "plate.toml", "--layers", "0:0"}).code == 0);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.until([](const json& now) { return now["connection"] == "printing"; });
+  for (const char* command : {"connect", "disconnect", "home", "cancel"}) CHECK(bench.post(command) == 409);
+  CHECK(bench.post("heat", R"({"nozzle_c": 150})") == 409);
+  CHECK(bench.post("feed", R"({"action": "purge"})") == 409);
+  CHECK(bench.status(bench.request("POST", "/api/doctor", "{}")) == 409);
+  bench.await_job(1, "done");
+  bench.until([](const json& now) { return now["connection"] == "open" && now["homed"] == false; });
+  const json heat = bench.ask("GET", "/api/temperatures")["rows"];
+  CHECK(heat.size() >= 1);
+  CHECK(bench.post("disconnect") == 202);
+  bench.until([](const json& now) { return now["connection"] == "closed"; });
+  CHECK(occurrences(bench.transcript(), "M115") == 3);
+}
+
+TEST_CASE("commands to an idle printer are refused with a reason, whoever sends them") {
+  IdleDaemon bench("50");
+  CHECK(bench.post("heat", R"({"nozzle_c": 150})") == 409);  // it is closed
+  bench.connect();
+  CHECK(bench.post("connect") == 202);  // a second client: it is open
+  for (const char* body :
+       {R"({"nozzle_c": 301})", R"({"bed_c": 121})", R"({"nozzle_c": -1})", R"({"nozzle_c": 1e300})"})
+    CHECK(bench.post("heat", body) == 422);
+  for (const char* body : {R"({"nozzle_c": "hot"})", R"({"nozzle_c": [1]})", R"({"nozle_c": 1})", "{}", "[]",
+                           R"({"nozzle_c": NaN})", R"({"nozzle_c": 1e999})"})
+    CHECK(bench.post("heat", body) == 400);
+  CHECK(bench.post("home", R"({"axes": ["w"]})") == 400);
+  CHECK(bench.post("home", R"({"axes": ["z"]})") == 409);
+  CHECK(bench.post("move", R"({"x": 1})") == 409);
+  CHECK(bench.post("fan", R"({"percent": 101})") == 422);
+  CHECK(bench.post("feed", R"({"action": "eat"})") == 400);
+  CHECK(bench.post("feed", R"({"action": "load", "feeder": 0})") == 422);
+  CHECK(bench.post("feed", R"({"action": "load", "feeder": 4})") == 422);
+  CHECK(bench.post("feed", R"({"action": "load", "feeder": 1, "length": 1e9})") == 422);
+  CHECK(bench.status(bench.request("POST", "/api/printer/connect", R"({"port": "/etc/passwd"})")) == 409);
+}
+
+TEST_CASE("a pulled cable closes the connection with a reason, and the printer comes back cold",
+          "[optimised]") {
+  IdleDaemon bench("50", {"--fault", "disconnect:100@t=200"});
+  bench.connect();
+  REQUIRE(bench.post("heat", R"({"nozzle_c": 200, "bed_c": 60})") == 202);
+  bench.until([](const json& now) { return now["connection"] == "closed"; });
+  CHECK(bench.printer()["problem"].get<std::string>().find("connection to the printer was lost") !=
+        std::string::npos);
+  bench.until([](const json& now) {
+    return now["connection"] == "open" && now["nozzle"].value("target_c", 1.0) == 0 &&
+           now["bed"].value("target_c", 1.0) == 0;
+  });
+}
+
+TEST_CASE("a daemon that ends switches an idle printer off") {
+  IdleDaemon bench;
+  bench.connect();
+  REQUIRE(bench.post("heat", R"({"nozzle_c": 200, "bed_c": 60})") == 202);
+  bench.until([](const json& now) { return now["nozzle"].value("target_c", 0.0) == 200; });
+  kill(bench.daemon().id(), SIGTERM);
+  CHECK(bench.daemon().wait().code == 0);
+  const std::string lines = bench.transcript();
+  CHECK(lines.rfind("M104 S0") > lines.rfind("M104 S200"));
+  CHECK(lines.rfind("M140 S0") > lines.rfind("M140 S60"));
+}
+
+TEST_CASE("the profile is shown and changed, and its comments stay") {
+  IdleDaemon bench;
+  const std::string file = bench.path("jobs/bench.toml.profile");
+  const auto put = [&](const json& body) {
+    return bench.send(bench.request("PUT", "/api/profile", body.dump()));
+  };
+  json shown = bench.ask("GET", "/api/profile");
+  CHECK(shown["toml"] == test::read_text(file));
+  bool found = false;
+  for (const json& key : shown["keys"]) {
+    CHECK_FALSE(key["help"].get<std::string>().empty());
+    if (key["key"] != "printer.nozzle") continue;
+    found = true;
+    CHECK(key["unit"] == "mm");
+    CHECK(key["value"].is_number());
+  }
+  CHECK(found);
+  const std::string noted = test::read_text(file) + "\n[transition]  # measured\ndead_volume = 3.0  # mm3\n";
+  CHECK(test::status_of(put({{"toml", noted}})) == 200);
+  CHECK(test::status_of(put({{"values", {{"transition.dead_volume", 2.5}}}})) == 200);
+  CHECK(test::read_text(file).find("[transition]  # measured\ndead_volume = 2.5  # mm3") !=
+        std::string::npos);
+  const std::string wrong = put({{"toml", "[printer]\nnozzle = 99\n"}});
+  CHECK(test::status_of(wrong) == 422);
+  CHECK(wrong.find("\"line\":2") != std::string::npos);
+  CHECK(wrong.find("\"key\":\"printer.nozzle\"") != std::string::npos);
+  CHECK(test::status_of(put({{"values", {{"printer.nose", 1}}}})) == 422);
+  CHECK(test::status_of(put(json::object())) == 400);
+  CHECK(test::read_text(file).find("dead_volume = 2.5") != std::string::npos);  // untouched
+}
+
+TEST_CASE("a printer is examined, also while it is connected", "[optimised]") {
+  IdleDaemon bench;
+  for (const bool connected : {false, true}) {
+    if (connected) bench.connect();
+    const json found = bench.ask("POST", "/api/doctor", "{}");
+    INFO(found.dump());
+    REQUIRE(found["findings"].size() > 3);
+    CHECK(found["firmware"].get<std::string>().find("Marlin") == 0);
+    for (const json& one : found["findings"]) CHECK(one["grade"] != "bad");
+  }
+  bench.until([](const json& now) { return now["connection"] == "open"; });
+  CHECK(bench.ask("GET", "/api/frames")["frames"].size() == 8);
+  CHECK(bench.ask("GET", "/api/ports")["ports"].is_array());
+}
+
+TEST_CASE("OctoPrint's clients connect, heat, home and move an idle printer") {
+  IdleDaemon bench;
+  const auto octo = [&](const std::string& target, const std::string& body) {
+    return bench.status(bench.request("POST", target, body));
+  };
+  CHECK(octo("/api/connection", R"({"command": "connect"})") == 204);
+  bench.until([](const json& now) { return now["connection"] == "open"; });
+  CHECK(octo("/api/printer/tool", R"({"command": "target", "targets": {"tool0": 190}})") == 204);
+  CHECK(octo("/api/printer/bed", R"({"command": "target", "target": 50})") == 204);
+  CHECK(octo("/api/printer/printhead", R"({"command": "jog", "x": 5})") == 409);
+  CHECK(octo("/api/printer/printhead", R"({"command": "home", "axes": ["x", "y", "z"]})") == 204);
+  bench.until([](const json& now) { return now["homed"] == true && now.contains("at"); });
+  CHECK(octo("/api/printer/printhead", R"({"command": "jog", "x": 5, "z": 3})") == 204);
+  CHECK(octo("/api/printer/printhead", R"({"command": "jog", "x": 12, "absolute": true})") == 204);
+  bench.until([](const json& now) { return now.contains("at") && now["at"][0] == 12; });
+  CHECK(bench.printer()["at"][2] == 3);
+  bench.until([](const json& now) { return now["temperature"]["tool0"]["actual"] > 185; });
+  CHECK(octo("/api/printer/tool", R"({"command": "extrude", "amount": 6})") == 204);
+  CHECK(octo("/api/connection", R"({"command": "disconnect"})") == 204);
+}
