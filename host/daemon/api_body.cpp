@@ -51,7 +51,7 @@ HttpError http_error(const Refused& refused) {
   return {status, code, refused.what()};
 }
 
-std::array<bool, 3> axes_in(const json& body) {
+std::array<bool, 3> axes_of(const json& body) {
   const auto found = body.find("axes");
   if (found == body.end()) return {true, true, true};
   std::array<bool, 3> axes{};

@@ -34,7 +34,7 @@ bool yes(const nlohmann::json& body, const char* key);
 std::optional<LayerRange> layers_in(const nlohmann::json& body);
 
 /// "axes", such as ["x", "y"]; absent: all. Throws HttpError 400.
-std::array<bool, 3> axes_in(const nlohmann::json& body);
+std::array<bool, 3> axes_of(const nlohmann::json& body);
 
 /// Throws HttpError 409 if a session has refused.
 void obeyed(const std::optional<std::string>& refusal);

@@ -102,31 +102,31 @@ json read_json_file(const fs::path& file) {
   return json::parse(stream, nullptr, false);
 }
 
-const char* state_name(DryRun::State state) {
+const char* state_name(DryRunRecord::State state) {
   switch (state) {
-    case DryRun::State::running:
+    case DryRunRecord::State::running:
       return "running";
-    case DryRun::State::done:
+    case DryRunRecord::State::done:
       return "done";
-    case DryRun::State::failed:
+    case DryRunRecord::State::failed:
       return "failed";
   }
   return "";
 }
 
 /// Of a file that this program has written.
-std::optional<DryRun> run_in(const fs::path& folder, std::uint64_t id) {
+std::optional<DryRunRecord> run_in(const fs::path& folder, std::uint64_t id) {
   const json kept = read_json_file(folder / run_name);
   if (!kept.is_object() || !kept.value("job", json()).is_string()) return std::nullopt;
-  DryRun run;
+  DryRunRecord run;
   run.id = id;
   run.job = kept["job"];
   run.made = kept.value("made", std::int64_t(0));
   run.percent = kept.value("percent", 0.0);
   run.reason = kept.value("reason", std::string());
-  run.state = kept.value("state", "") == state_name(DryRun::State::done) ? DryRun::State::done
-                                                                         : DryRun::State::failed;
-  if (kept.value("state", "") == state_name(DryRun::State::running))
+  run.state = kept.value("state", "") == state_name(DryRunRecord::State::done) ? DryRunRecord::State::done
+                                                                               : DryRunRecord::State::failed;
+  if (kept.value("state", "") == state_name(DryRunRecord::State::running))
     run.reason = "the daemon ended before the dry run did; begin it again";
   if (const auto layers = kept.find("layers");
       layers != kept.end() && layers->is_array() && layers->size() == 2)
@@ -139,7 +139,7 @@ std::optional<DryRun> run_in(const fs::path& folder, std::uint64_t id) {
 
 }  // namespace
 
-json to_json(const DryRun& run) {
+json to_json(const DryRunRecord& run) {
   json all = {{"id", run.id},
               {"job", run.job},
               {"state", state_name(run.state)},
@@ -172,16 +172,17 @@ void DryRuns::find_older() {
       // Somebody has changed the file: the run is not shown.
     }
   }
-  std::sort(runs_.begin(), runs_.end(), [](const DryRun& a, const DryRun& b) { return a.id < b.id; });
+  std::sort(runs_.begin(), runs_.end(),
+            [](const DryRunRecord& a, const DryRunRecord& b) { return a.id < b.id; });
 }
 
-const DryRun* DryRuns::find(std::uint64_t id) const {
+const DryRunRecord* DryRuns::find(std::uint64_t id) const {
   return const_cast<DryRuns*>(this)->found(id);
 }
 
-DryRun* DryRuns::found(std::uint64_t id) {
+DryRunRecord* DryRuns::found(std::uint64_t id) {
   const auto here =
-      std::find_if(runs_.begin(), runs_.end(), [id](const DryRun& run) { return run.id == id; });
+      std::find_if(runs_.begin(), runs_.end(), [id](const DryRunRecord& run) { return run.id == id; });
   return here == runs_.end() ? nullptr : &*here;
 }
 
@@ -212,13 +213,13 @@ void DryRuns::make_room() {
   check_disk();
 }
 
-void DryRuns::announce(const DryRun& run) {
+void DryRuns::announce(const DryRunRecord& run) {
   announced_ = std::chrono::steady_clock::now();
   changed_({{"event", "task"}, {"dry_run", to_json(run)}});
 }
 
 /// Best effort: what cannot be written is not found by the next daemon.
-void DryRuns::note(const DryRun& run) {
+void DryRuns::note(const DryRunRecord& run) {
   try {
     write_state(folder_of(run.id) / run_name,
                 to_json(run).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
@@ -230,7 +231,7 @@ void DryRuns::note(const DryRun& run) {
 std::uint64_t DryRuns::begin(const Wish& wish) {
   if (running()) throw Refused(Why::conflict, "another dry run is going on; wait for its end, or remove it");
   make_room();
-  DryRun run;
+  DryRunRecord run;
   run.id = next_id();
   run.job = wish.job;
   run.layers = wish.layers;
@@ -286,7 +287,7 @@ asio::awaitable<void> DryRuns::follow(std::uint64_t id, std::shared_ptr<TryingPr
 }
 
 void DryRuns::hear(std::uint64_t id, const std::string& line, std::string& reason) {
-  DryRun* const run = found(id);
+  DryRunRecord* const run = found(id);
   if (!run || line.empty()) return;
   if (line.front() != '{') {
     constexpr std::string_view mark = "unicursal: ";
@@ -314,10 +315,10 @@ asio::awaitable<void> DryRuns::conclude(std::uint64_t id, int status, std::strin
   } catch (const std::exception&) {
     // The report is not as it should be: the run has no figures.
   }
-  DryRun* const run = found(id);
+  DryRunRecord* const run = found(id);
   if (!run) co_return;
   run->figures = std::move(figures);
-  run->state = good ? DryRun::State::done : DryRun::State::failed;
+  run->state = good ? DryRunRecord::State::done : DryRunRecord::State::failed;
   if (good) run->percent = 100;
   if (!good && WIFSIGNALED(status))
     reason = fmt::format("the dry run was ended by signal {}; try fewer layers, or a simpler model",
@@ -329,9 +330,9 @@ asio::awaitable<void> DryRuns::conclude(std::uint64_t id, int status, std::strin
 }
 
 asio::awaitable<void> DryRuns::remove(std::uint64_t id) {
-  const DryRun* const run = found(id);
+  const DryRunRecord* const run = found(id);
   if (!run) throw no_such_run();
-  if (run->state == DryRun::State::running && process_) {
+  if (run->state == DryRunRecord::State::running && process_) {
     const std::shared_ptr<TryingProcess> process = process_;
     process->end();
     asio::steady_timer timer(loop_);
@@ -341,7 +342,7 @@ asio::awaitable<void> DryRuns::remove(std::uint64_t id) {
       co_await timer.async_wait(asio::use_awaitable);
     }
   }
-  std::erase_if(runs_, [id](const DryRun& one) { return one.id == id; });
+  std::erase_if(runs_, [id](const DryRunRecord& one) { return one.id == id; });
   changed_({{"event", "task"}, {"removed", id}});
   const auto clear = [folder = folder_of(id)] {
     std::error_code ignored;

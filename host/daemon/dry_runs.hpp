@@ -30,7 +30,7 @@
 
 namespace unicursal::host {
 
-struct DryRun {
+struct DryRunRecord {
   enum class State { running, done, failed };
 
   std::uint64_t id = 0;
@@ -44,7 +44,7 @@ struct DryRun {
       figures;  ///< from its report: `seconds`, `filaments`, `gaps_percent`, `wrong_percent`, `grades`
 };
 
-nlohmann::json to_json(const DryRun& run);
+nlohmann::json to_json(const DryRunRecord& run);
 
 /// The files of a dry run that are shown, by the ends of their names, and their types.
 inline constexpr std::array<std::pair<std::string_view, const char*>, 5> shown_files{
@@ -69,8 +69,8 @@ class DryRuns {
   DryRuns(const DryRuns&) = delete;
   DryRuns& operator=(const DryRuns&) = delete;
 
-  const std::vector<DryRun>& all() const { return runs_; }
-  const DryRun* find(std::uint64_t id) const;
+  const std::vector<DryRunRecord>& all() const { return runs_; }
+  const DryRunRecord* find(std::uint64_t id) const;
   bool running() const { return process_ != nullptr; }
 
   struct Wish {
@@ -92,9 +92,9 @@ class DryRuns {
   void find_older();
   void make_room();
   void check_disk();
-  void note(const DryRun& run);
-  void announce(const DryRun& run);
-  DryRun* found(std::uint64_t id);
+  void note(const DryRunRecord& run);
+  void announce(const DryRunRecord& run);
+  DryRunRecord* found(std::uint64_t id);
   asio::awaitable<void> follow(std::uint64_t id, std::shared_ptr<TryingProcess> process);
   void hear(std::uint64_t id, const std::string& line, std::string& reason);
   asio::awaitable<void> conclude(std::uint64_t id, int status, std::string reason);
@@ -102,7 +102,7 @@ class DryRuns {
   asio::io_context& loop_;
   std::filesystem::path folder_;
   std::function<void(const nlohmann::json& event)> changed_;
-  std::vector<DryRun> runs_;  ///< the oldest first
+  std::vector<DryRunRecord> runs_;  ///< the oldest first
   std::shared_ptr<TryingProcess> process_;
   std::chrono::steady_clock::time_point announced_{};
   asio::thread_pool disk_{1};

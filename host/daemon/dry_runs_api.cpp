@@ -27,7 +27,7 @@ std::string ending_type(const std::string& name) {
 
 asio::awaitable<Response> Api::list_dry_runs(Request) {
   json all = json::array();
-  for (const DryRun& run : daemon_.dry_runs().all()) all.push_back(to_json(run));
+  for (const DryRunRecord& run : daemon_.dry_runs().all()) all.push_back(to_json(run));
   co_return reply({{"dry_runs", all}});
 }
 
@@ -45,7 +45,7 @@ asio::awaitable<Response> Api::show_dry_run(Request request) {
   const std::size_t slash = std::min(behind.find('/'), behind.size());
   const std::uint64_t id = number_behind(behind.substr(0, slash), "");
   if (slash == behind.size()) {
-    const DryRun* run = daemon_.dry_runs().find(id);
+    const DryRunRecord* run = daemon_.dry_runs().find(id);
     if (!run) throw HttpError(404, "there is no dry run with that number");
     co_return reply(to_json(*run));
   }

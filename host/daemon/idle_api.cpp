@@ -58,7 +58,7 @@ asio::awaitable<Response> Api::heat(Request request) {
 }
 
 asio::awaitable<Response> Api::home(Request request) {
-  const auto axes = axes_in(read_object(request, {"axes"}));
+  const auto axes = axes_of(read_object(request, {"axes"}));
   daemon_.idle().home(axes);
   co_return reply(whole_printer(), 202);
 }

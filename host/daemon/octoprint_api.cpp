@@ -152,7 +152,7 @@ asio::awaitable<Response> Api::octo_move(Request request) {
   if ((command == "jog" || command == "home") && daemon_.busy())
     throw HttpError(409, "a print is going on, which moves the head itself");
   if (command == "home") {
-    daemon_.idle().home(axes_in(body));
+    daemon_.idle().home(axes_of(body));
     co_return no_content();
   }
   if (command == "jog") {

@@ -155,7 +155,7 @@ std::span<const Api::Route> Api::Route::all() {
        {.says = "tries a job on a simulated printer", .takes = "NewJob", .gives = "Id", .status = 201,
         .refuses = {404, 409, 422, 507}}},
       {"GET", "/api/dry-runs/{id}", &Api::show_dry_run, watch,
-       {.says = "one dry run", .gives = "DryRun", .refuses = {404}}},
+       {.says = "one dry run", .gives = "DryRunRecord", .refuses = {404}}},
       {"GET", "/api/dry-runs/", &Api::show_dry_run, watch,
        {.says = "its page, pictures and report", .refuses = {404}, .behind = "{id}/{file}",
         .type = "application/octet-stream"}},

@@ -1,9 +1,9 @@
 // A database in one file (SQLite 3), as far as the history needs it: statements with values, and errors that
 // name a remedy. Belongs to one thread at a time.
 //
-//   Database database(file, Database::Access::change);
+//   Database database(file, Database::Access::change, std::chrono::seconds(2));
 //   Statement find(database, "SELECT job FROM prints WHERE id = ?");
-//   find.bind(7);
+//   find.bind(std::int64_t{7});
 //   while (find.step()) show(find.text(0));
 #pragma once
 
