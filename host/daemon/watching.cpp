@@ -98,6 +98,7 @@ void Daemon::show() {
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
   if (!session || followers_.empty()) return;
   const auto now = std::chrono::steady_clock::now();
+  bool still_moves = true;  // unless the same place was to be shown again
   if (current_->live) {
     for (const KnownLayer& layer : current_->live->take_changed()) changed_layers_[layer.layer] = layer;
   }
@@ -118,11 +119,15 @@ void Daemon::show() {
   } else if (const auto nozzle = this->nozzle()) {
     json event = to_json(*nozzle);
     event["event"] = "position";
-    if (event != shown_position_) broadcast_motion(event);
+    // The printer still moves through what it has taken when the print is paused.
+    still_moves = event != shown_position_;
+    if (still_moves) broadcast_motion(event);
     shown_position_ = std::move(event);
+  } else {
+    still_moves = false;
   }
   const bool printing = session->status().state == SessionState::printing;
-  if (printing || progress_due_ || !changed_layers_.empty()) show_soon();
+  if (printing || still_moves || progress_due_ || !changed_layers_.empty()) show_soon();
 }
 
 }  // namespace unicursal::host

@@ -39,7 +39,7 @@ class Line(unittest.TestCase):
         cls.bench.start_printer(40)
         cls.bench.serve()
         cls.bench.start(layers=[0, 9])
-        until(lambda: cls.layer_and_bead() > (0, 150), "beads are laid")
+        until(lambda: cls.layer_and_bead() > (1, 150), "beads are laid above the line that primes the nozzle")
         cls.bench.ask("POST", "/api/print/pause", {})
         cls.bench.until_state("paused")
 
@@ -54,6 +54,10 @@ class Line(unittest.TestCase):
         return until(lambda: self.browser.js("const view = document.querySelector('curve-view'); return view.work === null && view.painted"),
                      "the layer is painted")
 
+    def painted(self):
+        """Beads in full colour."""
+        return self.browser.js("return document.querySelector('curve-view').painted")
+
     def pixels_of(self, beads):
         """The colour on the canvas and the path's, of each bead that lies on the canvas."""
         pixels = self.browser.js(PIXELS, [list(one[0]) for one in beads])
@@ -65,10 +69,10 @@ class Line(unittest.TestCase):
 
     def test_the_canvas_shows_what_leaves_the_nozzle(self):
         for size in (PHONE, DESK):
-            painted = self.open(size)
-            layer, bead = self.layer_and_bead()
+            self.open(size)
+            until(lambda: abs(self.painted() - self.layer_and_bead()[1]) <= 2, "what is laid is in full colour")
+            painted, (layer, _) = self.painted(), self.layer_and_bead()
             _, _, beads = beads_of(self.bench.ask("GET", f"/api/print/layers/{layer}/path?from=0"))
-            self.assertLessEqual(abs(painted - bead), 2, "what is laid is in full colour")
             laid = [one for one in beads[:painted] if one[1] > 0 and one[3] > 0.2]
             self.assertGreater(len(laid), 50)
             shown = self.pixels_of(laid)
