@@ -43,7 +43,7 @@ class Bench {
 TEST_CASE("the progress of a print fits a window of 60, 80 or 120 columns", "[optimised]") {
   const auto [width, fields] =
       GENERATE(table<int, std::string>({{60, " left"}, {80, " ahead"}, {120, "nozzle "}}));
-  const Bench bench;
+  const Bench bench("height = 20.0", "50");
   Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width)});
   terminal.await("heating, ");
   terminal.await(" left");  // heating is a part of it
