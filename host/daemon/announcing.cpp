@@ -61,7 +61,7 @@ void Daemon::announce(const std::string& event, const std::string& state, const 
   if (profile) object["printer"] = profile->printer.name;
   if (!state.empty()) object["state"] = state;
   if (!reason.empty()) object["reason"] = reason;
-  if (printing()) {
+  if (in_session()) {
     const SessionStatus status = current_->print->session()->status();
     object["percent"] = status.percent;
     if (status.left) object["left_seconds"] = *status.left;
@@ -74,7 +74,7 @@ void Daemon::announce(const std::string& event, const std::string& state, const 
 
 /// After an event of the session that is neither progress nor heat.
 void Daemon::announce_session(const SessionEvent& event) {
-  if (!event_command_ || !printing()) return;
+  if (!event_command_ || !in_session()) return;
   const SessionStatus status = current_->print->session()->status();
   const bool state_changed = event.kind == SessionEvent::Kind::state;
   if (state_changed && !current_->announced && status.state != SessionState::connecting &&

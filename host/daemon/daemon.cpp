@@ -31,8 +31,6 @@ using Why = Refused::Why;
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_checks = 2;  ///< at once: each may take a core and much memory
-
 std::string text_of(const json& event) {
   return event.dump(-1, ' ', false, json::error_handler_t::replace);
 }

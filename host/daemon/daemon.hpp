@@ -169,13 +169,16 @@ class Daemon {
   void shut_down(std::function<void()> done);
   bool busy() const { return current_.has_value(); }
   /// Whether a print is going on that is to be parked and cooled before the daemon ends.
-  bool printing() const {
-    return (current_ && current_->print && current_->print->session()) || idle_.feeding();
-  }
+  bool printing() const { return in_session() || idle_.feeding(); }
   /// The name of the print that is going on, as it is kept; empty: there is none.
   std::string printing_as() const;
 
  private:
+  static constexpr std::size_t most_checks = 2;  ///< of jobs at once: each may take a core and much memory
+
+  /// Whether a print has its session, so that current_->print->session() is there.
+  bool in_session() const { return current_ && current_->print && current_->print->session(); }
+
   struct Current {
     std::uint64_t id = 0;
     std::shared_ptr<LiveLine> live;        ///< null until the first session; outlives all of them
@@ -295,6 +298,7 @@ class Daemon {
   IdlePrinter idle_;
   bool idle_returns_ = false;  ///< the idle connection comes back after the print
   bool examining_ = false;     ///< doctor has the port
+  unsigned idle_baud_ = 0;     ///< of the idle connection's port; 0: it was never opened
   std::string idle_note_;      ///< why the connection has not come back, a sentence
   std::string idle_problem_;   ///< the last one that was logged
   asio::steady_timer idle_shown_;

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -24,8 +25,7 @@ namespace {
 
 constexpr auto last_moment = std::chrono::milliseconds(700);  ///< for runs when the daemon ends
 constexpr auto between_looks = std::chrono::milliseconds(50);
-constexpr int event_niceness = 10;             ///< the printer comes first
-constexpr std::size_t most_input = 32 * 1024;  ///< bytes; a pipe takes 64 KiB at once (pipe(7))
+constexpr int event_niceness = 10;  ///< the printer comes first
 
 /// What a program needs, and none of the secrets that this one may have been started with.
 std::vector<std::string> environment_for(const CommandEvent& event) {
@@ -45,22 +45,24 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// The reading end of a pipe that holds the text.
-Descriptor pipe_with(const std::string& text) {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::system_error(errno, std::generic_category(), "no pipe");
-  Descriptor input(ends[0]);
-  const Descriptor writing(ends[1]);
-  const std::string line = text.substr(0, most_input) + "\n";
-  if (::write(writing.get(), line.data(), line.size()) < 0)
-    throw std::system_error(errno, std::generic_category(), "no pipe");
-  return input;
+/// A file in memory that holds the text, to be read from its beginning.
+Descriptor file_with(const std::string& text) {
+  Descriptor file(::memfd_create("event", MFD_CLOEXEC));
+  const std::string line = text + "\n";
+  std::size_t written = 0;
+  while (file.get() >= 0 && written < line.size()) {
+    const ssize_t some = ::write(file.get(), line.data() + written, line.size() - written);
+    if (some <= 0) break;
+    written += static_cast<std::size_t>(some);
+  }
+  if (written < line.size() || ::lseek(file.get(), 0, SEEK_SET) != 0)
+    throw std::system_error(errno, std::generic_category(), "no memory for the event");
+  return file;
 }
 
 /// In a process group of its own, with the daemon's standard error only. Throws std::system_error.
 pid_t spawn_shell(const std::string& command, const CommandEvent& event) {
-  const Descriptor input = pipe_with(event.json);
+  const Descriptor input = file_with(event.json);
   std::vector<std::string> words{"sh", "-c", command}, variables = environment_for(event);
   std::vector<char*> arguments = pointers_to(words), settings = pointers_to(variables);
   posix_spawnattr_t attributes;

@@ -51,24 +51,29 @@ asio::awaitable<FoundPrinter> Daemon::examine_printer(std::string named) {
   const std::string port = checked_port(named);
   const Profile profile = own() ? *own() : Profile{};
   const bool was_open = idle_.wanted();
+  const std::string before = idle_.status().port;
   std::vector<unsigned> rates{profile.baud};
   if (!own()) rates.push_back(115200);
   const Raised examining(examining_);
-  int descriptor = co_await idle_.hand_over();
+  int descriptor = -1;
+  if (before == port)
+    descriptor = co_await idle_.hand_over();
+  else
+    co_await idle_.close();  // another printer: it is cooled
   std::string problem;
   for (const unsigned baud : rates) {
     try {
       FoundPrinter found = co_await examine_at(port, baud, descriptor);
-      if (was_open) idle_.connect(profile, port);
+      if (was_open) idle_.connect(profile, before);
       co_return found;
     } catch (const PortError& error) {
       problem = error.what();
-      break;  // at no other rate either
-    } catch (const LinkError& error) {
+      break;                                 // at no other rate either
+    } catch (const std::exception& error) {  // a LinkError: perhaps at another rate
       problem = error.what();
     }
   }
-  if (was_open) idle_.connect(profile, port);
+  if (was_open) idle_.connect(profile, before);
   throw Refused(Why::absent, problem);
 }
 

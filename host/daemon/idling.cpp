@@ -128,6 +128,7 @@ void Daemon::connect_printer(const std::string& named) {
                                    " is not there: plug the printer in and switch it on");
   if (!named.empty()) chosen_port_ = port;
   idle_note_.clear();
+  if (!idle_.wanted()) idle_baud_ = profile->baud;
   idle_.connect(*profile, port);
 }
 
@@ -143,9 +144,13 @@ void Daemon::disconnect_printer() {
 asio::awaitable<void> Daemon::connect_print(Print& print, std::optional<Leg> leg) {
   const IdleStatus before = idle_.status();
   const Profile* profile = own();
-  const unsigned baud = profile ? profile->baud : 0;
+  const unsigned baud = idle_baud_ != 0 ? idle_baud_ : profile ? profile->baud : 0;
   idle_returns_ = idle_returns_ || idle_.wanted();
   const int descriptor = co_await idle_.hand_over();
+  if (current_->cancelled) {
+    if (descriptor >= 0) ::close(descriptor);
+    throw core::Stopped();
+  }
   const auto connect = [&print, &leg, open = OpenPort{descriptor, before.port, baud},
                         stop = current_->preparing.get_token()] {
     const core::StopScope scope(stop);
@@ -159,7 +164,7 @@ void Daemon::take_printer_back() {
   if (!std::exchange(idle_returns_, false) || when_idle_) return;
   try {
     connect_printer({});
-  } catch (const Refused& refused) {
+  } catch (const std::exception& refused) {
     idle_note_ = refused.what();
   }
 }

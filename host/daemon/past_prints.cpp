@@ -54,6 +54,11 @@ auto PastPrints::with_history(Work work) {
   return elsewhere(thread_, all);
 }
 
+asio::awaitable<void> PastPrints::settled() {
+  const auto done = [] { return true; };
+  co_await elsewhere(thread_, done);
+}
+
 asio::awaitable<json> PastPrints::list(std::optional<std::int64_t> before, std::size_t most,
                                        std::string printing) {
   const auto read = [=, root = root_](History& history) {

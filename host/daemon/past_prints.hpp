@@ -34,6 +34,8 @@ class PastPrints {
   asio::awaitable<void> remove(std::int64_t id);
   /// Adds a print that has ended, in the other thread; may be called from any.
   void keep(HistoryEntry entry);
+  /// When what was asked for so far is done.
+  asio::awaitable<void> settled();
   /// `prints`: those that are kept, the newest first.
   asio::awaitable<nlohmann::json> kept(std::string printing);
   /// The folder of a kept print: by its name, or the only one that begins so.

@@ -225,7 +225,12 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
   notify_service("STATUS=idle");
   take_printer_back();
   co_await enter(id, ending, reason);
-  if (when_idle_) let_printer_go(false);
+  if (when_idle_) {
+    const auto away = [] { return true; };
+    co_await elsewhere(ending_, away);  // the print is in the history before the daemon ends
+    co_await past_prints_.settled();
+    let_printer_go(false);
+  }
   sketch_soon();
 }
 
@@ -299,6 +304,7 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
   Print& print = *current_->print;
   if (current_->cancelled) throw core::Stopped();
   std::optional<Lost> lost = lost_before(print.spool().before());
+  if (!lost && idle_.wanted()) lost = Lost{"the printer has been used since", std::nullopt};
   if (!lost && later.empty()) {
     co_await connect_print(print);
     const StreamResult result = co_await run_sessions(id);
@@ -396,7 +402,11 @@ void Daemon::cancel(const std::string& reason) {
 }
 
 void Daemon::stop_at_once() {
-  if (!current_ && idle_.status().connection == IdleStatus::Connection::open) return idle_.stop_at_once();
+  // Also while a print is being prepared: until then the printer may still be moving and hot.
+  if (!in_session() && idle_.status().connection == IdleStatus::Connection::open) {
+    if (current_) cancel("the user has stopped it");
+    return idle_.stop_at_once();
+  }
   if (!current_) throw Refused(Why::conflict, "nothing is being printed");
   if (!current_->print || !current_->print->session()) return cancel("the user has stopped it");
   if (const Refusal no = session().emergency_stop()) throw Refused(Why::conflict, *no);

@@ -44,7 +44,7 @@ json estimate_in(const fs::path& folder) {
 bool Daemon::may_sketch() const {
   if (when_idle_) return false;
   if (!current_) return true;
-  return printing() && current_->print->session()->status().lookahead >= planned_enough;
+  return in_session() && current_->print->session()->status().lookahead >= planned_enough;
 }
 
 void Daemon::sketch_soon() {
@@ -106,13 +106,13 @@ asio::awaitable<json> Daemon::sketch(QueuedJob job) {
     if (!may_sketch()) co_return json();
     sketch_stop_ = {};
     co_await check_in_child(check, sketch_stop_.get_token());
+    const auto read = [folder] { return estimate_in(folder); };
+    co_return co_await elsewhere(disk_, read);
   } catch (const core::Stopped&) {
     co_return json();
   } catch (const std::exception&) {
     co_return json();
   }
-  const auto read = [folder] { return estimate_in(folder); };
-  co_return co_await elsewhere(disk_, read);
 }
 
 asio::awaitable<std::string> Daemon::job_picture(std::uint64_t id) {

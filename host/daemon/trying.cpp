@@ -23,7 +23,13 @@ asio::awaitable<std::uint64_t> Daemon::try_job(std::string name, std::optional<L
   check_spare_time();
   if (dry_runs_.running())
     throw Refused(Why::conflict, "another dry run is going on; wait for its end, or remove it");
-  co_await check(name, layers);
+  if (being_added_->size() >= most_checks)
+    throw Refused(Why::conflict, "other jobs are being checked; try this one in a moment");
+  {
+    const auto place = being_added_->insert(name);
+    const std::shared_ptr<void> checked(nullptr, [all = being_added_, place](void*) { all->erase(place); });
+    co_await check(name, layers);
+  }
   check_spare_time();
   co_return dry_runs_.begin({name, files_.find(name), options_.profile, layers});
 }

@@ -45,8 +45,11 @@ LiveSubject subject_of(Print& print) {
 void Daemon::follow_line() {
   Print& print = *current_->print;
   const auto& continuation = print.settings().continuation;
-  if (!current_->live || (continuation && continuation->leg))
+  if (!current_->live || (continuation && continuation->leg)) {
     current_->live = std::make_shared<LiveLine>(subject_of(print));
+    changed_layers_.clear();
+    shown_position_ = {};
+  }
   print.follow(current_->live.get());
 }
 

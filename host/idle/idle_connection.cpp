@@ -68,7 +68,7 @@ asio::awaitable<void> IdlePrinter::State::hold() {
   for (;;) {
     std::exception_ptr lost;
     try {
-      while (leave == Leave::no) co_await converse();
+      while (leave == Leave::no || (leaves_hot() && descriptor >= 0)) co_await converse();
     } catch (const LinkError&) {
       lost = std::current_exception();
     }
@@ -195,7 +195,7 @@ asio::awaitable<void> IdlePrinter::State::greet() {
     if (const auto self = weak.lock(); self && self->turn == of) self->hear(line);
   });
   co_await link->connect();
-  if (!link || leave != Leave::no) throw LinkError("the connection was closed");
+  if (!link || (leave != Leave::no && !leaves_hot())) throw LinkError("the connection was closed");
   asio::co_spawn(executor, watch(shared_from_this(), turn), asio::detached);
   restarted = false;  // until now it may have booted
   note_firmware();

@@ -23,6 +23,8 @@ using Why = IdleRefused::Why;
 
 constexpr std::size_t most_waiting = 16;  ///< commands
 constexpr auto farewell_patience = std::chrono::seconds(5);
+constexpr auto motors_hold = std::chrono::seconds(1800);  ///< after the last motion
+constexpr auto motors_doubt = std::chrono::seconds(60);
 constexpr double brisk = 50, brisk_height = 10;  ///< mm/s of moves by hand
 constexpr double rounding = 0.005;               ///< mm; M114 has two decimals
 constexpr double coldest_push = 170;             ///< °C, Marlin's EXTRUDE_MINTEMP
@@ -103,6 +105,13 @@ void IdlePrinter::State::accept(Step step) {
   changed();
 }
 
+/// Motors that have let go lose their place.
+void IdlePrinter::State::forget_slack_axes() {
+  if (clock->now() < last_motion + motors_hold - motors_doubt) return;
+  known_axes = {};
+  place.reset();
+}
+
 void IdlePrinter::State::ask_to_leave(Leave how) {
   if (!running) return;
   leave = how;
@@ -162,7 +171,14 @@ void IdlePrinter::heat(std::optional<double> nozzle, std::optional<double> bed) 
   step.lines = gcode::choose_extruder(gcode::dialect_named(s.profile.printer.firmware));
   if (nozzle) step.lines.push_back(fmt::format("M104 S{:.0f}", *nozzle));
   if (bed) step.lines.push_back(fmt::format("M140 S{:.0f}", *bed));
-  if (nozzle.value_or(0) > 0 || bed.value_or(0) > 0) step.lines.push_back(gcode::stay_watchful());
+  const auto stays_on = [](const std::optional<double>& asked, double ordered,
+                           const std::optional<double>& reported) {
+    return asked ? *asked > 0 : ordered > 0 || reported.value_or(0) > 0;
+  };
+  const gcode::Temperatures& known = s.view.temperatures;
+  const bool on = stays_on(nozzle, s.nozzle, known.nozzle_target) || stays_on(bed, s.bed, known.bed_target);
+  // A firmware halts when nobody speaks to it while it is to be watchful, cold or not.
+  step.lines.push_back(on ? gcode::stay_watchful() : gcode::shut_down_after(0));
   s.accept(std::move(step));
   if (nozzle) s.nozzle = std::round(*nozzle);
   if (bed) s.bed = std::round(*bed);
@@ -171,6 +187,7 @@ void IdlePrinter::heat(std::optional<double> nozzle, std::optional<double> bed) 
 void IdlePrinter::home(const std::array<bool, 3>& axes) {
   State& s = *state_;
   s.check_open();
+  s.forget_slack_axes();
   if (axes[2] && !((axes[0] || s.known_axes[0]) && (axes[1] || s.known_axes[1])))
     throw IdleRefused(Why::not_now, "z is homed above a known place only; home x and y with it");
   State::Step step{State::Step::Kind::home, {}, axes, "the axes home", {}};
@@ -179,7 +196,7 @@ void IdlePrinter::home(const std::array<bool, 3>& axes) {
   for (std::size_t axis = 0; axis < axes.size() && !all; ++axis) {
     if (axes[axis]) line += fmt::format(" {}", axis_names[axis]);
   }
-  step.lines = {line, "M84 S1800"};  // motors that rest let the head slip
+  step.lines = {line, fmt::format("M84 S{}", motors_hold.count())};  // motors that rest let the head slip
   s.accept(std::move(step));
   s.place.reset();
 }
@@ -187,6 +204,7 @@ void IdlePrinter::home(const std::array<bool, 3>& axes) {
 void IdlePrinter::move(const std::array<double, 3>& by) {
   State& s = *state_;
   s.check_open();
+  s.forget_slack_axes();
   if (!s.homed() || !s.place)
     throw IdleRefused(Why::not_now, "nobody knows where the nozzle is; home all axes first");
   std::array<double, 3> to = *s.place;
@@ -257,7 +275,9 @@ void IdlePrinter::cancel() {
 
 void IdlePrinter::stop_at_once() {
   State& s = *state_;
-  s.check_open();
+  // Also while the connection is being closed.
+  if (s.connection != IdleStatus::Connection::open)
+    throw IdleRefused(Why::not_now, "the printer is not connected; connect it first");
   s.steps.clear();
   s.stopped = true;
   s.problem = "stopped at once; reset the printer before using it again";

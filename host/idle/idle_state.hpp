@@ -60,7 +60,10 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   void check_open() const;
   void accept(Step step);
   void ask_to_leave(Leave how);
+  void forget_slack_axes();
   bool hot() const;
+  /// It is to be closed, and something is still hot: the bed after filament was moved.
+  bool leaves_hot() const { return leave == Leave::close && hot(); }
   bool homed() const { return known_axes == Axes{true, true, true}; }
   bool feeds() const;
   std::string doing() const;
@@ -97,7 +100,8 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   PrinterView view;
   double nozzle = 0, bed = 0;  ///< targets that were ordered
   TimePoint last_command{};
-  TimePoint last_heard{};  ///< temperatures
+  TimePoint last_heard{};   ///< temperatures
+  TimePoint last_motion{};  ///< of an axis; the motors let go some time later
   Axes known_axes{};
   std::optional<Place> place;        ///< behind all commands
   std::optional<Place> heard_place;  ///< the last answer to M114

@@ -40,7 +40,10 @@ asio::awaitable<void> IdlePrinter::State::perform(Step step) {
   } else {
     co_await send(current->lines);
     if (current->kind == Step::Kind::cool) nozzle = bed = 0;
-    if (current->kind == Step::Kind::home || current->kind == Step::Kind::move) co_await ask_place();
+    if (current->kind == Step::Kind::home || current->kind == Step::Kind::move) {
+      last_motion = clock->now();
+      co_await ask_place();
+    }
     if (current->kind == Step::Kind::home) {
       for (std::size_t axis = 0; axis < known_axes.size(); ++axis)
         known_axes[axis] = known_axes[axis] || current->axes[axis];
@@ -79,6 +82,11 @@ asio::awaitable<void> IdlePrinter::State::feed(const Feeding& made) {
     if (event.kind == SessionEvent::Kind::heat || event.kind == SessionEvent::Kind::state) {
       view.temperatures = session->status().temperatures;
       changed();
+    }
+    // Nobody could let it go on, and it would stay hot.
+    if (event.kind == SessionEvent::Kind::state && session->status().state == SessionState::paused) {
+      problem = session->status().reason;
+      session->cancel(problem);
     }
   });
   const StreamResult result = co_await session->run();
