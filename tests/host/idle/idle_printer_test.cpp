@@ -240,6 +240,80 @@ TEST_CASE("feeding that is cancelled stops and leaves a cold printer") {
   CHECK(bench.turned(0) < 1000);
 }
 
+TEST_CASE("a connection that is closed while filament moves leaves nozzle and bed cold") {
+  IdleBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.heat(std::nullopt, 50);
+    idle.feed({host::FeedingKind::load, 0, 2000.0});
+    co_await bench.until([&] { return idle.status().temperatures.nozzle.value_or(0) > 205; });
+    co_await bench.pass(20s);
+    idle.disconnect();
+    co_await bench.until([&] { return idle.status().connection == Connection::closed; });
+  });
+  CHECK(bench.target("nozzle") == 0);
+  CHECK(bench.target("bed") == 0);
+  CHECK(bench.turned(0) < 1000);
+}
+
+TEST_CASE("feeding that the printer pauses ends, and leaves a cold nozzle") {
+  IdleBench bench("marlin", {"--fault", "say://action:pause@t=200"});
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.feed({host::FeedingKind::load, 0, 2000.0});
+    co_await bench.until([&] { return idle.status().action == IdleStatus::Action::feeding; });
+    co_await bench.until([&] { return !idle.feeding(); });
+    CHECK_FALSE(idle.status().problem.empty());
+    co_await bench.pass(5s);
+    CHECK(idle.status().connection == Connection::open);
+    CHECK(idle.status().temperatures.nozzle_target == 0);
+  });
+  CHECK(bench.turned(0) > 10);
+  CHECK(bench.turned(0) < 1500);
+}
+
+TEST_CASE("a printer that was switched off by hand rests, and does not halt for want of commands") {
+  IdleBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.heat(100, 50);
+    co_await bench.pass(60s);
+    idle.heat(0, std::nullopt);
+    co_await bench.pass(60s);
+    CHECK(idle.status().cools_in);  // the bed is still on
+    idle.heat(std::nullopt, 0);
+    co_await bench.pass(40min);
+    CHECK(idle.status().connection == Connection::open);
+    CHECK(idle.status().problem.empty());
+  });
+}
+
+TEST_CASE("axes whose motors have let go are homed again before they move") {
+  IdleBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.home({true, true, true});
+    co_await bench.until([&] { return idle.status().at.has_value(); });
+    co_await bench.pass(20min);
+    idle.move({0, 0, 5});
+    co_await bench.pass(20min);
+    idle.move({0, 0, 5});
+    co_await bench.pass(31min);
+    CHECK_THROWS_WITH(idle.move({0, 0, 5}), Contains("home all axes first"));
+  });
+}
+
+TEST_CASE("a printer is stopped at once also while its connection is being closed") {
+  IdleBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.heat(100, std::nullopt);
+    idle.home({true, true, true});
+    co_await bench.until([&] { return idle.status().action == IdleStatus::Action::homing; });
+    idle.disconnect();
+    CHECK_THROWS_AS(idle.heat(50, std::nullopt), IdleRefused);
+    idle.stop_at_once();
+    co_await bench.until([&] { return idle.status().connection == Connection::closed; });
+  });
+  CHECK(bench.seen()["killed"] == true);
+  CHECK(bench.lines().find("M104 S0") == std::string::npos);  // it was not left to the farewell
+}
+
 TEST_CASE("filament is pushed by hand through a hot nozzle, in equal shares") {
   const std::string firmware = GENERATE("marlin", "repetier", "reprapfirmware");
   CAPTURE(firmware);
