@@ -11,9 +11,12 @@ namespace {
 
 class IdleDaemon : public DaemonBench {
  public:
-  explicit IdleDaemon(const std::string& speed = "200", const std::vector<std::string>& more = {}) {
+  explicit IdleDaemon(const std::string& speed = "200", const std::vector<std::string>& more = {},
+                      const std::vector<std::string>& of_daemon = {}) {
     start_printer(speed, more);
-    serve({"--profile", path("jobs/bench.toml.profile")});
+    std::vector<std::string> options{"--profile", path("jobs/bench.toml.profile")};
+    options.insert(options.end(), of_daemon.begin(), of_daemon.end());
+    serve(options);
   }
   json printer() const { return ask("GET", "/api/printer"); }
   int post(const std::string& what, const std::string& body = "{}") const {
@@ -104,6 +107,19 @@ TEST_CASE("a daemon that ends switches an idle printer off") {
   const std::string lines = bench.transcript();
   CHECK(lines.rfind("M104 S0") > lines.rfind("M104 S200"));
   CHECK(lines.rfind("M140 S0") > lines.rfind("M140 S60"));
+}
+
+TEST_CASE("filament that moves is stopped at once, and the daemon goes on") {
+  IdleDaemon bench("200", {}, {"--on-event", "cat > /dev/null"});
+  bench.connect();
+  REQUIRE(bench.post("feed", R"({"action": "load", "feeder": 1, "length": 2000})") == 202);
+  bench.until([](const json& now) {
+    return now.value("action", "") == "feeding" && now["nozzle"].value("actual_c", 0.0) > 100;
+  });
+  CHECK(bench.status(bench.request("POST", "/api/print/stop", "{}")) == 202);
+  bench.until([](const json& now) { return now["connection"] == "closed"; });
+  CHECK(bench.ask("GET", "/api/status")["state"] == "idle");
+  CHECK(bench.printer()["problem"].get<std::string>().find("stopped at once") != std::string::npos);
 }
 
 TEST_CASE("the profile is shown and changed, and its comments stay") {
