@@ -287,7 +287,8 @@ void Daemon::on_session_event(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::notice) log_record_.note(LogRecord::From::notice, event.text);
   if (event.kind == SessionEvent::Kind::state) {
     const nlohmann::json status = to_json(session->status());
-    const std::string entered = "print: " + status.value("state", "") + " " + status.value("reason", "");
+    const std::string reason = status.value("reason", "");
+    const std::string entered = "print: " + status.value("state", "") + (reason.empty() ? "" : ": " + reason);
     log_line(entered);
     log_record_.note(LogRecord::From::host, entered);
   }

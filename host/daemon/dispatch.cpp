@@ -62,6 +62,10 @@ Admission Api::let_in(const RequestHead& head) {
   }
   const Visitor visitor = check_access(head, rules_);
   const Route& route = route_of(head);
+  if (visitor.right < route.right && route.right == Right::all)
+    throw HttpError(403,
+                    fmt::format("the key \"{}\" may not do that, which takes the token of the daemon's owner",
+                                visitor.name));
   if (visitor.right < route.right)
     throw HttpError(403, fmt::format("the key \"{}\" has the right to {} only; make another with `unicursal "
                                      "keys --new NAME --right {}`",

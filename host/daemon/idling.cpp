@@ -105,7 +105,8 @@ IdlePrinter& Daemon::idle() {
 /// The port that is meant by what a client names; empty: the daemon's.
 std::string Daemon::checked_port(const std::string& named) const {
   const std::string usual = port().empty() && own() ? own()->port : port();
-  if (named.empty() || named == usual) return usual.empty() ? "auto" : usual;
+  const bool any = named.empty() || (named == "auto" && options_.port);
+  if (any || named == usual) return usual.empty() ? "auto" : usual;
   if (options_.port)
     throw Refused(Why::conflict, "the daemon has one port; choose another with `unicursal serve --port`");
   if (named != "auto" && !is_listed(named))

@@ -87,7 +87,7 @@ function hours(
   brush.textAlign = 'center';
   brush.textBaseline = 'alphabetic';
   const span = at.now - at.begin, step = span > 2700 ? 900 : span > 1200 ? 600 : 300;
-  const clock = new Intl.DateTimeFormat(language(), {hour: '2-digit', minute: '2-digit'});
+  const clock = new Intl.DateTimeFormat(language(), {hour: 'numeric', minute: '2-digit'});
   for (let time = Math.ceil(at.begin / step) * step; time < at.now; time += step)
     if (at.x(time) > left + 18 && at.x(time) < at.x(at.now) - 16)
       brush.fillText(clock.format(time * 1000), at.x(time), at.height - 4);

@@ -251,7 +251,8 @@ export async function load<T>(
     if (place.isConnected && live.ready)
       fill(
           place,
-          h('div', {class: 'failed'}, h('p', {}, missing(error) ? t('error.not_here') : sentenceOf(error)),
+          h('div', {class: 'failed'},
+            h('p', {}, missing(error) && !(error as ApiError).code ? t('error.not_here') : sentenceOf(error)),
             h('button', {type: 'button', class: 'button', click: () => void load(place, get, show)},
               t('try_again'))));
   }

@@ -31,7 +31,7 @@ export function moment(language: string, when: number|null|undefined, now: numbe
   if (when === null || when === undefined || !isFinite(when)) return unknown;
   const date = new Date(when * 1000);
   const today = date.toDateString() === new Date(now).toDateString();
-  const time: Intl.DateTimeFormatOptions = {hour: '2-digit', minute: '2-digit'};
+  const time: Intl.DateTimeFormatOptions = {hour: 'numeric', minute: '2-digit'};
   const sameYear = date.getFullYear() === new Date(now).getFullYear();
   const day: Intl.DateTimeFormatOptions = {weekday: 'short', day: 'numeric', month: 'short'};
   return new Intl

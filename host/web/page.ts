@@ -39,6 +39,7 @@ class Shell extends View {
   private spokeAt = 0;
   private spoken = '';
   private state = '';
+  private busy = false;
 
   protected show(): void {
     this.main = h('main', {id: 'main', tabindex: -1});
@@ -72,10 +73,19 @@ class Shell extends View {
           `${percent(print.percent)} ${words} – ${shortName(live.status?.job?.job)}`;
       this.speak(spoken);
       this.notice();
+      if (this.busy && !live.busy) void meet();  // what was known of heat and port was the print's
+      this.busy = live.busy;
     };
     const since = () => this.showLink(banner);
     this.every(1000, since);
-    const route = () => this.route();
+    const route = () => {
+      if (location.hash.startsWith('#token=')) {  // the address that `serve` prints, in a page that is open
+        access.begin();
+        live.link = 'connecting';
+        void live.open();
+      }
+      this.route();
+    };
     window.addEventListener('hashchange', route);
     this.until(
         live.on('status', draw),

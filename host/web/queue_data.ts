@@ -27,7 +27,12 @@ export async function upload(files: File[]): Promise<string[]> {
   const folder = plainName(files[0].name.replace(/\.[^.]*$/, '')) + '-' + Date.now().toString(36);
   const jobs: string[] = [];
   for (const file of files) {
-    const answer = await api.upload<{job: string}>(`/api/files/${folder}/${plainName(file.name)}`, file);
+    let body: Blob = file;
+    if (/\.toml$/i.test(file.name)) {  // it names the others as they were called
+      const text = await file.text();
+      body = new Blob([files.reduce((all, one) => all.split(one.name).join(plainName(one.name)), text)]);
+    }
+    const answer = await api.upload<{job: string}>(`/api/files/${folder}/${plainName(file.name)}`, body);
     jobs.push(answer.job);
   }
   return jobs;

@@ -1,6 +1,6 @@
 // The figures of a dry run, as host/dry_run/dry_run_view.cpp writes them into index.html. mm, mm², s.
 
-export type Grade = 'good' | 'doubtful' | 'bad';
+export type Grade = 'good'|'doubtful'|'bad';
 export const kinds = ['curve', 'deposit', 'gaps', 'mixtures'] as const;
 export type Kind = (typeof kinds)[number];
 
@@ -18,7 +18,7 @@ export interface Layer {
 }
 
 export interface Worst {
-  kind: 'gap' | 'overfill' | 'mixture';
+  kind: 'gap'|'overfill'|'mixture';
   layer: number;
   x_mm: number;
   y_mm: number;
@@ -39,17 +39,23 @@ export interface DryRun {
   job: string;
   printer: string;
   ended: string;
-  time: { grade: Grade; seconds: number; laying_seconds: number; starvations: number; strikes: number; lines_whole: boolean };
-  material: { grade: Grade; worst_error: number; feeders: Feeder[]; total: { grams: number; cost?: number; currency?: string } };
-  gaps: { grade: Grade; fraction: number; overfill_fraction: number; area_mm2: number };
-  colours: { grade: Grade; fraction: number; area_mm2: number; within_mm?: number };
-  places: { curve?: Place; deposit?: Place };
+  time: {
+    grade: Grade; seconds: number; laying_seconds: number; starvations: number; strikes: number;
+    lines_whole: boolean
+  };
+  material: {
+    grade: Grade; worst_error: number; feeders: Feeder[];
+    total: {grams: number; cost?: number; currency?: string}
+  };
+  gaps: {grade: Grade; fraction: number; overfill_fraction: number; area_mm2: number};
+  colours: {grade: Grade; fraction: number; area_mm2: number; within_mm?: number};
+  places: {curve?: Place; deposit?: Place};
   layers: Layer[];
   worst: Worst[];
 }
 
 /** Where the picture of a layer lies; absent if there is none. */
-export function placeOf(run: DryRun, layer: Layer, kind: Kind): Place | undefined {
+export function placeOf(run: DryRun, layer: Layer, kind: Kind): Place|undefined {
   if (kind === 'curve') return run.places.curve;
   if (kind === 'deposit') return layer.deposit === undefined ? undefined : run.places.deposit;
   return layer.place;

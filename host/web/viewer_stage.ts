@@ -1,10 +1,15 @@
-// The frame in which the pictures of a layer are shown, all at the same place of the bed: it moves and grows with
-// the mouse, fingers or keys. mm, y up; pixels, y down.
-import type { Kind, Place } from './viewer_data';
+// The frame in which the pictures of a layer are shown, all at the same place of the bed: it moves and grows
+// with the mouse, fingers or keys. mm, y up; pixels, y down.
+import type {Kind, Place} from './viewer_data';
 
-interface Rectangle { left: number; top: number; width: number; height: number }
+interface Rectangle {
+  left: number;
+  top: number;
+  width: number;
+  height: number
+}
 
-const most = 40;  // times as large as the whole layer
+const most = 40;     // times as large as the whole layer
 const closeUp = 12;  // mm that are shown around a place
 
 export class Stage {
@@ -13,11 +18,15 @@ export class Stage {
   private image = document.createElement('img');
   private where?: Rectangle;  // of the picture
   private whole?: Rectangle;  // of the first picture: what "whole layer" shows
-  private centre = { x: 0, y: 0 };
+  private centre = {x: 0, y: 0};
   private zoom = 1;
-  private mark?: { x: number; y: number };
+  private mark?: {x: number; y: number};
   private awaited = 0;
-  private readonly fingers = new Map<number, { x: number; y: number }>();
+  private readonly fingers = new Map < number, {
+    x: number;
+    y: number
+  }
+  > ();
 
   constructor() {
     this.element.className = 'stage';
@@ -29,7 +38,10 @@ export class Stage {
     this.listen();
   }
 
-  /** Shows a picture when it has been read; the one before stays until then. Calls `missing` if it cannot be read. */
+  /**
+   * Shows a picture when it has been read; the one before stays until then. Calls `missing` if it cannot be
+   * read.
+   */
   async show(kind: Kind, file: string, place: Place, alt: string, missing: () => void): Promise<void> {
     const turn = ++this.awaited;
     const next = document.createElement('img');
@@ -44,10 +56,11 @@ export class Stage {
     }
     if (turn !== this.awaited) return;
     const [left, top, pixel] = place;
-    this.where = { left, top, width: next.naturalWidth * pixel, height: next.naturalHeight * pixel };
+    this.where = {left, top, width: next.naturalWidth * pixel, height: next.naturalHeight * pixel};
     if (!this.whole) {
       this.whole = this.where;
-      this.element.style.aspectRatio = `${Math.min(Math.max(this.whole.width / this.whole.height, 0.75), 2.5)}`;
+      this.element.style.aspectRatio =
+          `${Math.min(Math.max(this.whole.width / this.whole.height, 0.75), 2.5)}`;
       this.showWhole();
     }
     this.element.classList.toggle('deposit', kind === 'deposit');
@@ -59,22 +72,22 @@ export class Stage {
   showWhole(): void {
     if (!this.whole) return;
     this.zoom = 1;
-    this.centre = { x: this.whole.left + this.whole.width / 2, y: this.whole.top - this.whole.height / 2 };
+    this.centre = {x: this.whole.left + this.whole.width / 2, y: this.whole.top - this.whole.height / 2};
     this.place();
   }
 
   /** Puts a ring around a place and shows it from near by; without a place the ring goes. */
-  point(place?: { x: number; y: number }): void {
+  point(place?: {x: number; y: number}): void {
     this.mark = place;
     if (place && this.whole) {
-      this.centre = { ...place };
+      this.centre = {...place};
       const shown = Math.min(this.element.clientWidth, this.element.clientHeight) / this.fit();
       this.zoom = Math.min(Math.max(shown / closeUp, 1), most);
     }
     this.place();
   }
 
-  grow(factor: number, at?: { x: number; y: number }): void {
+  grow(factor: number, at?: {x: number; y: number}): void {
     const before = this.zoom;
     this.zoom = Math.min(Math.max(this.zoom * factor, 1), most);
     if (this.zoom === 1) return this.showWhole();
@@ -89,7 +102,8 @@ export class Stage {
   /** Pixels per mm when the whole layer is shown. */
   private fit(): number {
     if (!this.whole) return 1;
-    return Math.min(this.element.clientWidth / this.whole.width, this.element.clientHeight / this.whole.height);
+    return Math.min(
+        this.element.clientWidth / this.whole.width, this.element.clientHeight / this.whole.height);
   }
 
   private place(): void {
@@ -97,7 +111,7 @@ export class Stage {
     const scale = this.fit() * this.zoom;
     const x = (mm: number) => (mm - this.centre.x) * scale + this.element.clientWidth / 2;
     const y = (mm: number) => (this.centre.y - mm) * scale + this.element.clientHeight / 2;
-    const { style } = this.image;
+    const {style} = this.image;
     style.left = `${x(this.where.left)}px`;
     style.top = `${y(this.where.top)}px`;
     style.width = `${this.where.width * scale}px`;
@@ -114,14 +128,15 @@ export class Stage {
   private listen(): void {
     const at = (event: MouseEvent) => {
       const box = this.element.getBoundingClientRect();
-      return { x: event.clientX - box.left, y: event.clientY - box.top };
+      return {x: event.clientX - box.left, y: event.clientY - box.top};
     };
     this.element.addEventListener('wheel', (event) => {
       if (!event.ctrlKey && this.zoom === 1 && event.deltaY > 0) return;  // the page scrolls
       event.preventDefault();
       this.grow(Math.exp(-event.deltaY / 400), at(event));
-    }, { passive: false });
-    this.element.addEventListener('dblclick', (event) => (this.zoom > 1 ? this.showWhole() : this.grow(4, at(event))));
+    }, {passive: false});
+    this.element.addEventListener(
+        'dblclick', (event) => (this.zoom > 1 ? this.showWhole() : this.grow(4, at(event))));
     this.element.addEventListener('pointerdown', (event) => {
       this.fingers.set(event.pointerId, at(event));
       this.element.setPointerCapture(event.pointerId);
@@ -132,13 +147,13 @@ export class Stage {
     }
   }
 
-  private drag(finger: number, now: { x: number; y: number }): void {
+  private drag(finger: number, now: {x: number; y: number}): void {
     const before = this.fingers.get(finger);
     if (!before) return;
     this.fingers.set(finger, now);
     const other = [...this.fingers].find(([id]) => id !== finger)?.[1];
     if (other) {
-      const length = (p: { x: number; y: number }) => Math.hypot(p.x - other.x, p.y - other.y);
+      const length = (p: {x: number; y: number}) => Math.hypot(p.x - other.x, p.y - other.y);
       this.grow(length(now) / Math.max(length(before), 1), other);
     } else if (this.zoom > 1) {
       const scale = this.fit() * this.zoom;

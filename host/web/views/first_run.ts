@@ -7,13 +7,16 @@ import type {Finding, Port, Printer} from '../types';
 import {t} from '../words';
 import {findingList} from './checks';
 import {FilamentPanel} from './filaments';
+import {MachinePanel} from './machine';
 import {ProfilePanel} from './profile';
 
 // The step "tune" names the command, until the page can do it itself.
 const names = ['port', 'profile', 'doctor', 'filaments', 'load', 'tune', 'simulate', 'print'];
 
+let reached = 0;  ///< the step, also when the person comes back from another page
+
 export class FirstRun extends View {
-  private step = 0;
+  private step = reached;
   private port = 'auto';
 
   protected show(): void {
@@ -45,9 +48,8 @@ export class FirstRun extends View {
   }
 
   private go(by: number): void {
-    this.step += by;
-    if (this.step < names.length) return this.draw();
-    this.step = 0;
+    reached = this.step = (this.step + by) % names.length;
+    if (this.step > 0 || by < 0) return this.draw();
     location.hash = '#/print';
   }
 
@@ -57,14 +59,14 @@ export class FirstRun extends View {
     if (name === 'profile') this.chooseFrame(place);
     if (name === 'doctor') this.doctor(place);
     if (name === 'filaments') put(new ProfilePanel());
-    if (name === 'load') put(new FilamentPanel());
+    if (name === 'load') put(new MachinePanel(), new FilamentPanel());
     if (name === 'tune') put(h('code', {}, 'unicursal tune transition PROFILE'));
     if (name === 'simulate')
       put(command({
         label: t('first.simulate_do'),
         right: 'queue',
         run: async () => {
-          await api.post('/api/dry-runs', {job: 'leaf.toml'});
+          await api.post('/api/dry-runs', {job: await leaf()});
           location.hash = '#/dry-run';
         }
       }));
@@ -73,7 +75,7 @@ export class FirstRun extends View {
         label: t('first.print_do'),
         right: 'queue',
         run: async () => {
-          await api.post('/api/jobs', {job: 'leaf.toml'});
+          await api.post('/api/jobs', {job: await leaf()});
           location.hash = '#/print';
         }
       }));
@@ -111,8 +113,9 @@ export class FirstRun extends View {
         kind: 'main',
         right: 'all',
         run: async () => {
-          await api.post(
-              '/api/profile/new', {frame: frame.value, name: name.value || frame.value, port: this.port});
+          // A daemon that was given its port takes no other, not even "auto".
+          const port = this.port === 'auto' ? live.printer?.port || 'auto' : this.port;
+          await api.post('/api/profile/new', {frame: frame.value, name: name.value || frame.value, port});
           live.takePrinter(await api.get<Printer>('/api/printer'));
           this.go(1);
         }
@@ -141,6 +144,14 @@ export class FirstRun extends View {
     });
     fill(place, findings, h('div', {class: 'row'}, run));
   }
+}
+
+/** The example among the daemon's files. leaf.toml would bring the profile of another printer. */
+async function leaf(): Promise<string> {
+  const {jobs} = await api.get<{jobs: string[]}>('/api/files');
+  const found = jobs.find((job) => /(^|[/:])leaf\.svg$/.test(job));
+  if (!found) throw new Error(t('first.no_leaf'));
+  return found;
 }
 
 customElements.define('first-run', FirstRun);

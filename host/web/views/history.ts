@@ -1,5 +1,5 @@
 // History: each print with what was foretold and what it took, and the sums.
-import {api} from '../api';
+import {access, api} from '../api';
 import {ask, card, command, complain, empty, load, swatchOf} from '../controls';
 import {fill, h, View} from '../dom';
 import {live} from '../live';
@@ -111,6 +111,7 @@ export class HistoryView extends View {
       placeholder: t('history.note'),
       'aria-label': `${t('history.note')}: ${shortName(print.job)}`,
       maxlength: 1000,
+      disabled: !access.may('queue'),
       change: async () => {
         try {
           await api.put(`/api/history/${print.id}`, {note: field.value});

@@ -11,15 +11,27 @@ const rights: Right[] = ['watch', 'queue', 'steer'];
 export class KeysPanel extends View {
   protected show(): void {
     const place = h('div', {class: 'stack'});
+    let shown = '';
     const refresh = () => {
       if (access.may('all'))
-        void load(place, () => api.get<KeyList>('/api/keys'), (now) => this.fill(place, now));
+        void load(place, () => api.get<KeyList>('/api/keys'), (now) => {
+          const asked = JSON.stringify(now.requests);  // what is being typed stays while nobody asks
+          if (asked === shown && place.childElementCount) return;
+          shown = asked;
+          this.fill(place, now);
+        });
       else
         fill(place, h('p', {class: 'soft'}, t('keys.owner')));
     };
     this.className = 'card';
     this.append(h('h2', {}, t('keys.title')), place);
-    this.until(live.on('up', refresh));
+    this.until(live.on('up', () => {
+      shown = '';
+      refresh();
+    }));
+    this.every(5000, () => {
+      if (live.ready && !document.hidden && access.may('all')) refresh();
+    });
     if (live.ready) refresh();
   }
 

@@ -15,7 +15,7 @@ export class LogPanel extends View {
 
   protected show(): void {
     let lines: LogLine[] = [], next = 0, numbered = false, running = false;
-    const list = h('ol', {class: 'log', tabindex: 0, 'aria-label': t('log.title')}),
+    const list = h('ol', {class: 'log', tabindex: 0, 'aria-label': t(this.all ? 'log.serial' : 'log.title')}),
           none = h('p', {class: 'soft'}, t('log.none'));
     const draw = () => {
       const shown = lines.filter((line) => this.all || line.from !== 'printer').slice(-most);
@@ -46,7 +46,7 @@ export class LogPanel extends View {
     };
     this.className = 'card';
     this.setAttribute('role', 'region');
-    this.setAttribute('aria-label', t('log.title'));
+    this.setAttribute('aria-label', t(this.all ? 'log.serial' : 'log.title'));
     this.append(h('h2', {}, t(this.all ? 'log.serial' : 'log.title')), list, none);
     let soon = 0;
     this.until(live.on('up', () => {

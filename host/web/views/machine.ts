@@ -62,7 +62,8 @@ export class MachinePanel extends View {
             print = live.busy ? live.status?.print : undefined;
       setText(state, word('connection', live.busy ? 'printing' : printer?.connection));
       state.dataset.state = live.busy ? 'printing' : printer?.connection ?? 'unknown';
-      setText(firmware, printer?.firmware || unknown);
+      const told = printer?.firmware ?? '';  // after a print: the whole answer to M115
+      setText(firmware, /FIRMWARE_NAME:(.*?)(?: [A-Z_]+:|$)/.exec(told)?.[1] ?? (told || unknown));
       setText(port, printer?.port || unknown);
       setText(
           size, printer?.bed_mm ? `${printer.bed_mm.map((side) => number(side)).join(' × ')} mm` : unknown);

@@ -37,6 +37,7 @@ export class PrintFacts extends View {
     const warning = h('p', {class: 'warning', hidden: true});
     const draw = () => {
       const print = live.status?.print, full = live.status?.job?.job;
+      const rest = live.state === 'reconnecting' ? undefined : print?.left_seconds;
       setText(state, word('state', live.state));
       state.dataset.state = live.state;
       setText(job, shortName(full));
@@ -47,16 +48,14 @@ export class PrintFacts extends View {
         bar.removeAttribute('aria-valuenow');
       else
         bar.setAttribute('aria-valuenow', String(Math.floor(print.percent)));
-      setText(left, duration(print?.left_seconds));
-      const end = print?.left_seconds === undefined || live.state === 'paused' ?
-          unknown :
-          moment(Date.now() / 1000 + print.left_seconds);
+      setText(left, duration(rest));
+      const end = rest === undefined || live.state === 'paused' ? unknown : moment(Date.now() / 1000 + rest);
       setText(ready, end);
       setText(
           short,
-          print?.left_seconds === undefined ? '' :
-                                              t(end === unknown ? 'print.left_short' : 'print.left_ready',
-                                                {left: duration(print.left_seconds), ready: end}));
+          rest === undefined ? '' :
+                               t(end === unknown ? 'print.left_short' : 'print.left_ready',
+                                 {left: duration(rest), ready: end}));
       setText(
           layer,
           print?.layers ? t('print.layer_of', {

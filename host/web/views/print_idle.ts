@@ -8,15 +8,16 @@ import {printNow} from '../queue_data';
 import type {Job} from '../types';
 import {duration, moment, percent, plural, shortName, t, word} from '../words';
 import {gramsOf, picture, pictureOf} from './job_parts';
+import {rangeOf} from './queue';
 
 export class PrintIdle extends View {
-  private jobs: Job[] = [];
+  private jobs: Job[]|null = null;  ///< null: not known yet
   private drawn = '';
 
   protected show(): void {
     const refresh = async () => {
       if (!live.ready) return;
-      this.jobs = (await api.get<{jobs: Job[]}>('/api/jobs').catch(() => ({jobs: this.jobs}))).jobs;
+      this.jobs = (await api.get<{jobs: Job[]}>('/api/jobs').catch(() => null))?.jobs ?? this.jobs;
       this.draw();
     };
     this.until(
@@ -28,7 +29,7 @@ export class PrintIdle extends View {
 
   private draw(): void {
     const status = live.status;
-    const waiting = this.jobs.filter((job) => job.state === 'queued');
+    const waiting = this.jobs?.filter((job) => job.state === 'queued');
     const now = JSON.stringify(
         [status?.interrupted, status?.last?.job, status?.last?.print?.state, status?.problem, waiting]);
     if (now === this.drawn) return;
@@ -58,10 +59,10 @@ export class PrintIdle extends View {
   private async resume(): Promise<void> {
     const print = live.status?.interrupted;
     if (!print) return;
-    const path = `/api/prints/${encodeURIComponent(print.print)}/resume`;
+    const path = '/api/prints/resume', name = print.print;  // a name may hold what an address cannot
     let will = print.question ?? '';
     if (!will) {
-      const answer = await api.post<{will?: string}>(path).catch((error) => {
+      const answer = await api.post<{will?: string}>(path, {name}).catch((error) => {
         if (missing(error)) return {will: ''};
         throw error;
       });
@@ -69,13 +70,14 @@ export class PrintIdle extends View {
     }
     if (will && await ask(t('resume.title'), will, [{label: t('resume.sure'), kind: 'main'}]) !== 0) return;
     if (will && !print.question)
-      await api.post(path, {sure: true});
+      await api.post(path, {name, sure: true});
     else
       await api.post('/api/print/resume', print.question ? {sure: true} : {});
     await live.refresh();
   }
 
-  private next(waiting: Job[]): HTMLElement {
+  private next(waiting: Job[]|undefined): HTMLElement|null {
+    if (!waiting) return null;
     const job = waiting[0];
     if (!job)
       return card(
@@ -83,8 +85,9 @@ export class PrintIdle extends View {
           h('div', {class: 'row'}, h('a', {class: 'button main', href: '#/queue'}, t('idle.add'))));
     const start =
         command({label: t('idle.clear_print'), icon: 'play', kind: 'main big', run: () => printNow(job)});
-    const facts =
-        [job.seconds === undefined ? '' : duration(job.seconds), gramsOf(job)].filter(Boolean).join(' · ');
+    const facts = [
+      job.seconds === undefined ? '' : duration(job.seconds), gramsOf(job), rangeOf(job.layers)
+    ].filter(Boolean).join(' · ');
     const more = waiting.length > 1 ?
         h('a', {href: '#/queue', class: 'more'}, plural('idle.more', waiting.length - 1)) :
         null;

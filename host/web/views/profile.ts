@@ -42,6 +42,7 @@ export class ProfilePanel extends View {
     const save = command({
       label: t('profile.save'),
       kind: 'main',
+      right: 'all',
       run: async () => {
         try {
           await api.put('/api/profile', {toml: this.text.value});

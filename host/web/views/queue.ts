@@ -1,5 +1,5 @@
 // Queue and files: what waits, in its order; and what can be added, from this device or the daemon's folders.
-import {api} from '../api';
+import {access, api} from '../api';
 import {ask, card, command, complain, empty, labelFor, say} from '../controls';
 import {fill, fillList, h, icon, setHidden, setText, View} from '../dom';
 import {layerRange} from '../inputs';
@@ -16,6 +16,7 @@ interface Row extends HTMLElement {
 
 export class QueueView extends View {
   private jobs: Job[] = [];
+  private known = false;
   private list!: HTMLElement;
   private none!: HTMLElement;
   private total!: HTMLElement;
@@ -36,7 +37,10 @@ export class QueueView extends View {
 
   private async refresh(): Promise<void> {
     if (!live.ready) return;
-    this.jobs = (await api.get<{jobs: Job[]}>('/api/jobs').catch(() => ({jobs: this.jobs}))).jobs;
+    const answer = await api.get<{jobs: Job[]}>('/api/jobs').catch(() => null);
+    if (!answer) return;
+    this.jobs = answer.jobs;
+    this.known = true;
     this.draw();
   }
 
@@ -49,7 +53,7 @@ export class QueueView extends View {
     fillList(
         this.list, waiting, (job) => job.id, (job) => this.row(job),
         (row, job) => row.draw(job, job === waiting[0], job === waiting[waiting.length - 1]));
-    setHidden(this.none, waiting.length > 0);
+    setHidden(this.none, waiting.length > 0 || !this.known);
     setHidden(this.list, waiting.length === 0);
     const known = waiting.filter((job) => job.seconds !== undefined);
     const time = known.length === waiting.length ?
@@ -182,11 +186,16 @@ export class QueueView extends View {
           drop: (event: DragEvent) => {
             event.preventDefault();
             area.classList.remove('over');
-            void this.send([...(event.dataTransfer?.files ?? [])], area);
+            if (!choose.disabled) void this.send([...(event.dataTransfer?.files ?? [])], area);
           }
         },
           icon('upload'), h('p', {role: 'status'}, t('files.drop')), choose,
           labelFor('files', t('files.choose'), 'button'));
+    const allow = () => {
+      choose.disabled = !live.ready || !access.may('queue');
+    };
+    this.until(live.on('link', allow), live.on('up', allow));
+    allow();
     return card(t('files.title'), 'files', area, h('p', {class: 'soft'}, t('files.help')));
   }
 
@@ -197,12 +206,18 @@ export class QueueView extends View {
     try {
       const sliced = files.filter((file) => /\.(gcode|gco|g)$/i.test(file.name)),
             others = files.filter((file) => !sliced.includes(file));
+      const queued = sliced.map((file) => file.name);
       for (const file of sliced) await uploadSliced(file);
       if (others.length) {
-        const jobs = await upload(others), tomls = jobs.filter((job) => job.endsWith('.toml'));
-        for (const job of tomls.length ? tomls : jobs) await api.post('/api/jobs', {job});
+        const sent = await upload(others), known = (await api.get<{jobs: string[]}>('/api/files')).jobs;
+        const jobs = sent.filter((job) => known.includes(job)),  // not a profile, which is TOML as well
+            tomls = jobs.filter((job) => job.endsWith('.toml'));
+        for (const job of tomls.length ? tomls : jobs.length ? jobs : sent) {
+          await api.post('/api/jobs', {job});
+          queued.push(shortName(job));
+        }
       }
-      say(t('files.done', {name: files[0].name}));
+      say(t('files.done', {name: queued.join(', ')}));
     } catch (error) {
       complain(error);
     }
@@ -242,9 +257,9 @@ export class QueueView extends View {
 }
 
 export function rangeOf(layers: Job['layers']): string {
-  return Array.isArray(layers) ?
-      t('queue.layers_of', {first: number(layers[0] + 1), last: number(layers[1] + 1)}) :
-      '';
+  if (!Array.isArray(layers)) return '';
+  const first = number(layers[0] + 1), last = number(layers[1] + 1);
+  return first === last ? t('queue.layer_only', {layer: first}) : t('queue.layers_of', {first, last});
 }
 
 customElements.define('queue-view', QueueView);

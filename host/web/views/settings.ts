@@ -13,9 +13,11 @@ export class SettingsPanel extends View {
     const wishes = h('div', {class: 'stack'});
     this.className = 'card settings';
     this.append(
-        h('h2', {}, t('settings.title')), this.device(), h('h3', {}, t('settings.daemon')), wishes,
+        h('h2', {}, t('settings.title')), this.device(),
         h('div', {class: 'row'},
-          h('button', {type: 'button', class: 'button', click: () => this.leave()}, t('settings.leave'))));
+          h('button', {type: 'button', class: 'button', click: () => this.leave()}, t('settings.leave')),
+          h('a', {class: 'more', href: '#/first-run'}, t('first.title'))),
+        h('h3', {}, t('settings.daemon')), wishes);
     const refresh = () => {
       void load(wishes, () => api.get<Preferences>('/api/preferences'), (now) => this.wishes(wishes, now));
     };
