@@ -103,7 +103,7 @@ class HistoryCommand final : public Command {
   }
 
   [[noreturn]] static void refuse(std::int64_t number) {
-    throw core::DataError("", "", fmt::format("there is no print {} in the history", number),
+    throw core::DataError("", "", fmt::format("the history has no print {}", number),
                           "see `unicursal history`");
   }
 

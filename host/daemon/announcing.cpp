@@ -13,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t longest_told = 400;  ///< bytes of a text in an event
+constexpr std::size_t longest_event_text = 400;  ///< bytes of a text in an event
 
-std::string told(const std::string& text) {
-  return core::printable(text, longest_told);
+std::string for_event(const std::string& text) {
+  return core::printable(text, longest_event_text);
 }
 
 /// "leaf.toml has been printed"
@@ -67,7 +67,7 @@ void Daemon::announce(const std::string& event, const std::string& state, const 
     if (status.left) object["left_seconds"] = *status.left;
     if (status.prompt) object["answers"] = status.prompt->answers;
   }
-  const std::string text = sentence_of(event, job ? told(job->name) : "", state, told(reason));
+  const std::string text = sentence_of(event, job ? for_event(job->name) : "", state, for_event(reason));
   object["text"] = text;
   event_command_->run({event, text, object.dump(-1, ' ', false, json::error_handler_t::replace)});
 }

@@ -46,7 +46,7 @@ HttpError http_error(const IdleRefused& refused);
 /// The number behind `prefix` in a path. Throws HttpError 404.
 std::uint64_t number_behind(const std::string& path, std::string_view prefix);
 
-/// "upload/file" behind `prefix` in a path; the second is empty if there is no slash.
+/// "upload/file" behind `prefix` in a path; the second is empty without a slash.
 std::pair<std::string, std::string> names_behind(const std::string& path, std::string_view prefix);
 
 }  // namespace unicursal::host

@@ -188,7 +188,7 @@ class Daemon {
     bool reconnecting = false;   ///< the cable was pulled; the print goes on when the printer is back
     bool begun = false;          ///< lines of it may have been sent
     nlohmann::json last_status;  ///< of its last session, or null
-    EndedSession told;           ///< for the history
+    EndedSession outcome;        ///< for the history
     bool sent = false;           ///< a session has had its printer
     bool announced = false;      ///< the user's command has heard of it
     bool paused = false;         ///< and of the present pause

@@ -57,7 +57,7 @@ bool is_shown(const std::string& name) {
 }
 
 Refused no_such_run() {
-  return {Why::not_found, "there is no dry run with that number"};
+  return {Why::not_found, "no dry run has that number"};
 }
 Refused no_such_file() {
   return {Why::not_found, "this dry run has no such file"};

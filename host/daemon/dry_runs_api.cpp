@@ -46,7 +46,7 @@ asio::awaitable<Response> Api::show_dry_run(Request request) {
   const std::uint64_t id = number_behind(behind.substr(0, slash), "");
   if (slash == behind.size()) {
     const DryRunRecord* run = daemon_.dry_runs().find(id);
-    if (!run) throw HttpError(404, "there is no dry run with that number");
+    if (!run) throw HttpError(404, "no dry run has that number");
     co_return reply(to_json(*run));
   }
   const std::string name = behind.substr(slash + 1);

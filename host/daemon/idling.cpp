@@ -109,8 +109,7 @@ std::string Daemon::checked_port(const std::string& named) const {
   if (any || named == usual) return usual.empty() ? "auto" : usual;
   if (options_.port)
     throw Refused(Why::conflict, "the daemon has one port; choose another with `unicursal serve --port`");
-  if (named != "auto" && !is_listed(named))
-    throw Refused(Why::not_found, "there is no serial port of that name");
+  if (named != "auto" && !is_listed(named)) throw Refused(Why::not_found, "no serial port has that name");
   return named;
 }
 

@@ -20,7 +20,7 @@ using Why = Refused::Why;
 constexpr std::size_t most_in_table = 100'000;  ///< prints
 
 Refused no_such_print() {
-  return {Why::not_found, "there is no print with that number in the history"};
+  return {Why::not_found, "no print in the history has that number"};
 }
 
 json json_of(const KeptPrint& print) {
@@ -87,7 +87,7 @@ asio::awaitable<std::string> PastPrints::csv() {
 
 asio::awaitable<std::string> PastPrints::picture(std::int64_t id) {
   std::string bytes = co_await with_history([id](History& history) { return history.picture(id); });
-  if (bytes.empty()) throw Refused(Why::not_found, "there is no picture of that print");
+  if (bytes.empty()) throw Refused(Why::not_found, "that print has no picture");
   co_return bytes;
 }
 
@@ -132,8 +132,7 @@ asio::awaitable<fs::path> PastPrints::folder_of(std::string name) {
       if (!found.empty()) throw Refused(Why::conflict, "several kept prints have names that begin like that");
       found = folder;
     }
-    if (found.empty())
-      throw Refused(Why::not_found, "there is no kept print of that name; see GET /api/prints");
+    if (found.empty()) throw Refused(Why::not_found, "no kept print has that name; see GET /api/prints");
     return found;
   };
   co_return co_await elsewhere(thread_, look);

@@ -36,7 +36,7 @@ class Preferences {
   /// mark.
   nlohmann::json shown_to(Right right) const;
   /// Changes what `body` holds, and keeps it. Throws HttpError 400, 403 if the right does not suffice, or
-  /// 422; and Refused if there is no room.
+  /// 422; and Refused without room.
   void change(const nlohmann::json& body, Right right);
 
  private:

@@ -212,11 +212,11 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
   } catch (...) {
     error = std::current_exception();
   }
-  if (error) reason = current_->told.reason = sentence(error);
+  if (error) reason = current_->outcome.reason = sentence(error);
   if (error && continuing) ending = QueuedJob::State::interrupted;
   if (continuing && !interrupted_) interrupted_ = continuing->print;
   remember(id, ending);
-  if (current_->announced) announce("print_ended", host::name(ending), current_->told.reason);
+  if (current_->announced) announce("print_ended", host::name(ending), current_->outcome.reason);
   if (current_->print) {
     last_ = current_->print->session() || !current_->last_status.is_null() ? job_and_print() : json();
     end_print();
@@ -236,16 +236,16 @@ asio::awaitable<void> Daemon::print(std::uint64_t id, std::optional<Continuing> 
 
 /// The print goes away in a thread of its own, and into the history there.
 void Daemon::end_print() {
-  EndedSession told = std::move(current_->told);
-  told.job = queue_.find(current_->id)->name;
-  if (current_->started) told.seconds = seconds(std::chrono::steady_clock::now() - *current_->started);
+  EndedSession outcome = std::move(current_->outcome);
+  outcome.job = queue_.find(current_->id)->name;
+  if (current_->started) outcome.seconds = seconds(std::chrono::steady_clock::now() - *current_->started);
   current_->print->end();
   // A session that has found its printer lost has sent nothing.
   const bool sent = current_->sent;
   asio::post(ending_, [this, gone = std::shared_ptr<Print>(std::move(current_->print)),
-                       told = std::move(told), sent]() mutable {
+                       outcome = std::move(outcome), sent]() mutable {
     try {
-      auto entry = sent ? history_entry(gone->spool(), gone->production(), told) : std::nullopt;
+      auto entry = sent ? history_entry(gone->spool(), gone->production(), outcome) : std::nullopt;
       gone.reset();  // somebody may continue it
       if (entry) past_prints_.keep(std::move(*entry));
     } catch (const std::exception& error) {
@@ -256,9 +256,9 @@ void Daemon::end_print() {
 
 /// The first forecast of the print's time is kept.
 void Daemon::foretell() {
-  if (!current_ || current_->told.foretold || !current_->print || !current_->print->session()) return;
+  if (!current_ || current_->outcome.foretold || !current_->print || !current_->print->session()) return;
   const SessionStatus status = current_->print->session()->status();
-  if (status.left) current_->told.foretold = status.elapsed + *status.left;
+  if (status.left) current_->outcome.foretold = status.elapsed + *status.left;
 }
 
 /// Whether the print that has ended may still be continued, and must not be printed over.
@@ -379,8 +379,8 @@ std::string Daemon::conclude(const StreamResult& result, QueuedJob::State& endin
   if (result.ending == Ending::failed && !current_->begun && !result.unfit) ending = QueuedJob::State::queued;
   const Session* session = current_->print->session();
   std::string reason = result.ending == Ending::stopped && session ? session->status().reason : result.reason;
-  current_->told.reason = reason;
-  if (session) current_->told.warnings = session->status().warnings;
+  current_->outcome.reason = reason;
+  if (session) current_->outcome.warnings = session->status().warnings;
   if (result.ending != Ending::completed && current_->begun)
     reason += "; to continue it: " + way_on() + " " + current_->print->kept_as();
   return reason;

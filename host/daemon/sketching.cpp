@@ -123,7 +123,7 @@ asio::awaitable<std::string> Daemon::job_picture(std::uint64_t id) {
     return fs::is_regular_file(file, error) ? core::file_bytes(file) : std::string();
   };
   std::string bytes = co_await elsewhere(disk_, read);
-  if (bytes.empty()) throw Refused(Refused::Why::not_found, "there is no picture of that job yet");
+  if (bytes.empty()) throw Refused(Refused::Why::not_found, "that job has no picture yet");
   co_return bytes;
 }
 

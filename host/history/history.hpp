@@ -47,7 +47,7 @@ class History {
   PastTotals totals();
   /// PNG; empty: there is none.
   std::string picture(std::int64_t id);
-  /// False if there is no such print.
+  /// False if no print has that number.
   bool set_note(std::int64_t id, std::string_view note);
   bool remove(std::int64_t id);
 

@@ -49,7 +49,7 @@ class LineTable {
   void back_to(std::uint64_t line, double poured);
   /// The lines from `line` on take `factor` times as long as was thought.
   void stretch(std::uint64_t line, double factor);
-  /// Forgets lines before `line`, but for the last few.
+  /// Forgets lines before `line`, except the last few.
   void drop_before(std::uint64_t line);
   /// s of the lines from `line` on.
   double seconds_from(std::uint64_t line) const;

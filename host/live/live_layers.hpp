@@ -50,7 +50,7 @@ class LiveLayers {
   double height() const { return layers_.back().height; }
   LaidPath& path(const core::Vec2& from);
   std::size_t beads() const { return layers_.empty() ? 0 : layers_.back().beads(); }
-  /// Whether somebody may have been told of layers that have grown since; clears that.
+  /// Whether layers have grown since somebody may have heard of them; clears that.
   std::vector<KnownLayer> take_changed();
 
   /// A layer is planned; it is forgotten when it begins.

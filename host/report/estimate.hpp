@@ -26,7 +26,7 @@ struct JobEstimate {
 
 /// Slices every layer. A core::StopScope around it is obeyed.
 JobEstimate estimate_of(const PreparedJob& prepared);
-/// From a slicer's own file: exact but for what remixing adds.
+/// From a slicer's own file: exact, except what remixing adds.
 JobEstimate estimate_of(const PreparedSliced& prepared);
 
 /// `seconds`, `grams` with `name`, `colour` and `grams`, and `layer_count`.

@@ -84,7 +84,7 @@ function thickness(width: number, scale: number): number {
   return pixels < 8 ? Math.max(0.7, Math.round(pixels * 2) / 2) : Math.round(pixels);
 }
 
-/** The frame in which `bounds` fill a canvas of that size but for a margin, and more of it below. */
+/** The frame in which `bounds` fill a canvas of that size except a margin, which is wider below. */
 export function fitting(bounds: number[], size: Size, margin: number, below = margin): Frame {
   const [x0, y0, x1, y1] = bounds, height = size.height - margin - below;
   const scale = Math.max(

@@ -178,7 +178,7 @@ export class CurveView extends HTMLElement {
 
   // ---- painting
 
-  /** Paints all of it anew onto the hidden bitmap. */
+  /** Paints all of it again onto the hidden bitmap. */
   private begin(): void {
     if (!this.size.width) return;
     this.place();

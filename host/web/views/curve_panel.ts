@@ -83,7 +83,7 @@ export class CurvePanel extends View {
     this.noticePrint();
   }
 
-  /** Fetches everything anew: a page that opens, a print that begins, a connection that is back. */
+  /** Fetches everything again: a page that opens, a print that begins, a connection that is back. */
   async begin(): Promise<void> {
     if (!live.ready || !live.status?.print) return;
     this.curve.say(t('curve.waits'));

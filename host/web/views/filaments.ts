@@ -4,7 +4,7 @@ import {fill, h, setText, View} from '../dom';
 import {live} from '../live';
 import {t} from '../words';
 
-import {free, tell} from './machine';
+import {free, order} from './machine';
 
 export class FilamentPanel extends View {
   private drawn = '';
@@ -12,7 +12,7 @@ export class FilamentPanel extends View {
 
   protected show(): void {
     const list = h('ol', {class: 'rows feeders'}), hint = h('p', {class: 'soft'});
-    const all = command({label: t('feed.purge_all'), run: () => tell('feed', {action: 'purge'})});
+    const all = command({label: t('feed.purge_all'), run: () => order('feed', {action: 'purge'})});
     const draw = () => {
       const printer = live.printer, count = printer?.feeders ?? printer?.filaments?.length ?? 0;
       const now = JSON.stringify([count, printer?.filaments]);
@@ -33,7 +33,7 @@ export class FilamentPanel extends View {
   private feeder(feeder: number): HTMLElement {
     const filament = live.printer?.filaments?.[feeder - 1];
     const act = (action: string) => {
-      const button = command({label: t(`feed.${action}`), run: () => tell('feed', {action, feeder})});
+      const button = command({label: t(`feed.${action}`), run: () => order('feed', {action, feeder})});
       button.setAttribute('aria-label', `${t(`feed.${action}`)}: ${t('feed.feeder', {n: feeder})}`);
       this.buttons.push(button);
       return button;

@@ -8,7 +8,7 @@ import type {Preferences, Printer} from '../types';
 import {celsius, duration, number, t, unknown, word} from '../words';
 
 /** Gives a command to the idle printer, and takes what it answers. */
-export async function tell(what: string, body: unknown = {}): Promise<void> {
+export async function order(what: string, body: unknown = {}): Promise<void> {
   const answer = await api.post<Printer>(`/api/printer/${what}`, body);
   if (answer.connection) live.takePrinter(answer);
 }
@@ -34,18 +34,18 @@ export class MachinePanel extends View {
           nozzle = h('dd', {});
     const doing = h('p', {class: 'doing', role: 'status'}), problem = h('p', {class: 'warning'}),
           cools = h('p', {class: 'soft'});
-    const connect = command({label: t('machine.connect'), kind: 'main', run: () => tell('connect')});
-    const letGo = command({label: t('machine.disconnect'), run: () => tell('disconnect')});
-    const end = command({label: t('machine.end'), icon: 'cancel', run: () => tell('cancel')});
+    const connect = command({label: t('machine.connect'), kind: 'main', run: () => order('connect')});
+    const letGo = command({label: t('machine.disconnect'), run: () => order('disconnect')});
+    const end = command({label: t('machine.end'), icon: 'cancel', run: () => order('cancel')});
     const off =
-        this.steering(command({label: t('heat.off'), run: () => tell('heat', {nozzle_c: 0, bed_c: 0})}));
+        this.steering(command({label: t('heat.off'), run: () => order('heat', {nozzle_c: 0, bed_c: 0})}));
     this.nozzle = stepper({
       label: t('heat.nozzle'),
       unit: '°C',
       step: 5,
       least: 0,
       most: 300,
-      send: (nozzle_c) => tell('heat', {nozzle_c})
+      send: (nozzle_c) => order('heat', {nozzle_c})
     });
     this.bed = stepper({
       label: t('heat.bed'),
@@ -53,7 +53,7 @@ export class MachinePanel extends View {
       step: 5,
       least: 0,
       most: 120,
-      send: (bed_c) => tell('heat', {bed_c})
+      send: (bed_c) => order('heat', {bed_c})
     });
     const presets = h('div', {class: 'row'});
     const fact = (name: string, value: HTMLElement) => h('div', {}, h('dt', {}, name), value);
@@ -62,8 +62,8 @@ export class MachinePanel extends View {
             print = live.busy ? live.status?.print : undefined;
       setText(state, word('connection', live.busy ? 'printing' : printer?.connection));
       state.dataset.state = live.busy ? 'printing' : printer?.connection ?? 'unknown';
-      const told = printer?.firmware ?? '';  // after a print: the whole answer to M115
-      setText(firmware, /FIRMWARE_NAME:(.*?)(?: [A-Z_]+:|$)/.exec(told)?.[1] ?? (told || unknown));
+      const said = printer?.firmware ?? '';  // after a print: the whole answer to M115
+      setText(firmware, /FIRMWARE_NAME:(.*?)(?: [A-Z_]+:|$)/.exec(said)?.[1] ?? (said || unknown));
       setText(port, printer?.port || unknown);
       setText(
           size, printer?.bed_mm ? `${printer.bed_mm.map((side) => number(side)).join(' × ')} mm` : unknown);
@@ -118,7 +118,7 @@ export class MachinePanel extends View {
         [{name: 'PLA', nozzle_c: 210, bed_c: 60}, {name: 'PETG', nozzle_c: 240, bed_c: 80}];
     fill(place, ...presets.map((preset) => this.steering(command({
       label: `${preset.name} ${number(preset.nozzle_c)} / ${number(preset.bed_c)} °C`,
-      run: () => tell('heat', {nozzle_c: preset.nozzle_c, bed_c: preset.bed_c}),
+      run: () => order('heat', {nozzle_c: preset.nozzle_c, bed_c: preset.bed_c}),
     }))));
   }
 }

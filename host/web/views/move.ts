@@ -4,7 +4,7 @@ import {h, setText, View} from '../dom';
 import {live} from '../live';
 import {number, t} from '../words';
 
-import {free, steerable, tell} from './machine';
+import {free, order, steerable} from './machine';
 
 const steps = [0.1, 1, 10, 50];  // mm
 
@@ -20,7 +20,7 @@ export class MovePanel extends View {
         label: `${t('move.move')} ${label}`,
         icon: drawing,
         bare: true,
-        run: () => tell('move', {[axis]: sign * this.step})
+        run: () => order('move', {[axis]: sign * this.step})
       }));
       button.classList.add('axis', `${axis}${sign > 0 ? 'plus' : 'minus'}`);
       return button;
@@ -40,7 +40,7 @@ export class MovePanel extends View {
                       }
                     }),
                     h('span', {}, `${number(step, 1)} mm`))));
-    const home = keep(command({label: t('move.home'), icon: 'home', run: () => tell('home')}));
+    const home = keep(command({label: t('move.home'), icon: 'home', run: () => order('home')}));
     const pad =
         h('div', {class: 'pad', role: 'group', 'aria-label': t('move.title')}, go('y', 1, '+Y', 'up'),
           go('x', -1, '−X', 'left'), go('x', 1, '+X', 'right'), go('y', -1, '−Y', 'down'),
@@ -55,7 +55,7 @@ export class MovePanel extends View {
       most: 100,
       begin: 0,
       send: async (percent) => {
-        await tell('fan', {percent});
+        await order('fan', {percent});
         this.fan = percent;
       }
     });
