@@ -1,5 +1,3 @@
-#include <condition_variable>
-#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -10,6 +8,7 @@
 #include "host/cli/progress_line.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/engine/sliced_production.hpp"
+#include "host/engine/turn.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/report/filament_use.hpp"
 #include "host/report/open_books.hpp"
@@ -20,30 +19,6 @@ namespace {
 void write(WholeFile& file, const gcode::Chunk& chunk) {
   for (const std::string& line : chunk.lines) file.stream() << line << '\n';
 }
-
-/// Waits until the source has its next step.
-class Turn {
- public:
-  explicit Turn(Source& source) : source_(source) {
-    source.on_ready([this] {
-      const std::lock_guard lock(mutex_);
-      wake_.notify_all();
-    });
-  }
-  ~Turn() { source_.on_ready({}); }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-
-  void wait() {
-    std::unique_lock lock(mutex_);
-    wake_.wait(lock, [this] { return source_.ready(); });
-  }
-
- private:
-  Source& source_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-};
 
 /// Writes a slicer's file again, with the switches of mixture where a mixing nozzle needs them.
 class Mix final : public Command {

@@ -42,7 +42,8 @@ class Source {
   virtual gcode::Chunk start() = 0;
   /// Whether next() returns without waiting.
   virtual bool ready() const = 0;
-  /// `listener` is called, on any thread, when ready() may have become true.
+  /// `listener` is called, on any thread, when ready() may have become true, possibly under a lock that
+  /// ready() takes: it must not wait for a thread that asks the source.
   virtual void on_ready(std::function<void()> listener) = 0;
   /// The next step; nullopt after the last one and after cancel(). Precondition: ready() or cancelled.
   virtual std::optional<PrintStep> next() = 0;
