@@ -8,7 +8,7 @@
 #include "host/cli/progress_line.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/engine/sliced_production.hpp"
-#include "host/engine/turn.hpp"
+#include "host/engine/step_wait.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/report/filament_use.hpp"
 #include "host/report/open_books.hpp"
@@ -26,7 +26,7 @@ class Mix final : public Command {
   CLI::App& declare(CLI::App& program) override {
     CLI::App& app =
         add_command(program, "mix", "Try without a printer",
-                    "Turn the tools of a slicer's G-code into mixtures, for a card or another host.",
+                    "StepWait the tools of a slicer's G-code into mixtures, for a card or another host.",
                     "unicursal mix part.gcode -o mixed.gcode");
     add_value(app, "JOB", job_.job, " ", "").required();
     job_.declare_sliced(app);
@@ -65,10 +65,10 @@ Exit Mix::run() {
   Source& source = production->open({});
   write(file, source.start());
   {
-    Turn turn(source);
+    StepWait next(source);
     ProgressLine progress("mixing", job_.quiet ? 0 : source.layers());
     for (std::size_t done = 0;;) {
-      turn.wait();
+      next.wait();
       const std::optional<PrintStep> step = source.next();
       if (!step) break;
       write(file, step->chunk);

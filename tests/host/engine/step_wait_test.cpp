@@ -1,4 +1,4 @@
-#include "host/engine/turn.hpp"
+#include "host/engine/step_wait.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -38,8 +38,8 @@ TEST_CASE("Waiting for a source neither blocks its listener nor misses a call du
   const gcode::Printer printer;
   BecomesReady source(print, printer);
   {
-    Turn turn(source);
-    turn.wait();
+    StepWait next(source);
+    next.wait();
     CHECK(source.listener_returned());
     CHECK(source.asked() == 2);
   }

@@ -1,8 +1,8 @@
-#include "host/engine/turn.hpp"
+#include "host/engine/step_wait.hpp"
 
 namespace unicursal::host {
 
-Turn::Turn(Source& source) : source_(source) {
+StepWait::StepWait(Source& source) : source_(source) {
   source.on_ready([this] {
     ++calls_;
     calls_.notify_all();
@@ -10,7 +10,7 @@ Turn::Turn(Source& source) : source_(source) {
 }
 
 // Holds no lock while it asks the source: the listener may be called under the source's own lock.
-void Turn::wait() {
+void StepWait::wait() {
   for (;;) {
     const unsigned calls = calls_;
     if (source_.ready()) return;

@@ -7,13 +7,13 @@
 
 namespace unicursal::host {
 
-class Turn {
+class StepWait {
  public:
   /// The source must outlive this object, which is its only listener meanwhile.
-  explicit Turn(Source& source);
-  ~Turn() { source_.on_ready({}); }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
+  explicit StepWait(Source& source);
+  ~StepWait() { source_.on_ready({}); }
+  StepWait(const StepWait&) = delete;
+  StepWait& operator=(const StepWait&) = delete;
 
   /// Returns when the source is ready().
   void wait();
