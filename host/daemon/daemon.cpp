@@ -26,8 +26,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
-
 using nlohmann::json;
 using namespace std::chrono_literals;
 

@@ -32,7 +32,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using namespace std::chrono_literals;
-using Why = Refused::Why;
 
 constexpr const char* run_name = "run.json";
 constexpr std::size_t longest_line = 64 * 1024;                 ///< bytes that are taken from a child

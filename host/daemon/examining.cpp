@@ -16,8 +16,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
-
 /// How an examination talks to the printer; automatic reports of heat would go on afterwards.
 LinkOptions asking_options(const Profile& profile) {
   LinkOptions options = link_options(profile, std::nullopt);

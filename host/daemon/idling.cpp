@@ -21,7 +21,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
 using nlohmann::json;
 using Connection = IdleStatus::Connection;
 

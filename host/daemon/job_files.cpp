@@ -19,8 +19,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
-
 namespace fs = std::filesystem;
 
 constexpr std::string_view upload_prefix = "upload:";

@@ -12,7 +12,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
 using nlohmann::json;
 
 constexpr std::size_t longest_name = 64;

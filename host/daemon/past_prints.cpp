@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using Why = Refused::Why;
 
 constexpr std::size_t most_in_table = 100'000;  ///< prints
 

@@ -25,7 +25,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
 using nlohmann::json;
 
 QueuedJob::State state_after(Ending ending) {

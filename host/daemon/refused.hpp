@@ -29,4 +29,6 @@ class Refused : public std::runtime_error {
   Why why_;
 };
 
+using Why = Refused::Why;
+
 }  // namespace unicursal::host

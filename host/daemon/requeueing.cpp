@@ -5,8 +5,6 @@
 
 namespace unicursal::host {
 
-using Why = Refused::Why;
-
 asio::awaitable<std::uint64_t> Daemon::print_again(PastPrint print) {
   std::string name = print.file;
   if (name.starts_with('/')) name = files_.name_of(name);

@@ -13,7 +13,6 @@ namespace unicursal::host {
 namespace {
 
 namespace fs = std::filesystem;
-using Why = Refused::Why;
 
 constexpr const char* asks_printer =
     "The printer is asked which line comes next. If it is still on and has kept its place and its heat, the "

@@ -5,8 +5,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
-
 constexpr double enough_ahead = 60;  ///< s that a print must have planned ahead
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view beginning = ".draft-";
+constexpr std::string_view draft_prefix = ".draft-";
 
 Refused full() {
   const int number = errno;
@@ -28,7 +28,7 @@ Refused full() {
 UploadDraft::UploadDraft(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  std::string name = (folder / (std::string(beginning) + "XXXXXX")).string();
+  std::string name = (folder / (std::string(draft_prefix) + "XXXXXX")).string();
   descriptor_.reset(::mkostemp(name.data(), O_CLOEXEC));  // 0600
   if (!descriptor_) throw full();
   draft_ = name;
@@ -59,7 +59,7 @@ void UploadDraft::remove_old(const fs::path& folder) noexcept {
   std::error_code error;
   for (fs::directory_iterator item(folder, error), end; !error && item != end; item.increment(error)) {
     std::error_code ignored;
-    if (item->path().filename().string().starts_with(beginning)) fs::remove(item->path(), ignored);
+    if (item->path().filename().string().starts_with(draft_prefix)) fs::remove(item->path(), ignored);
   }
 }
 

@@ -12,7 +12,6 @@
 namespace unicursal::host {
 namespace {
 
-using Why = Refused::Why;
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_sent = 255;  ///< bytes; no file system has longer names

@@ -6,12 +6,6 @@
 #include "host/daemon/refused.hpp"
 
 namespace unicursal::host {
-namespace {
-
-using Why = Refused::Why;
-
-}  // namespace
-
 /// Files of a job that waits or is being printed must not change.
 void Daemon::check_not_needed(const std::string& upload) const {
   for (const std::string& name : *being_added_) {
