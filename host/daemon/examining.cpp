@@ -62,6 +62,7 @@ asio::awaitable<FoundPrinter> Daemon::examine_printer(std::string named) {
   for (const unsigned baud : rates) {
     try {
       FoundPrinter found = co_await examine_at(port, baud, descriptor);
+      if (before == port) idle_.leave_heat_to_print();
       if (was_open) idle_.connect(profile, before);
       co_return found;
     } catch (const PortError& error) {

@@ -147,7 +147,10 @@ asio::awaitable<void> Daemon::connect_print(Print& print, std::optional<Leg> leg
   idle_returns_ = idle_returns_ || idle_.wanted();
   const int descriptor = co_await idle_.hand_over();
   if (current_->cancelled) {
-    if (descriptor >= 0) ::close(descriptor);
+    if (descriptor >= 0 && profile)
+      idle_.connect(*profile, before.port, descriptor);  // somebody must look after its heat
+    else if (descriptor >= 0)
+      ::close(descriptor);
     throw core::Stopped();
   }
   const auto connect = [&print, &leg, open = OpenPort{descriptor, before.port, baud},
@@ -158,11 +161,15 @@ asio::awaitable<void> Daemon::connect_print(Print& print, std::optional<Leg> leg
   co_await elsewhere(preparing_, connect);
 }
 
-/// When a print has ended.
+/// When a print has ended. A printer that was hot before, and that the print has not reached, is looked for.
 void Daemon::take_printer_back() {
-  if (!std::exchange(idle_returns_, false) || when_idle_) return;
+  const bool returns = std::exchange(idle_returns_, false), hot = idle_.may_be_hot();
+  if (when_idle_ || !(returns || hot)) return;
   try {
-    connect_printer({});
+    if (hot && own())
+      idle_.connect(*own(), idle_.status().port);
+    else
+      connect_printer({});
   } catch (const std::exception& refused) {
     idle_note_ = refused.what();
   }
@@ -177,7 +184,7 @@ void Daemon::let_printer_go(bool again) {
       // It is not open; the first call is closing it.
     }
   }
-  if (again || !idle_.wanted()) return when_idle_();
+  if (again || !(idle_.wanted() || idle_.may_be_hot())) return when_idle_();
   asio::co_spawn(
       loop_,
       [this]() -> asio::awaitable<void> {

@@ -303,7 +303,8 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
   Print& print = *current_->print;
   if (current_->cancelled) throw core::Stopped();
   std::optional<Lost> lost = lost_before(print.spool().before());
-  if (!lost && idle_.wanted()) lost = Lost{"the printer has been used since", std::nullopt};
+  if (!lost && (idle_.wanted() || idle_.may_be_hot()))
+    lost = Lost{"the printer has been used since", std::nullopt};
   if (!lost && later.empty()) {
     co_await connect_print(print);
     const StreamResult result = co_await run_sessions(id);
@@ -366,6 +367,7 @@ asio::awaitable<StreamResult> Daemon::run_session(std::uint64_t id) {
   notify_service("STATUS=printing " + core::printable(queue_.find(id)->name));
   const StreamResult result = co_await session.run();
   firmware_ = result.firmware;
+  if (result.begun && !result.lost && result.statistics.lines > 0) idle_.leave_heat_to_print();
   current_->sent = current_->sent || !result.lost;
   current_->begun = current_->begun || result.begun;
   co_return result;

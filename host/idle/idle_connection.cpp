@@ -26,6 +26,13 @@ using namespace std::chrono_literals;
 
 constexpr auto look_for_cable = 300ms;
 constexpr auto doubtful_silence = 6s;  ///< without temperatures, which come every second; then it is asked
+constexpr auto hot_patience =
+    30min;  ///< how long a hot printer is looked for; then its firmware has cooled it
+constexpr const char* soon_cold = "its heaters were on, and are switched off as soon as it is back";
+constexpr const char* perhaps_hot =
+    "the printer's heaters may still be on: switch it off by its own switch, or connect it again so that "
+    "they "
+    "are switched off";
 
 struct OpenedPort {
   int descriptor = -1;
@@ -64,6 +71,7 @@ asio::awaitable<void> IdlePrinter::State::run([[maybe_unused]] std::shared_ptr<S
 }
 
 asio::awaitable<void> IdlePrinter::State::hold() {
+  if (descriptor < 0 && returning && !co_await come_back()) co_return;
   if (descriptor < 0) co_await open();
   for (;;) {
     std::exception_ptr lost;
@@ -83,10 +91,13 @@ asio::awaitable<void> IdlePrinter::State::hold() {
 bool IdlePrinter::State::note_failure(const std::string& sentence) {
   const bool open = connection == IdleStatus::Connection::open;
   const bool cut = link ? link->statistics().cut : open && !stopped;
+  if (restarted || stopped)
+    may_be_hot = cools_first = false;
+  else if (open && hot())
+    may_be_hot = cools_first = true;
   if (leave != Leave::no) return false;
   if (problem.empty() || !stopped)
     problem = restarted ? "the printer has restarted, and is cold now" : sentence;
-  cools_first = cools_first || (cut && open);
   steps.clear();
   current.reset();
   known_axes = {};
@@ -94,13 +105,15 @@ bool IdlePrinter::State::note_failure(const std::string& sentence) {
   nozzle = bed = 0;
   view = {};
   connection = IdleStatus::Connection::closed;
+  if (!stopped && open && (cut || restarted)) look_for_it();
+  if (returning && cools_first) problem += std::string("; ") + soon_cold;
   changed();
-  if (stopped) return false;
-  if (open && (cut || restarted)) {
-    returning = true;
-    wait_until = clock->now() + reconnecting_patience;
-  }
-  return returning;
+  return returning && !stopped;
+}
+
+void IdlePrinter::State::look_for_it() {
+  returning = true;
+  wait_until = clock->now() + (cools_first ? Duration(hot_patience) : Duration(reconnecting_patience));
 }
 
 asio::awaitable<void> IdlePrinter::State::open() {
@@ -112,23 +125,33 @@ asio::awaitable<void> IdlePrinter::State::open() {
   same_port = std::move(opened.stable_name);
 }
 
-/// The port is looked for until the patience of a print is over.
+/// The port is looked for until the patience is over. A hot printer that is to be left is looked for once
+/// more.
 asio::awaitable<bool> IdlePrinter::State::come_back() {
   const std::function<bool()> wanted_away = [this] { return leave != Leave::no; };
   bool back = false;
   while (!back && clock->now() < wait_until) {
-    if (co_await wake.wait(clock->now() + look_for_cable, wanted_away)) break;
+    const bool once = co_await wake.wait(clock->now() + look_for_cable, wanted_away);
+    if (once && !leaves_hot()) break;
     try {
       co_await open();
       back = true;
     } catch (const PortError&) {
       // It is not there yet.
     }
+    if (once) break;
   }
-  co_return back&& leave == Leave::no;
+  co_return back && (leave == Leave::no || leaves_hot());
+}
+
+/// Before the connection is given up.
+void IdlePrinter::State::warn_of_heat() {
+  if (!cools_first) return;
+  problem = returning || problem.empty() ? perhaps_hot : problem + "; " + perhaps_hot;
 }
 
 void IdlePrinter::State::end() {
+  warn_of_heat();
   running = returning = false;
   ++turn;
   link.reset();
@@ -201,7 +224,7 @@ asio::awaitable<void> IdlePrinter::State::greet() {
   note_firmware();
   const bool was_lost = std::exchange(returning, false);
   if (was_lost) problem = "the connection was lost; the printer is back, and its heaters were switched off";
-  if (std::exchange(cools_first, false) || was_lost)
+  if (cools_first || was_lost)
     steps.push_front({Step::Kind::cool, cold_lines(), {}, "the heaters are switched off", {}});
   else if (hot())
     steps.push_front({Step::Kind::lines, {gcode::stay_watchful()}, {}, "", {}});
@@ -232,20 +255,26 @@ asio::awaitable<void> IdlePrinter::State::watch([[maybe_unused]] std::shared_ptr
 }
 
 asio::awaitable<void> IdlePrinter::State::say_farewell() {
-  if (leave == Leave::hand_over) {
-    co_await link->drain();
-    handed_over = link->take_port();
-  } else {
+  const bool closes = leave == Leave::close;
+  if (closes || cools_first) {
     std::vector<std::string> lines = cold_lines();
-    if (link->identity().can("AUTOREPORT_TEMP")) lines.emplace_back("M155 S0");
+    if (closes && link->identity().can("AUTOREPORT_TEMP")) lines.emplace_back("M155 S0");
     co_await send(std::move(lines));
+    may_be_hot = cools_first = false;
+  } else {
+    co_await link->drain();
+    may_be_hot = hot();
   }
+  if (leave == Leave::hand_over) handed_over = link->take_port();
 }
 
 void IdlePrinter::State::hear(const std::string& line) {
   const gcode::Temperatures before = view.temperatures;
   const Remark remark = view.hear(line);
-  if (remark.kind == Remark::Kind::temperatures) last_heard = clock->now();
+  if (remark.kind == Remark::Kind::temperatures) {
+    last_heard = clock->now();
+    may_be_hot = cools_first;  // from now on it is known
+  }
   if (remark.kind == Remark::Kind::halted) stopped = true;
   const gcode::Reply reply = gcode::parse_reply(line);
   if (std::holds_alternative<gcode::reply::Start>(reply)) restarted = true;

@@ -8,8 +8,9 @@
 //
 // A command returns at once, and is carried out behind those before it; status() and on_change() show its
 // effect. Nobody watches an idle printer: what is hot is switched off after a quarter of an hour without a
-// command, when the connection is closed, and when a printer is back whose cable was pulled. While something
-// is hot, M85 makes the firmware do the same when this program dies.
+// command, when the connection is closed, and when a printer is back whose cable was pulled. A printer that
+// was lost while it was hot stays in mind (may_be_hot()): whoever gets the port next, a print too, gets it
+// cold. While something is hot, M85 makes the firmware do the same when this program dies.
 //
 // Everything here belongs to the loop's thread; ports are opened on another.
 #pragma once
@@ -78,7 +79,8 @@ class IdlePrinter {
   IdlePrinter& operator=(const IdlePrinter&) = delete;
 
   /// No effect on a connection that is open or being opened. `descriptor`: of the port, if the caller has it
-  /// open; it is taken over. Throws IdleRefused while the last one is being closed.
+  /// open; it is taken over. A printer that may be hot is looked for if its port is not there. Throws
+  /// IdleRefused while the last one is being closed.
   void connect(const Profile& profile, const std::string& port, int descriptor = -1);
   /// Switches off what is hot, and closes the port. No effect on a closed connection.
   void disconnect();
@@ -102,10 +104,11 @@ class IdlePrinter {
   /// Limits and filaments of what is connected; the connection stays.
   void use(const Profile& profile);
 
-  /// Closes the connection and returns the open port, for a print; what is hot stays hot. −1 if it was not
-  /// open.
+  /// Closes the connection and returns the open port, for a print; what is hot stays hot, unless the printer
+  /// was lost before: then it is reached once more if it is there, and cooled. −1 if it was not open.
   asio::awaitable<int> hand_over();
-  /// As disconnect(); returns when it is done, or after some seconds.
+  /// As disconnect(), also for a printer that was lost while it was hot; returns when it is done, or after
+  /// some seconds.
   asio::awaitable<void> close();
 
   IdleStatus status() const;
@@ -113,6 +116,10 @@ class IdlePrinter {
   bool feeding() const;
   /// Whether it is open, is being opened, or waits for a cable.
   bool wanted() const;
+  /// Whether something was hot when it was lost, or handed over, and nobody has seen it cold since.
+  bool may_be_hot() const;
+  /// To be called when a print has begun on the port that was handed over: its heat is the print's matter.
+  void leave_heat_to_print();
   /// Called after every change of the status.
   void on_change(std::function<void()> observer);
 

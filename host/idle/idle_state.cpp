@@ -116,7 +116,7 @@ void IdlePrinter::State::ask_to_leave(Leave how) {
   if (!running) return;
   leave = how;
   steps.clear();
-  if (connection != IdleStatus::Connection::open) {
+  if (connection != IdleStatus::Connection::open && !leaves_hot()) {
     ++turn;
     link.reset();  // what greets it ends with an error
   }
@@ -151,15 +151,34 @@ void IdlePrinter::connect(const Profile& profile, const std::string& port, int d
   s.problem.clear();
   s.descriptor = descriptor;
   s.boots = descriptor < 0;
-  s.running = true;
-  s.connection = IdleStatus::Connection::connecting;
-  asio::co_spawn(s.executor, s.run(state_), asio::detached);
-  s.changed();
+  s.cools_first = s.may_be_hot && descriptor < 0;  // an open port was not lost
+  s.begin(state_);
+}
+
+void IdlePrinter::State::begin(const std::shared_ptr<State>& self) {
+  running = true;
+  if (cools_first) look_for_it();
+  if (!returning) connection = IdleStatus::Connection::connecting;
+  asio::co_spawn(executor, run(self), asio::detached);
+  changed();
+}
+
+/// Begins to leave the connection; one that was lost while it was hot is opened for that. Returns false if
+/// there is nothing to leave.
+bool IdlePrinter::State::leave_connection(const std::shared_ptr<State>& self, Leave how) {
+  if (!running && !may_be_hot) return false;
+  if (how == Leave::close && connection != IdleStatus::Connection::open) cools_first = may_be_hot;
+  if (!running) {
+    cools_first = true;
+    begin(self);
+  }
+  ask_to_leave(how);
+  return true;
 }
 
 void IdlePrinter::disconnect() {
   state_->problem.clear();
-  state_->ask_to_leave(State::Leave::close);
+  state_->leave_connection(state_, State::Leave::close);
 }
 
 void IdlePrinter::heat(std::optional<double> nozzle, std::optional<double> bed) {
@@ -293,8 +312,7 @@ void IdlePrinter::use(const Profile& profile) {
 
 asio::awaitable<int> IdlePrinter::hand_over() {
   const auto state = state_;
-  if (!state->running) co_return -1;
-  state->ask_to_leave(State::Leave::hand_over);
+  if (!state->leave_connection(state, State::Leave::hand_over)) co_return -1;
   const std::function<bool()> gone = [state] { return !state->running; };
   co_await state->wake.wait(TimePoint::max(), gone);
   co_return std::exchange(state->handed_over, -1);
@@ -302,9 +320,8 @@ asio::awaitable<int> IdlePrinter::hand_over() {
 
 asio::awaitable<void> IdlePrinter::close() {
   const auto state = state_;
-  if (!state->running) co_return;
   if (state->link && state->current && state->hot()) state->link->cool_down();
-  state->ask_to_leave(State::Leave::close);
+  if (!state->leave_connection(state, State::Leave::close)) co_return;
   const std::function<bool()> gone = [state] { return !state->running; };
   const auto limit = state->session ? TimePoint::max() : state->clock->now() + farewell_patience;
   co_await state->wake.wait(limit, gone);
@@ -332,6 +349,14 @@ IdleStatus IdlePrinter::status() const {
 
 bool IdlePrinter::feeding() const {
   return state_->feeds();
+}
+
+bool IdlePrinter::may_be_hot() const {
+  return state_->may_be_hot;
+}
+
+void IdlePrinter::leave_heat_to_print() {
+  state_->may_be_hot = state_->cools_first = false;
 }
 
 bool IdlePrinter::wanted() const {

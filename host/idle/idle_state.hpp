@@ -41,6 +41,8 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   asio::awaitable<void> watch(std::shared_ptr<State> self, std::uint64_t of_turn);
   asio::awaitable<bool> come_back();
   asio::awaitable<void> say_farewell();
+  void warn_of_heat();
+  void look_for_it();
   bool note_failure(const std::string& sentence);
   void end();
   void hear(const std::string& line);
@@ -60,10 +62,13 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   void check_open() const;
   void accept(Step step);
   void ask_to_leave(Leave how);
+  void begin(const std::shared_ptr<State>& self);
+  bool leave_connection(const std::shared_ptr<State>& self, Leave how);
   void forget_slack_axes();
   bool hot() const;
-  /// It is to be closed, and something is still hot: the bed after filament was moved.
-  bool leaves_hot() const { return leave == Leave::close && hot(); }
+  /// It is to be left, and must be cooled first: the bed is hot after filament was moved, or the printer was
+  /// lost while it was hot.
+  bool leaves_hot() const { return (leave == Leave::close && hot()) || (leave != Leave::no && cools_first); }
   bool homed() const { return known_axes == Axes{true, true, true}; }
   bool feeds() const;
   std::string doing() const;
@@ -83,7 +88,8 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   bool running = false;      ///< the coroutine is
   bool returning = false;    ///< it waits for a cable to be plugged in
   TimePoint wait_until{};    ///< as long as it is looked for
-  bool cools_first = false;  ///< it may be hot since the connection was lost
+  bool may_be_hot = false;   ///< as IdlePrinter::may_be_hot()
+  bool cools_first = false;  ///< the next conversation begins with that, since it may be hot
   Leave leave = Leave::no;
   int handed_over = -1;
   IdleStatus::Connection connection = IdleStatus::Connection::closed;

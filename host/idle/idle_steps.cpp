@@ -39,7 +39,10 @@ asio::awaitable<void> IdlePrinter::State::perform(Step step) {
     co_await feed(*current->feeding);
   } else {
     co_await send(current->lines);
-    if (current->kind == Step::Kind::cool) nozzle = bed = 0;
+    if (current->kind == Step::Kind::cool) {
+      nozzle = bed = 0;
+      may_be_hot = cools_first = false;
+    }
     if (current->kind == Step::Kind::home || current->kind == Step::Kind::move) {
       last_motion = clock->now();
       co_await ask_place();
@@ -102,7 +105,7 @@ void IdlePrinter::State::note_feeding(const StreamResult& result) {
   last_command = clock->now();
   if (result.ending == Ending::failed) {
     problem = result.reason;
-    cools_first = true;
+    may_be_hot = cools_first = !stopped;
     if (!result.statistics.cut && !stopped) return;
     ::close(std::exchange(descriptor, -1));
     throw LinkError(result.reason);

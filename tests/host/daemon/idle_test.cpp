@@ -97,6 +97,29 @@ TEST_CASE("a pulled cable closes the connection with a reason, and the printer c
   });
 }
 
+TEST_CASE("a hot printer whose cable is pulled before the print begins is found again and cooled",
+          "[optimised]") {
+  IdleDaemon bench("50", {"--fault", "disconnect:40@command=M163"});  // the print's first question
+  bench.connect();
+  REQUIRE(bench.post("heat", R"({"nozzle_c": 150, "bed_c": 60})") == 202);
+  bench.until([](const json& now) {
+    return now["nozzle"].value("target_c", 0.0) == 150 && now["bed"].value("target_c", 0.0) == 60;
+  });
+  REQUIRE(bench.command({"queue", "--add", "plate.toml", "--layers", "0:0"}).code == 0);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.until([](const json& now) { return now["connection"] == "closed" && now.contains("doing"); });
+  CHECK(bench.ask("GET", "/api/jobs/1")["state"] == "queued");
+  bench.until([](const json& now) {
+    return now["connection"] == "open" && now["nozzle"].value("target_c", 1.0) == 0 &&
+           now["bed"].value("target_c", 1.0) == 0;
+  });
+  const json lines = bench.ask("GET", "/api/log")["lines"];
+  CHECK(std::any_of(lines.begin(), lines.end(), [](const json& line) {
+    return line["from"] == "notice" &&
+           line["text"].get<std::string>().find("heaters were switched off") != std::string::npos;
+  }));
+}
+
 TEST_CASE("a daemon that ends switches an idle printer off") {
   IdleDaemon bench;
   bench.connect();

@@ -55,7 +55,7 @@ class IdleBench {
       idle.on_change([this] { signal_->notify(); });
       std::exception_ptr failure;
       const auto all = [&]() -> asio::awaitable<void> {
-        idle.connect(profile_, (folder_ / "port").string());
+        idle.connect(profile_, port());
         co_await until([&] { return idle.status().connection == Connection::open; });
         co_await script(idle);
         co_await idle.close();
@@ -87,6 +87,8 @@ class IdleBench {
     co_await signal_->wait(clock_->now() + time, never);
   }
 
+  const host::Profile& profile() const { return profile_; }
+  std::string port() const { return (folder_ / "port").string(); }
   const nlohmann::json& seen() const { return seen_; }
   std::string lines() const { return test::read_text(folder_ / "lines"); }
   double turned(std::size_t feeder) const {
@@ -376,6 +378,24 @@ TEST_CASE("a port is handed over hot, and is asked M115 once more only") {
     CHECK(idle.status().temperatures.nozzle_target == 150);
   });
   CHECK(times(bench.lines(), "M115") == 2);
+}
+
+TEST_CASE("a hot printer that was handed over is cooled when it comes back, unless a print has begun on it") {
+  const bool begun = GENERATE(false, true);
+  IdleBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.heat(200, 60);
+    co_await bench.until([&] { return idle.status().temperatures.bed_target == 60; });
+    const int port = co_await idle.hand_over();
+    CHECK(idle.may_be_hot());
+    ::close(port);
+    if (begun) idle.leave_heat_to_print();
+    idle.connect(bench.profile(), bench.port());
+    co_await bench.until([&] { return idle.status().connection == Connection::open; });
+    co_await bench.pass(5s);
+    CHECK(idle.status().temperatures.nozzle_target == (begun ? 200 : 0));
+    CHECK(idle.status().temperatures.bed_target == (begun ? 60 : 0));
+  });
 }
 
 }  // namespace unicursal

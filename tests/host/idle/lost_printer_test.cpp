@@ -1,0 +1,118 @@
+// An idle printer that is lost while it is hot. The simulated printer runs in real time, a hundred times as
+// fast: on a virtual clock no cable is plugged in again.
+#include <poll.h>
+
+#include <asio/co_spawn.hpp>
+#include <asio/io_context.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/thread_pool.hpp>
+#include <asio/use_awaitable.hpp>
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "host/idle/idle_printer.hpp"
+#include "tests/host/support/child_process.hpp"
+#include "tests/host/support/sample_job.hpp"
+#include "tests/host/support/temp_folder.hpp"
+
+namespace unicursal {
+namespace {
+
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using host::IdlePrinter;
+using Connection = host::IdleStatus::Connection;
+
+class LostPrinterBench {
+ public:
+  /// Its cable is pulled when the fan is switched on, and plugged in again after a second.
+  LostPrinterBench()
+      : profile_(host::load_profile(folder_.write("bench.toml", test::sample_profile))),
+        printer_({"simulate", "--profile", (folder_ / "bench.toml").string(), "--link", port(), "--speed",
+                  "100", "--transcript", (folder_ / "lines").string(), "--fault",
+                  "disconnect:100@command=M106"}) {
+    look([&] { return plugged(); });
+  }
+
+  void run(const std::function<asio::awaitable<void>(IdlePrinter&)>& script) {
+    asio::io_context loop{1};
+    asio::thread_pool opener(1);
+    IdlePrinter idle(loop.get_executor(), opener.get_executor());
+    std::exception_ptr failure;
+    const auto all = [&]() -> asio::awaitable<void> {
+      idle.connect(profile_, port());
+      co_await until([&] { return idle.status().connection == Connection::open; });
+      co_await script(idle);
+      co_await idle.close();
+    };
+    asio::co_spawn(loop, all, [&](const std::exception_ptr& error) {
+      failure = error;
+      loop.stop();
+    });
+    loop.run();
+    opener.join();
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  asio::awaitable<void> until(std::function<bool()> so) {
+    asio::steady_timer timer(co_await asio::this_coro::executor);
+    const auto end = std::chrono::steady_clock::now() + 1min;
+    while (!so()) {
+      if (std::chrono::steady_clock::now() > end) throw std::runtime_error("waited in vain");
+      timer.expires_after(5ms);
+      co_await timer.async_wait(asio::use_awaitable);
+    }
+  }
+  asio::awaitable<void> lose_hot(IdlePrinter& idle) {
+    idle.heat(200, 60);
+    co_await until([&] { return idle.status().temperatures.bed_target == 60; });
+    idle.fan(50);
+    co_await until([&] { return idle.status().connection == Connection::closed; });
+    CHECK_THAT(idle.status().problem, Contains("its heaters were on"));
+    CHECK(idle.may_be_hot());
+  }
+
+  std::string port() const { return (folder_ / "port").string(); }
+  bool plugged() const { return std::filesystem::exists(port()); }
+  /// Whether both heaters were switched off after they had been switched on.
+  bool cooled() {
+    kill(printer_.id(), SIGTERM);
+    printer_.wait();
+    const std::string lines = test::read_text(folder_ / "lines");
+    return lines.rfind("M104 S0") != std::string::npos && lines.rfind("M104 S0") > lines.rfind("M104 S200") &&
+           lines.rfind("M140 S0") != std::string::npos && lines.rfind("M140 S0") > lines.rfind("M140 S60");
+  }
+
+ private:
+  void look(const std::function<bool()>& so) const {
+    while (!so()) {
+      if (!printer_.running()) throw std::runtime_error("no simulator: " + printer_.err());
+      poll(nullptr, 0, 2);
+    }
+  }
+
+  test::TempFolder folder_;
+  host::Profile profile_;
+  test::Child printer_;
+};
+
+}  // namespace
+
+TEST_CASE("a print gets no hot printer that is lost, and a cold one when it is back", "[optimised]") {
+  LostPrinterBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    co_await bench.lose_hot(idle);
+    CHECK(co_await idle.hand_over() == -1);
+    CHECK_FALSE(idle.wanted());
+    CHECK(idle.may_be_hot());
+    CHECK_THAT(idle.status().problem, Contains("switch it off by its own switch"));
+    co_await bench.until([&] { return bench.plugged(); });
+    const int port = co_await idle.hand_over();
+    CHECK(port >= 0);
+    CHECK_FALSE(idle.may_be_hot());
+    ::close(port);
+  });
+  CHECK(bench.cooled());
+}
+
+}  // namespace unicursal
