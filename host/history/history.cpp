@@ -55,9 +55,9 @@ constexpr const char* columns =
 
 /// The turn of one program at a time to rename and make files of the history. The system ends it however the
 /// program ends.
-class Turn {
+class HistoryTurn {
  public:
-  Turn(const fs::path& root, std::chrono::milliseconds patience)
+  HistoryTurn(const fs::path& root, std::chrono::milliseconds patience)
       : folder_(::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (!folder_)
       throw HistoryError(Kind::read_only, root.string(), "cannot be opened", "check its permissions");
@@ -183,7 +183,7 @@ void History::attempt(const std::function<void()>& work) {
 
 void History::set_aside() {
   const fs::path file = root_ / database_name;
-  const Turn turn(root_, patience_);
+  const HistoryTurn turn(root_, patience_);
   if (is_sound(file, patience_)) return;  // another program has been faster
   const fs::path aside = free_name(root_ / "history.damaged");
   std::error_code error;
@@ -203,7 +203,7 @@ void History::set_aside() {
 
 bool History::let_wait(const fs::path& root, const PastPrint& print, bool goes_on) noexcept {
   try {
-    const Turn turn(root, usual_patience);
+    const HistoryTurn turn(root, usual_patience);
     std::ofstream file(root / waiting_name, std::ios::app);
     const std::string line = waiting_line(print, goes_on);
     file.write(line.data(), static_cast<std::streamsize>(line.size()));
@@ -215,7 +215,7 @@ bool History::let_wait(const fs::path& root, const PastPrint& print, bool goes_o
 }
 
 void History::take_over() {
-  const Turn turn(root_, patience_);
+  const HistoryTurn turn(root_, patience_);
   if (!is_there(root_ / waiting_name)) return;
   std::ifstream file(root_ / waiting_name);
   std::size_t taken = 0, left = 0;
