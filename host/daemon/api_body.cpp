@@ -46,6 +46,24 @@ Answered answered_as(Refused::Why why) {
 
 }  // namespace
 
+bool is_deeper_than(std::string_view text, std::size_t levels) {
+  std::size_t depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text && c == '\\') {
+      ++i;  // what follows is a part of the text
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{')) {
+      if (++depth > levels) return true;
+    } else if (!in_text && (c == ']' || c == '}')) {
+      depth -= depth > 0 ? 1 : 0;
+    }
+  }
+  return false;
+}
+
 HttpError http_error(const Refused& refused) {
   const auto [status, code] = answered_as(refused.why());
   return {status, code, refused.what()};
@@ -89,6 +107,10 @@ json read_object(const Request& request) {
   type.resize(std::min(type.find(';'), type.size()));  // parameters follow (RFC 9110, 8.3.1)
   type.resize(type.find_last_not_of(" \t") + 1);
   if (type != "application/json") throw HttpError(415, "send JSON, as Content-Type: application/json");
+  if (is_deeper_than(request.body, deepest_body))
+    throw HttpError(
+        400, "too_deep",
+        fmt::format("the body is nested more than {} levels deep; send a flatter one", deepest_body));
   json body = json::parse(request.body, nullptr, false);
   if (!body.is_object()) throw HttpError(400, "not_json", "the body is not a JSON object");
   return body;

@@ -20,6 +20,11 @@ Response reply(nlohmann::json body, int status = 200);
 /// As it is.
 Response plain_reply(const nlohmann::json& body, int status = 200);
 
+/// Levels of a client's JSON: more of them cost stack when a value is copied.
+inline constexpr std::size_t deepest_body = 64;
+/// Whether lists and objects lie in one another so deep. The text need not be JSON.
+bool is_deeper_than(std::string_view text, std::size_t levels);
+
 /// Reads an object; an empty body is an empty object. Throws HttpError 400 or 415.
 nlohmann::json read_object(const Request& request);
 /// The same; the object has known keys only.

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <chrono>
 
+#include "host/daemon/api_body.hpp"
 #include "host/daemon/octoprint.hpp"
 #include "host/daemon/secret.hpp"
 
@@ -91,6 +92,7 @@ void Push::begin(bool proven) {
 
 /// {"auth": "NAME:SESSION"}, {"throttle": 2}, or what is not known here and left aside.
 void Push::hear(const std::string& text) {
+  if (is_deeper_than(text, deepest_body)) return;
   const json said = json::parse(text, nullptr, false);
   if (!said.is_object()) return;
   if (const auto throttle = said.find("throttle"); throttle != said.end() && throttle->is_number())

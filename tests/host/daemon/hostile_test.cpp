@@ -108,6 +108,18 @@ TEST_CASE("hostile requests are refused, and the daemon continues to serve") {
                              "{\"job\": \"plate.toml\", \"layers\": [-1, 2]}"})
       CHECK(bench.status(bench.request("POST", "/api/jobs", body)) == 400);
     CHECK(bench.status(bench.request("POST", "/api/jobs", std::string(60000, '['))) == 400);
+    const auto nested = [&](std::size_t lists, const std::string& core) {
+      return bench.send(
+          bench.request("POST", "/api/jobs",
+                        R"({"job": )" + std::string(lists, '[') + core + std::string(lists, ']') + "}"));
+    };
+    for (const std::size_t lists : {64u, 32000u}) {  // with the object one level more than is read
+      CHECK(test::status_of(nested(lists, "")) == 400);
+      CHECK(nested(lists, "").find("\"too_deep\"") != std::string::npos);
+    }
+    CHECK(nested(63, "").find("job is missing") != std::string::npos);
+    CHECK(nested(0, R"("\"[[" )" + std::string(1, ' ')).find("too_deep") == std::string::npos);
+    CHECK(nested(0, '"' + std::string(100, '[') + '"').find("too_deep") == std::string::npos);
     CHECK(bench.status(bench.request("DELETE", "/api/jobs/x")) == 404);
     CHECK(bench.status(bench.request("DELETE", "/api/jobs/99999999999999999999")) == 404);
   }
