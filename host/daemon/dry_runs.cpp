@@ -12,6 +12,7 @@
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
 #include <asio/posix/stream_descriptor.hpp>
+#include <asio/post.hpp>
 #include <asio/redirect_error.hpp>
 #include <asio/steady_timer.hpp>
 #include <asio/use_awaitable.hpp>
@@ -113,6 +114,30 @@ const char* state_name(DryRunRecord::State state) {
   return "";
 }
 
+std::string text_of_run(const DryRunRecord& run) {
+  return to_json(run).dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+void remove_folder(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+}
+
+/// Throws Refused.
+void check_room(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const auto space = fs::space(folder, error);
+  if (!error && space.available < free_at_least)
+    throw Refused(Why::no_room, "the disk has no room for the pictures of a dry run; delete something first");
+}
+
+/// A number is never given twice, or a browser would show an older run's pictures.
+std::uint64_t next_id(const fs::path& folder, std::uint64_t least) {
+  const auto line = read_line(folder / "next");
+  return std::max(least, line ? number_of(*line).value_or(0) : 0);
+}
+
 /// Of a file that this program has written.
 std::optional<DryRunRecord> run_in(const fs::path& folder, std::uint64_t id) {
   const json kept = read_json_file(folder / run_name);
@@ -185,31 +210,36 @@ DryRunRecord* DryRuns::found(std::uint64_t id) {
   return here == runs_.end() ? nullptr : &*here;
 }
 
-/// A number is never given twice, or a browser would show an older run's pictures.
-std::uint64_t DryRuns::next_id() const {
-  std::uint64_t next = runs_.empty() ? 1 : runs_.back().id + 1;
-  if (const auto line = read_line(folder_ / "next")) next = std::max(next, number_of(*line).value_or(0));
-  return next;
-}
-
-/// Throws Refused.
-void DryRuns::check_disk() {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  const auto space = fs::space(folder_, error);
-  if (!error && space.available < free_at_least)
-    throw Refused(Why::no_room, "the disk has no room for the pictures of a dry run; delete something first");
-}
-
-/// Throws Refused.
-void DryRuns::make_room() {
+/// Leaves room for one more. Returns the folders of those that are to go.
+std::vector<fs::path> DryRuns::forget_oldest() {
+  std::vector<fs::path> gone;
   while (runs_.size() >= most_kept) {
-    std::error_code ignored;
-    fs::remove_all(folder_of(runs_.front().id), ignored);
+    gone.push_back(folder_of(runs_.front().id));
     changed_({{"event", "task"}, {"removed", runs_.front().id}});
     runs_.erase(runs_.begin());
   }
-  check_disk();
+  return gone;
+}
+
+/// Of a new run, whose number is returned; the next daemon finds it there. Throws Refused.
+asio::awaitable<std::uint64_t> DryRuns::make_folder(DryRunRecord run) {
+  const std::uint64_t least = runs_.empty() ? 1 : runs_.back().id + 1;
+  const auto make = [folder = folder_, gone = forget_oldest(), least, run]() mutable {
+    for (const fs::path& old : gone) remove_folder(old);
+    check_room(folder);
+    run.id = next_id(folder, least);
+    const fs::path made = folder / std::to_string(run.id);
+    try {
+      fs::create_directories(made);
+      write_state(folder / "next", std::to_string(run.id + 1) + "\n");
+      write_state(made / run_name, text_of_run(run));
+    } catch (const std::exception& error) {
+      remove_folder(made);
+      throw Refused(Why::no_room, error.what());
+    }
+    return run.id;
+  };
+  co_return co_await elsewhere(disk_, make);
 }
 
 void DryRuns::announce(const DryRunRecord& run) {
@@ -219,46 +249,44 @@ void DryRuns::announce(const DryRunRecord& run) {
 
 /// Best effort: what cannot be written is not found by the next daemon.
 void DryRuns::note(const DryRunRecord& run) {
-  try {
-    write_state(folder_of(run.id) / run_name,
-                to_json(run).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
-  } catch (const core::DataError& error) {
-    log_line(fmt::format("dry run {}: {}", run.id, error.what()));
-  }
+  asio::post(disk_, [id = run.id, file = folder_of(run.id) / run_name, text = text_of_run(run)] {
+    try {
+      write_state(file, text);
+    } catch (const std::exception& error) {
+      log_line(fmt::format("dry run {}: {}", id, error.what()));
+    }
+  });
 }
 
-std::uint64_t DryRuns::begin(const Wish& wish) {
+asio::awaitable<std::uint64_t> DryRuns::begin(Wish wish) {
   if (running()) throw Refused(Why::conflict, "another dry run is going on; wait for its end, or remove it");
-  make_room();
+  *beginning_ = true;
+  const std::shared_ptr<void> begun(nullptr, [flag = beginning_](void*) { *flag = false; });
   DryRunRecord run;
-  run.id = next_id();
   run.job = wish.job;
   run.layers = wish.layers;
   run.made =
       std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
           .count();
+  run.id = co_await make_folder(run);
   const fs::path folder = folder_of(run.id);
+  std::vector<std::string> words{"unicursal", "dry-run",      fs::absolute(wish.file).string(),
+                                 "--json",    "--report",     (folder / "report.json").string(),
+                                 "--picture", folder.string()};
+  if (wish.profile) words.insert(words.end(), {"--profile", wish.profile->string()});
+  if (wish.layers)
+    words.insert(words.end(), {"--layers", fmt::format("{}:{}", wish.layers->first, wish.layers->last)});
   try {
-    fs::create_directories(folder);
-    write_state(folder_ / "next", std::to_string(run.id + 1) + "\n");
-    std::vector<std::string> words{"unicursal", "dry-run",      fs::absolute(wish.file).string(),
-                                   "--json",    "--report",     (folder / "report.json").string(),
-                                   "--picture", folder.string()};
-    if (wish.profile) words.insert(words.end(), {"--profile", wish.profile->string()});
-    if (wish.layers)
-      words.insert(words.end(), {"--layers", fmt::format("{}:{}", wish.layers->first, wish.layers->last)});
     process_ = std::make_shared<TryingProcess>(std::move(words));
   } catch (const std::exception& error) {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
+    asio::post(disk_, [folder] { remove_folder(folder); });
     throw Refused(Why::no_room, error.what());
   }
-  note(run);
   log_line(fmt::format("dry run {} {}: begins", run.id, run.job));
   runs_.push_back(run);
   announce(run);
   asio::co_spawn(loop_, follow(run.id, process_), asio::detached);
-  return run.id;
+  co_return run.id;
 }
 
 /// Reads what the child says, line by line, until it ends.
@@ -343,10 +371,7 @@ asio::awaitable<void> DryRuns::remove(std::uint64_t id) {
   }
   std::erase_if(runs_, [id](const DryRunRecord& one) { return one.id == id; });
   changed_({{"event", "task"}, {"removed", id}});
-  const auto clear = [folder = folder_of(id)] {
-    std::error_code ignored;
-    return fs::remove_all(folder, ignored);
-  };
+  const auto clear = [folder = folder_of(id)] { return remove_folder(folder), true; };
   co_await elsewhere(disk_, clear);
 }
 

@@ -71,7 +71,7 @@ class DryRuns {
 
   const std::vector<DryRunRecord>& all() const { return runs_; }
   const DryRunRecord* find(std::uint64_t id) const;
-  bool running() const { return process_ != nullptr; }
+  bool running() const { return process_ != nullptr || *beginning_; }
 
   struct Wish {
     std::string job;
@@ -80,7 +80,7 @@ class DryRuns {
     std::optional<LayerRange> layers;
   };
   /// Begins one and returns its number. Throws Refused, also while another is going on.
-  std::uint64_t begin(const Wish& wish);
+  asio::awaitable<std::uint64_t> begin(Wish wish);
   /// Also ends it. Throws Refused.
   asio::awaitable<void> remove(std::uint64_t id);
   /// The bytes of one of its files. Throws Refused for every name that is not of such a file.
@@ -88,10 +88,9 @@ class DryRuns {
 
  private:
   std::filesystem::path folder_of(std::uint64_t id) const { return folder_ / std::to_string(id); }
-  std::uint64_t next_id() const;
   void find_older();
-  void make_room();
-  void check_disk();
+  std::vector<std::filesystem::path> forget_oldest();
+  asio::awaitable<std::uint64_t> make_folder(DryRunRecord run);
   void note(const DryRunRecord& run);
   void announce(const DryRunRecord& run);
   DryRunRecord* found(std::uint64_t id);
@@ -104,6 +103,8 @@ class DryRuns {
   std::function<void(const nlohmann::json& event)> changed_;
   std::vector<DryRunRecord> runs_;  ///< the oldest first
   std::shared_ptr<TryingProcess> process_;
+  /// Shared with begin(), which a stopped loop ends later than this.
+  std::shared_ptr<bool> beginning_ = std::make_shared<bool>(false);
   std::chrono::steady_clock::time_point announced_{};
   asio::thread_pool disk_{1};
 };

@@ -7,6 +7,7 @@
 
 #include "host/daemon/api_body.hpp"
 #include "host/daemon/camera.hpp"
+#include "host/daemon/elsewhere.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/engine/temperature_limits.hpp"
 
@@ -102,7 +103,8 @@ json all_of(const PreferenceValues& values) {
 
 }  // namespace
 
-Preferences::Preferences(std::filesystem::path file) : file_(std::move(file)) {
+Preferences::Preferences(std::filesystem::path file)
+    : file_(std::move(file)), disk_(std::make_unique<asio::thread_pool>(1)) {
   values_.presets = usual_presets;
   std::ifstream stream(file_);
   if (!stream) return;
@@ -114,13 +116,17 @@ Preferences::Preferences(std::filesystem::path file) : file_(std::move(file)) {
   }
 }
 
+Preferences::~Preferences() {
+  disk_->join();
+}
+
 json Preferences::shown_to(Right right) const {
   json shown = all_of(values_);
   if (right < Right::all) shown["camera"] = without_query(values_.camera);
   return shown;
 }
 
-void Preferences::change(const json& body, Right right) {
+asio::awaitable<void> Preferences::change(json body, Right right) {
   PreferenceValues changed = values_;
   put_into(body, changed);
   if (changed.camera != values_.camera && right < Right::all) {
@@ -132,12 +138,22 @@ void Preferences::change(const json& body, Right right) {
   }
   json kept = all_of(changed);
   kept["version"] = 1;
+  const PreferenceValues before = std::exchange(values_, std::move(changed));
+  const std::uint64_t change = ++changes_;
+  const auto write_all = [file = file_,
+                          text = kept.dump(1, ' ', false, json::error_handler_t::replace) + "\n"] {
+    write_state(file, text);
+    return true;
+  };
+  std::string full;
   try {
-    write_state(file_, kept.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
-  } catch (const DaemonError& full) {
-    throw Refused(Refused::Why::no_room, full.what());
+    co_await elsewhere(*disk_, write_all);
+  } catch (const DaemonError& error) {
+    full = error.what();
   }
-  values_ = std::move(changed);
+  if (full.empty()) co_return;
+  if (change == changes_) values_ = before;
+  throw Refused(Refused::Why::no_room, full);
 }
 
 }  // namespace unicursal::host

@@ -4,6 +4,9 @@
 #include "host/daemon/camera.hpp"
 
 namespace unicursal::host {
+
+using nlohmann::json;
+
 namespace {
 
 HttpError without_preferences() {
@@ -20,7 +23,8 @@ asio::awaitable<Response> Api::show_preferences(Request request) {
 asio::awaitable<Response> Api::set_preferences(Request request) {
   if (!preferences_) throw without_preferences();
   const Right right = check_access(request, rules_).right;
-  preferences_->change(read_object(request, {"name", "language", "camera", "presets", "version"}), right);
+  json body = read_object(request, {"name", "language", "camera", "presets", "version"});
+  co_await preferences_->change(std::move(body), right);
   co_return reply(preferences_->shown_to(right));
 }
 

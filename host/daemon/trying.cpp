@@ -29,7 +29,8 @@ asio::awaitable<std::uint64_t> Daemon::try_job(std::string name, std::optional<L
     co_await check(name, layers);
   }
   check_spare_time();
-  co_return dry_runs_.begin({name, files_.find(name), options_.profile, layers});
+  DryRuns::Wish wish{name, files_.find(name), options_.profile, layers};
+  co_return co_await dry_runs_.begin(std::move(wish));
 }
 
 }  // namespace unicursal::host
