@@ -67,6 +67,7 @@ Daemon::~Daemon() {
   if (current_) current_->preparing.request_stop();
   idle_.on_change(nullptr);
   opening_.join();
+  looking_.join();
   disk_.join();
   preparing_.join();
   ending_.join();

@@ -222,7 +222,7 @@ class Daemon {
   PrintOptions print_options(const std::string& job) const;
   void broadcast_status();
   asio::awaitable<std::unique_ptr<Print>> prepare_print(const QueuedJob& job, std::stop_token stop);
-  std::unique_ptr<Print> prepared(const QueuedJob& job) const;
+  std::unique_ptr<Print> prepared(const QueuedJob& job, const PrintOptions& options) const;
   void note_begun(const QueuedJob& job, Print& print) const;
   JobCheck check_of(const std::string& name, const std::optional<LayerRange>& layers) const;
   asio::awaitable<void> check(std::string name, std::optional<LayerRange> layers);
@@ -294,13 +294,15 @@ class Daemon {
   std::map<std::size_t, KnownLayer> changed_layers_;  ///< that nobody was shown yet
   nlohmann::json shown_position_;
   asio::thread_pool disk_{1}, preparing_{1};
+  asio::thread_pool looking_{1};  ///< at how kept prints would go on; it may take as long as a preparation
   asio::thread_pool opening_{1};  ///< where the idle printer's port is opened
   IdlePrinter idle_;
   bool idle_returns_ = false;  ///< the idle connection comes back after the print
-  bool examining_ = false;     ///< doctor has the port
-  unsigned idle_baud_ = 0;     ///< of the idle connection's port; 0: it was never opened
-  std::string idle_note_;      ///< why the connection has not come back, a sentence
-  std::string idle_problem_;   ///< the last one that was logged
+  /// Doctor has the port; shared with the examination, which a stopped loop ends later than this.
+  std::shared_ptr<bool> examining_ = std::make_shared<bool>(false);
+  unsigned idle_baud_ = 0;    ///< of the idle connection's port; 0: it was never opened
+  std::string idle_note_;     ///< why the connection has not come back, a sentence
+  std::string idle_problem_;  ///< the last one that was logged
   asio::steady_timer idle_shown_;
   asio::steady_timer::time_point idle_next_{};  ///< of the next event of the idle printer
   bool idle_waits_ = false;

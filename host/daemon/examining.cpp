@@ -26,13 +26,13 @@ LinkOptions asking_options(const Profile& profile) {
 /// Sets a flag as long as it lives.
 class Raised {
  public:
-  explicit Raised(bool& flag) : flag_(flag) { flag_ = true; }
-  ~Raised() { flag_ = false; }
+  explicit Raised(std::shared_ptr<bool> flag) : flag_(std::move(flag)) { *flag_ = true; }
+  ~Raised() { *flag_ = false; }
   Raised(const Raised&) = delete;
   Raised& operator=(const Raised&) = delete;
 
  private:
-  bool& flag_;
+  const std::shared_ptr<bool> flag_;
 };
 
 }  // namespace

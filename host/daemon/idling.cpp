@@ -78,14 +78,14 @@ const Profile* Daemon::own() const {
 void Daemon::check_idle() const {
   if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
   if (current_) throw Refused(Why::printing, "a print is going on; the printer belongs to it until it ends");
-  if (examining_) throw Refused(Why::conflict, "the printer is being examined; try again when that is done");
+  if (*examining_) throw Refused(Why::conflict, "the printer is being examined; try again when that is done");
 }
 
 /// Before a print.
 void Daemon::check_not_at_work() const {
   if (idle_.feeding())
     throw Refused(Why::conflict, "filament is being moved; wait until that is done, or cancel it");
-  if (examining_) throw Refused(Why::conflict, "the printer is being examined; try again when that is done");
+  if (*examining_) throw Refused(Why::conflict, "the printer is being examined; try again when that is done");
 }
 
 /// Lines to an interrupted printer would make it forget where the print was.

@@ -149,12 +149,11 @@ PrintOptions Daemon::print_options(const std::string& job) const {
   return options;
 }
 
-/// Reads files; blocks.
-std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
-  auto print = std::make_unique<Print>(
+/// Reads files; blocks. In another thread: what clients may change meanwhile is in `options`.
+std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job, const PrintOptions& options) const {
+  return std::make_unique<Print>(
       produce(load_job_or_model(files_.find(job.name), options_.profile, UnnamedPrinter::refuse), job.layers),
-      print_options(job.name));
-  return print;
+      options);
 }
 
 /// A job is read by a child process first: a preparation that does not end can be cancelled there at once,
@@ -163,10 +162,10 @@ std::unique_ptr<Print> Daemon::prepared(const QueuedJob& job) const {
 asio::awaitable<std::unique_ptr<Print>> Daemon::prepare_print(const QueuedJob& job, std::stop_token stop) {
   const std::string problem = co_await check_in_child(check_of(job.name, job.layers), stop);
   if (!problem.empty()) throw core::DataError("", "", problem, "");
-  const auto prepare = [this, job, stop] {
+  const auto prepare = [this, job, stop, options = print_options(job.name)] {
     const core::StopScope scope(stop);
     core::stop_point();
-    return prepared(job);
+    return prepared(job, options);
   };
   std::unique_ptr<Print> print = co_await elsewhere(preparing_, prepare);
   std::exception_ptr error;
@@ -290,9 +289,9 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
   ending = QueuedJob::State::interrupted;
   co_await enter(id, QueuedJob::State::preparing, {});
   std::string later;
-  const auto open = [this, &how, &later, stop = current_->preparing.get_token()] {
+  const auto open = [&how, &later, stop = current_->preparing.get_token(),
+                     options = print_options(how.print.job)] {
     const core::StopScope scope(stop);
-    PrintOptions options = print_options(how.print.job);
     Spool spool = Spool::open(how.print.folder);
     later = check_not_superseded(spool, options.port);
     return std::make_unique<Print>(std::move(spool), options);

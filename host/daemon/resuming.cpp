@@ -62,7 +62,7 @@ asio::awaitable<std::string> Daemon::would_resume(std::string name) {
   };
   const auto away = [] { return true; };
   co_await elsewhere(ending_, away);  // the print may have ended a moment ago
-  co_return co_await elsewhere(preparing_, look);
+  co_return co_await elsewhere(looking_, look);
 }
 
 asio::awaitable<std::uint64_t> Daemon::resume_kept(std::string name) {
