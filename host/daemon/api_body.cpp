@@ -66,7 +66,7 @@ bool is_deeper_than(std::string_view text, std::size_t levels) {
 
 HttpError http_error(const Refused& refused) {
   const auto [status, code] = answered_as(refused.why());
-  return {status, code, refused.what()};
+  return {status, refused.code() ? refused.code() : code, refused.what()};
 }
 
 std::array<bool, 3> axes_of(const json& body) {
@@ -86,7 +86,7 @@ std::array<bool, 3> axes_of(const json& body) {
 
 HttpError http_error(const IdleRefused& refused) {
   if (refused.why() == IdleRefused::Why::limit) return {422, "out_of_range", refused.what()};
-  return {409, refused.what()};
+  return {409, refused.code() ? refused.code() : "conflict", refused.what()};
 }
 
 Response plain_reply(const json& body, int status) {

@@ -66,6 +66,7 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
 Daemon::~Daemon() {
   if (current_) current_->preparing.request_stop();
   idle_.on_change(nullptr);
+  idle_.on_line(nullptr);
   opening_.join();
   looking_.join();
   disk_.join();
@@ -130,12 +131,12 @@ const gcode::Printer* Daemon::profile() const {
 }
 
 Session& Daemon::session() {
-  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
+  if (!current_) throw Refused(Why::conflict, "nothing_printed", "nothing is being printed");
   if (current_->reconnecting)
-    throw Refused(Why::conflict,
+    throw Refused(Why::conflict, "reconnecting",
                   "the printer is not connected; the print goes on when it is back, or can be cancelled");
   if (!current_->print || !current_->print->session())
-    throw Refused(Why::conflict, "the print is still being prepared");
+    throw Refused(Why::conflict, "preparing", "the print is still being prepared");
   return *current_->print->session();
 }
 
@@ -151,9 +152,10 @@ asio::awaitable<void> Daemon::save() {
 
 asio::awaitable<std::uint64_t> Daemon::add(std::string name, std::optional<LayerRange> layers,
                                            bool to_print) {
-  if (queue_.waiting() >= Queue::most_waiting) throw Refused(Why::conflict, "the queue is full");
+  if (queue_.waiting() >= Queue::most_waiting)
+    throw Refused(Why::conflict, "queue_full", "the queue is full");
   if (being_added_->size() >= most_checks)
-    throw Refused(Why::conflict, "other jobs are being checked; queue this one in a moment");
+    throw Refused(Why::conflict, "checking", "other jobs are being checked; queue this one in a moment");
   {
     // The files must not be changed between the check and the queue.
     const auto place = being_added_->insert(name);
@@ -209,7 +211,7 @@ asio::awaitable<void> Daemon::check(std::string name, std::optional<LayerRange> 
 asio::awaitable<void> Daemon::remove(std::uint64_t id) {
   if (!queue_.find(id)) throw Refused(Why::not_found, "there is no job with that number");
   if (current_ && current_->id == id)
-    throw Refused(Why::conflict, "that job is being printed; cancel it instead");
+    throw Refused(Why::conflict, "job_printing", "that job is being printed; cancel it instead");
   QueuedJob removed = *queue_.find(id);
   const std::size_t place = queue_.remove(id);
   std::string problem;
@@ -285,6 +287,7 @@ void Daemon::on_session_event(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::printer) log_record_.note(LogRecord::From::printer, event.text);
   if (event.kind == SessionEvent::Kind::notice) log_record_.note(LogRecord::From::notice, event.text);
   if (event.kind == SessionEvent::Kind::state) {
+    show_soon();  // layers may be planned before the printer reports its heat
     const nlohmann::json status = to_json(session->status());
     const std::string reason = status.value("reason", "");
     const std::string entered = "print: " + status.value("state", "") + (reason.empty() ? "" : ": " + reason);

@@ -129,7 +129,8 @@ void check_room(const fs::path& folder) {
   fs::create_directories(folder, error);
   const auto space = fs::space(folder, error);
   if (!error && space.available < free_at_least)
-    throw Refused(Why::no_room, "the disk has no room for the pictures of a dry run; delete something first");
+    throw Refused(Why::no_room, "disk_full",
+                  "the disk has no room for the pictures of a dry run; delete something first");
 }
 
 /// A number is never given twice, or a browser would show an older run's pictures.
@@ -259,7 +260,9 @@ void DryRuns::note(const DryRunRecord& run) {
 }
 
 asio::awaitable<std::uint64_t> DryRuns::begin(Wish wish) {
-  if (running()) throw Refused(Why::conflict, "another dry run is going on; wait for its end, or remove it");
+  if (running())
+    throw Refused(Why::conflict, "dry_run_going_on",
+                  "another dry run is going on; wait for its end, or remove it");
   *beginning_ = true;
   const std::shared_ptr<void> begun(nullptr, [flag = beginning_](void*) { *flag = false; });
   DryRunRecord run;

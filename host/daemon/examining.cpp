@@ -99,7 +99,8 @@ asio::awaitable<FoundPrinter> Daemon::examine_at(const std::string& port, unsign
 
 asio::awaitable<Daemon::ProfileAsText> Daemon::profile_text() {
   const auto file = profile_file();
-  if (!file) throw Refused(Why::not_found, "this daemon has no profile of its printer; make one");
+  if (!file)
+    throw Refused(Why::not_found, "no_profile", "this daemon has no profile of its printer; make one");
   const auto read = [file = *file] { return ProfileAsText{file, core::file_bytes(file)}; };
   co_return co_await elsewhere(disk_, read);
 }

@@ -76,24 +76,27 @@ const Profile* Daemon::own() const {
 }
 
 void Daemon::check_idle() const {
-  if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
+  if (when_idle_) throw Refused(Why::conflict, "ending", "the daemon is ending");
   if (current_) throw Refused(Why::printing, "a print is going on; the printer belongs to it until it ends");
-  if (*examining_) throw Refused(Why::conflict, "the printer is being examined; try again when that is done");
+  if (*examining_)
+    throw Refused(Why::conflict, "examining", "the printer is being examined; try again when that is done");
 }
 
 /// Before a print.
 void Daemon::check_not_at_work() const {
   if (idle_.feeding())
-    throw Refused(Why::conflict, "filament is being moved; wait until that is done, or cancel it");
-  if (*examining_) throw Refused(Why::conflict, "the printer is being examined; try again when that is done");
+    throw Refused(Why::conflict, "feeding", "filament is being moved; wait until that is done, or cancel it");
+  if (*examining_)
+    throw Refused(Why::conflict, "examining", "the printer is being examined; try again when that is done");
 }
 
 /// Lines to an interrupted printer would make it forget where the print was.
 void Daemon::check_nothing_interrupted() const {
   if (interrupted_ && !bed_clear_)
-    throw Refused(Why::conflict, "the print of job " + std::to_string(interrupted_->id) +
-                                     " was interrupted and may go on; continue it, or confirm that the bed "
-                                     "is clear");
+    throw Refused(Why::conflict, "interrupted",
+                  "the print of job " + std::to_string(interrupted_->id) +
+                      " was interrupted and may go on; continue it, or confirm that the bed "
+                      "is clear");
 }
 
 IdlePrinter& Daemon::idle() {
@@ -108,7 +111,8 @@ std::string Daemon::checked_port(const std::string& named) const {
   if (any || named == usual) return usual.empty() ? "auto" : usual;
   if (options_.port)
     throw Refused(Why::conflict, "the daemon has one port; choose another with `unicursal serve --port`");
-  if (named != "auto" && !is_listed(named)) throw Refused(Why::not_found, "no serial port has that name");
+  if (named != "auto" && !is_listed(named))
+    throw Refused(Why::not_found, "no_port", "no serial port has that name");
   return named;
 }
 
@@ -117,11 +121,11 @@ void Daemon::connect_printer(const std::string& named) {
   check_nothing_interrupted();
   const Profile* profile = own();
   if (!profile)
-    throw Refused(Why::conflict,
+    throw Refused(Why::conflict, "no_profile",
                   "this daemon has no profile of its printer; make one, or start it with --profile");
   const std::string port = checked_port(named);
   if (idle_.wanted() && idle_.status().port != port)
-    throw Refused(Why::conflict, "another port is open; disconnect first");
+    throw Refused(Why::conflict, "other_port", "another port is open; disconnect first");
   if (port.starts_with('/') && !std::filesystem::exists(port))
     throw Refused(Why::absent, "the port " + core::printable(port) +
                                    " is not there: plug the printer in and switch it on");
@@ -197,6 +201,7 @@ void Daemon::let_printer_go(bool again) {
 // ---- what it says
 
 void Daemon::watch_idle_printer() {
+  idle_.on_line([this](const std::string& line) { log_record_.note(LogRecord::From::printer, line); });
   idle_.on_change([this] {
     const IdleStatus now = idle_.status();
     if (now.connection == Connection::open) temperature_record_.note(now.temperatures);

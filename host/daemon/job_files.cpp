@@ -211,9 +211,10 @@ void JobFiles::check_room(std::uint64_t bytes) const {
     ++files;
   }
   if (kept > most_uploaded || files > most_uploaded_files)
-    throw Refused(Why::no_room, "there is no room for more uploads; remove some first");
+    throw Refused(Why::no_room, "uploads_full", "there is no room for more uploads; remove some first");
   if (bytes + left_on_disk > free_bytes())
-    throw Refused(Why::no_room, "the daemon's disk is almost full; make room and send the file again");
+    throw Refused(Why::no_room, "disk_full",
+                  "the daemon's disk is almost full; make room and send the file again");
 }
 
 std::uint64_t JobFiles::free_bytes() const {
@@ -245,7 +246,7 @@ std::string JobFiles::adopt(UploadDraft& draft, const std::string& file,
     }
     return std::string(upload_prefix) + upload + "/" + kept;
   }
-  throw Refused(Why::no_room, "too many uploads have that name; remove some first");
+  throw Refused(Why::no_room, "uploads_full", "too many uploads have that name; remove some first");
 }
 
 std::optional<std::string> local_name(const std::string& job) {

@@ -42,18 +42,18 @@ QueuedJob::State state_after(Ending ending) {
 }  // namespace
 
 std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
-  if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
+  if (when_idle_) throw Refused(Why::conflict, "ending", "the daemon is ending");
   if (current_) throw Refused(Why::printing, "a print is going on");
   check_not_at_work();
   const QueuedJob* job = id ? queue_.find(*id) : queue_.next();
   if (!job)
-    throw Refused(id ? Why::not_found : Why::conflict,
-                  id ? "there is no job with that number" : "no job is waiting");
+    throw id ? Refused(Why::not_found, "there is no job with that number")
+             : Refused(Why::conflict, "nothing_waits", "no job is waiting");
   // Somebody may have continued it beside this daemon.
   if (interrupted_ && !interrupted_print(options_.state)) interrupted_.reset();
   if (interrupted_ && !bed_clear && !bed_clear_) {
     throw Refused(
-        Why::conflict,
+        Why::conflict, "interrupted",
         "the print of job " + std::to_string(interrupted_->id) +
             " was interrupted, and its printer may be hot with its nozzle in the part; continue it with "
             "`unicursal resume`, or clear the bed and start with --bed-clear");
@@ -66,11 +66,12 @@ std::uint64_t Daemon::start(std::optional<std::uint64_t> id, bool bed_clear) {
 }
 
 std::uint64_t Daemon::continue_interrupted(bool sure) {
-  if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
+  if (when_idle_) throw Refused(Why::conflict, "ending", "the daemon is ending");
   if (current_) throw Refused(Why::printing, "a print is going on");
   check_not_at_work();
   if (interrupted_ && !interrupted_print(options_.state)) interrupted_.reset();
-  if (!interrupted_) throw Refused(Why::conflict, "nothing is being printed, and no print was interrupted");
+  if (!interrupted_)
+    throw Refused(Why::conflict, "nothing_printed", "nothing is being printed, and no print was interrupted");
   if (sure && interrupted_->question.empty())
     throw Refused(Why::conflict, "nothing was asked; continue the print, and it is asked if need be");
   check_port_exists();
@@ -392,7 +393,7 @@ std::string Daemon::way_on() const {
 }
 
 void Daemon::cancel(const std::string& reason) {
-  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
+  if (!current_) throw Refused(Why::conflict, "nothing_printed", "nothing is being printed");
   if (!current_->print || !current_->print->session()) {
     current_->cancelled = reason;
     current_->preparing.request_stop();
@@ -407,7 +408,7 @@ void Daemon::stop_at_once() {
     if (current_) cancel("the user has stopped it");
     return idle_.stop_at_once();
   }
-  if (!current_) throw Refused(Why::conflict, "nothing is being printed");
+  if (!current_) throw Refused(Why::conflict, "nothing_printed", "nothing is being printed");
   if (!current_->print || !current_->print->session()) return cancel("the user has stopped it");
   if (const Refusal no = session().emergency_stop()) throw Refused(Why::conflict, *no);
 }

@@ -22,11 +22,16 @@ class Refused : public std::runtime_error {
     busy        ///< too many ask
   };
 
-  Refused(Why why, const std::string& sentence) : std::runtime_error(sentence), why_(why) {}
+  Refused(Why why, const std::string& sentence) : Refused(why, nullptr, sentence) {}
+  /// `code`: a literal for programs and for translations, as those of HttpError; null: that of `why`.
+  Refused(Why why, const char* code, const std::string& sentence)
+      : std::runtime_error(sentence), why_(why), code_(code) {}
   Why why() const { return why_; }
+  const char* code() const { return code_; }
 
  private:
   Why why_;
+  const char* code_;
 };
 
 using Why = Refused::Why;

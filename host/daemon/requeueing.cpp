@@ -9,7 +9,7 @@ asio::awaitable<std::uint64_t> Daemon::print_again(PastPrint print) {
   std::string name = print.file;
   if (name.starts_with('/')) name = files_.name_of(name);
   if (name.empty())
-    throw Refused(Why::not_found,
+    throw Refused(Why::not_found, "file_gone",
                   "the job of that print is not in the daemon's folders any more; send it once more");
   return add(std::move(name), print.range);
 }
@@ -23,7 +23,8 @@ asio::awaitable<std::uint64_t> Daemon::copy(std::uint64_t id) {
 asio::awaitable<void> Daemon::arrange(std::vector<std::uint64_t> ids) {
   const std::vector<std::uint64_t> before = queue_.order();
   if (!queue_.arrange(ids))
-    throw Refused(Why::conflict, "one of these jobs does not wait any more; look at the queue again");
+    throw Refused(Why::conflict, "order_changed",
+                  "one of these jobs does not wait any more; look at the queue again");
   std::string problem;
   try {
     co_await save();

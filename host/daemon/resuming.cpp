@@ -43,7 +43,7 @@ std::string outlook(const fs::path& folder, const std::optional<std::string>& po
 }  // namespace
 
 void Daemon::check_may_begin() const {
-  if (when_idle_) throw Refused(Why::conflict, "the daemon is ending");
+  if (when_idle_) throw Refused(Why::conflict, "ending", "the daemon is ending");
   if (current_) throw Refused(Why::printing, "a print is going on");
   check_not_at_work();
 }

@@ -15,14 +15,15 @@ asio::awaitable<std::uint64_t> Daemon::try_job(std::string name, std::optional<L
     const nlohmann::json print = status().value("print", nlohmann::json::object());
     if (print.value("lookahead_seconds", 0.0) < enough_ahead)
       throw Refused(
-          Why::printing,
+          Why::printing, "short_of_layers",
           "a print is going on that has less than a minute planned ahead; try again when it has more");
   };
   check_spare_time();
   if (dry_runs_.running())
-    throw Refused(Why::conflict, "another dry run is going on; wait for its end, or remove it");
+    throw Refused(Why::conflict, "dry_run_going_on",
+                  "another dry run is going on; wait for its end, or remove it");
   if (being_added_->size() >= most_checks)
-    throw Refused(Why::conflict, "other jobs are being checked; try this one in a moment");
+    throw Refused(Why::conflict, "checking", "other jobs are being checked; try this one in a moment");
   {
     const auto place = being_added_->insert(name);
     const std::shared_ptr<void> checked(nullptr, [all = being_added_, place](void*) { all->erase(place); });

@@ -37,7 +37,7 @@ UploadKind upload_kind(const std::string& name) {
   if (core::is_model_file(file)) return UploadKind::model;
   if (is_sliced_file(file)) return UploadKind::gcode;
   if (ending_of(file) == ".bgcode")
-    throw Refused(Why::bad_kind,
+    throw Refused(Why::bad_kind, "binary_gcode",
                   "binary G-code is not read here; switch it off in the slicer's settings of the printer");
   throw Refused(Why::bad_kind,
                 "\"" + core::printable(name) +

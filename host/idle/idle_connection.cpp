@@ -274,6 +274,8 @@ void IdlePrinter::State::hear(const std::string& line) {
   if (remark.kind == Remark::Kind::temperatures) {
     last_heard = clock->now();
     may_be_hot = cools_first;  // from now on it is known
+  } else {
+    quote(line);
   }
   if (remark.kind == Remark::Kind::halted) stopped = true;
   const gcode::Reply reply = gcode::parse_reply(line);
@@ -283,6 +285,11 @@ void IdlePrinter::State::hear(const std::string& line) {
     wake.notify();
   }
   if (!(before == view.temperatures)) changed();
+}
+
+/// "echo:busy: processing" comes every two seconds while it homes.
+void IdlePrinter::State::quote(const std::string& line) {
+  if (listener && line != std::exchange(quoted, line)) listener(line);
 }
 
 void IdlePrinter::State::changed() {

@@ -39,11 +39,15 @@ class IdleRefused : public std::runtime_error {
     not_now,  ///< it is not connected, or at work, or must be homed or heated first
     limit     ///< beyond what the profile allows
   };
-  IdleRefused(Why why, const std::string& sentence) : std::runtime_error(sentence), why_(why) {}
+  /// `code`: a literal for programs and for translations; null: that of `why`.
+  IdleRefused(Why why, const char* code, const std::string& sentence)
+      : std::runtime_error(sentence), why_(why), code_(code) {}
   Why why() const { return why_; }
+  const char* code() const { return code_; }
 
  private:
   Why why_;
+  const char* code_;
 };
 
 struct IdleStatus {
@@ -122,6 +126,8 @@ class IdlePrinter {
   void leave_heat_to_print();
   /// Called after every change of the status.
   void on_change(std::function<void()> observer);
+  /// Called with each line that the printer says, except plain answers, temperatures, and repetitions.
+  void on_line(std::function<void(const std::string&)> listener);
 
  private:
   struct State;

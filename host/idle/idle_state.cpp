@@ -34,7 +34,7 @@ constexpr std::array axis_names{'X', 'Y', 'Z'};
 void check_heat(const char* what, std::optional<double> wanted, double most) {
   if (!wanted || (*wanted >= 0 && *wanted <= most)) return;
   throw IdleRefused(
-      Cause::limit,
+      Cause::limit, nullptr,
       fmt::format("{} of {:g} °C is beyond the profile's limits: choose 0 to {:g} °C", what, *wanted, most));
 }
 
@@ -87,16 +87,19 @@ const char* name(IdleStatus::Action action) {
 
 void IdlePrinter::State::check_open() const {
   if (connection == IdleStatus::Connection::open && leave == Leave::no) return;
-  throw IdleRefused(Cause::not_now, connection == IdleStatus::Connection::connecting
-                                        ? "the printer is being connected; try again in some seconds"
-                                        : "the printer is not connected; connect it first");
+  if (connection == IdleStatus::Connection::connecting)
+    throw IdleRefused(Cause::not_now, "connecting",
+                      "the printer is being connected; try again in some seconds");
+  throw IdleRefused(Cause::not_now, "not_connected", "the printer is not connected; connect it first");
 }
 
 void IdlePrinter::State::accept(Step step) {
   if (feeds())
-    throw IdleRefused(Cause::not_now, "filament is being moved; wait until that is done, or cancel it");
+    throw IdleRefused(Cause::not_now, "feeding",
+                      "filament is being moved; wait until that is done, or cancel it");
   if (steps.size() >= most_waiting)
-    throw IdleRefused(Cause::not_now, "too many commands wait; try again when the printer has done some");
+    throw IdleRefused(Cause::not_now, "too_many_waiting",
+                      "too many commands wait; try again when the printer has done some");
   last_command = clock->now();
   problem.clear();
   if (hot()) step.lines.insert(step.lines.begin(), gcode::stay_watchful());
@@ -139,7 +142,7 @@ IdlePrinter::~IdlePrinter() {
 void IdlePrinter::connect(const Profile& profile, const std::string& port, int descriptor) {
   State& s = *state_;
   if (s.leave != State::Leave::no)
-    throw IdleRefused(Cause::not_now, "the connection is being closed; try again in some seconds");
+    throw IdleRefused(Cause::not_now, "closing", "the connection is being closed; try again in some seconds");
   if (s.running && !s.returning) return;
   if (s.returning) {  // it looks for the printer already
     s.wake.notify();
@@ -208,7 +211,8 @@ void IdlePrinter::home(const std::array<bool, 3>& axes) {
   s.check_open();
   s.forget_slack_axes();
   if (axes[2] && !((axes[0] || s.known_axes[0]) && (axes[1] || s.known_axes[1])))
-    throw IdleRefused(Cause::not_now, "z is homed above a known place only; home x and y with it");
+    throw IdleRefused(Cause::not_now, "not_homed",
+                      "z is homed above a known place only; home x and y with it");
   State::Step step{State::Step::Kind::home, {}, axes, "the axes home", {}};
   std::string line = "G28";
   const bool all = axes == State::Axes{true, true, true};
@@ -225,7 +229,7 @@ void IdlePrinter::move(const std::array<double, 3>& by) {
   s.check_open();
   s.forget_slack_axes();
   if (!s.homed() || !s.place)
-    throw IdleRefused(Cause::not_now, "nobody knows where the nozzle is; home all axes first");
+    throw IdleRefused(Cause::not_now, "not_homed", "nobody knows where the nozzle is; home all axes first");
   std::array<double, 3> to = *s.place;
   std::string line = "G1";
   for (std::size_t axis = 0; axis < to.size(); ++axis) {
@@ -233,8 +237,9 @@ void IdlePrinter::move(const std::array<double, 3>& by) {
     const double least = std::min(0.0, to[axis]), most = std::max(s.profile.printer.bed[axis], to[axis]);
     to[axis] += by[axis];
     if (!(to[axis] >= least - rounding && to[axis] <= most + rounding))
-      throw IdleRefused(Cause::limit, fmt::format("{} would be {:.4g} mm, beyond 0 to {:g} mm of the bed",
-                                                  "xyz"[axis], to[axis], s.profile.printer.bed[axis]));
+      throw IdleRefused(Cause::limit, nullptr,
+                        fmt::format("{} would be {:.4g} mm, beyond 0 to {:g} mm of the bed", "xyz"[axis],
+                                    to[axis], s.profile.printer.bed[axis]));
     to[axis] = std::clamp(to[axis], least, most);
     line += fmt::format(" {}{}", axis_names[axis], gcode::short_number(to[axis], 3));
   }
@@ -250,7 +255,7 @@ void IdlePrinter::move(const std::array<double, 3>& by) {
 
 void IdlePrinter::fan(double percent) {
   if (!(percent >= 0 && percent <= 100))
-    throw IdleRefused(Cause::limit, "a fan turns with 0 to 100 per cent");
+    throw IdleRefused(Cause::limit, nullptr, "a fan turns with 0 to 100 per cent");
   state_->check_open();
   constexpr double full = 255;
   State::Step step;
@@ -270,10 +275,11 @@ void IdlePrinter::feed(const FeedingOrder& order) {
 void IdlePrinter::extrude(double length) {
   State& s = *state_;
   if (!(std::abs(length) <= longest_push))
-    throw IdleRefused(Cause::limit, fmt::format("at most {:g} mm are pushed at a time", longest_push));
+    throw IdleRefused(Cause::limit, nullptr,
+                      fmt::format("at most {:g} mm are pushed at a time", longest_push));
   s.check_open();
   if (s.view.temperatures.nozzle.value_or(0) < coldest_push)
-    throw IdleRefused(Cause::not_now, "the nozzle is too cold to move filament; heat it first");
+    throw IdleRefused(Cause::not_now, "too_cold", "the nozzle is too cold to move filament; heat it first");
   State::Step step;
   step.lines = extrusion(length, s.profile.printer);
   step.doing = "filament is moved";
@@ -297,7 +303,7 @@ void IdlePrinter::stop_at_once() {
   State& s = *state_;
   // Also while the connection is being closed.
   if (s.connection != IdleStatus::Connection::open)
-    throw IdleRefused(Cause::not_now, "the printer is not connected; connect it first");
+    throw IdleRefused(Cause::not_now, "not_connected", "the printer is not connected; connect it first");
   s.steps.clear();
   s.stopped = true;
   s.problem = "stopped at once; reset the printer before using it again";
@@ -361,6 +367,10 @@ void IdlePrinter::leave_heat_to_print() {
 
 bool IdlePrinter::wanted() const {
   return state_->running;
+}
+
+void IdlePrinter::on_line(std::function<void(const std::string&)> listener) {
+  state_->listener = std::move(listener);
 }
 
 void IdlePrinter::on_change(std::function<void()> observer) {

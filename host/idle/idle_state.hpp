@@ -46,6 +46,7 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   bool note_failure(const std::string& sentence);
   void end();
   void hear(const std::string& line);
+  void quote(const std::string& line);
   void note_firmware();
 
   // Carrying out (idle_steps.cpp)
@@ -79,6 +80,8 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   const std::shared_ptr<Clock> clock;
   Signal wake;
   std::function<void()> observer;
+  std::function<void(const std::string&)> listener;
+  std::string quoted;  ///< the last line that the listener has got
 
   Profile profile;
   std::string port;          ///< as it was asked for

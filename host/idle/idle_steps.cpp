@@ -86,6 +86,7 @@ asio::awaitable<void> IdlePrinter::State::feed(const Feeding& made) {
       view.temperatures = session->status().temperatures;
       changed();
     }
+    if (event.kind == SessionEvent::Kind::printer) quote(event.text);
     // Nobody could let it go on, and it would stay hot.
     if (event.kind == SessionEvent::Kind::state && session->status().state == SessionState::paused) {
       problem = session->status().reason;

@@ -69,6 +69,10 @@ TEST_CASE("commands to an idle printer are refused with a reason, whoever sends 
   for (const char* body :
        {R"({"nozzle_c": 301})", R"({"bed_c": 121})", R"({"nozzle_c": -1})", R"({"nozzle_c": 1e300})"})
     CHECK(bench.post("heat", body) == 422);
+  const std::string said = bench.ask("GET", "/api/log").dump();
+  CHECK(said.find("FIRMWARE_NAME") != std::string::npos);
+  CHECK(said.find("\"printer\"") != std::string::npos);
+  CHECK(bench.ask("POST", "/api/printer/move", R"({"x": 1})")["code"] == "not_homed");
   for (const char* body : {R"({"nozzle_c": "hot"})", R"({"nozzle_c": [1]})", R"({"nozle_c": 1})", "{}", "[]",
                            R"({"nozzle_c": NaN})", R"({"nozzle_c": 1e999})"})
     CHECK(bench.post("heat", body) == 400);

@@ -141,13 +141,14 @@ TEST_CASE("refusals have the code that API.md describes") {
   CHECK(post("/api/flow", "{") == "not_json");
   CHECK(post("/api/flow", R"({"per": 1})") == "unknown_key");
   CHECK(post("/api/flow", R"({"percent": "x"})") == "bad_request");
-  CHECK(post("/api/flow", R"({"percent": 95})") == "conflict");  // nothing is being printed
+  CHECK(post("/api/flow", R"({"percent": 95})") == "nothing_printed");
   CHECK(post("/api/jobs", R"({"job": "none.toml"})") == "not_found");
   CHECK(post("/api/status", "{}") == "wrong_method");
   CHECK(post("/api/none", "{}") == "not_found");
   CHECK(post("/api/jobs", R"({"job": "../secret.toml"})") == "bad_name");
   bench.ask("POST", "/api/jobs", R"({"job": "plate.toml"})");
   CHECK(post("/api/print/start", "{}") == "printer_absent");
+  CHECK(post("/api/printer/home", "{}") == "not_connected");
   const std::string request = bench.request("GET", "/api/status");
   CHECK(code(test::replaced(request, "Bearer " + bench.token(), "Bearer x")) == "wrong_token");
   CHECK(code(test::replaced(request, "Authorization: Bearer " + bench.token(), "X: y")) == "no_token");
