@@ -259,6 +259,7 @@ class Daemon {
   void note_progress();
   void show_soon();
   void show();
+  std::map<std::size_t, KnownLayer>::iterator next_changed_layer();
   nlohmann::json job_and_print() const;
 
   asio::io_context& loop_;
@@ -292,6 +293,7 @@ class Daemon {
   bool progress_due_ = false;
   std::chrono::steady_clock::time_point shown_progress_{}, shown_layer_{};
   std::map<std::size_t, KnownLayer> changed_layers_;  ///< that nobody was shown yet
+  std::size_t shown_layer_number_ = 0;                ///< of the last one that was shown
   nlohmann::json shown_position_;
   asio::thread_pool disk_{1}, preparing_{1};
   asio::thread_pool looking_{1};  ///< at how kept prints would go on; it may take as long as a preparation

@@ -47,6 +47,8 @@ void Daemon::follow_line() {
   const auto& continuation = print.settings().continuation;
   if (!current_->live || (continuation && continuation->leg)) {
     current_->live = std::make_shared<LiveLine>(subject_of(print));
+    print.production().on_planned(
+        [line = current_->live](const gcode::PlacedLayer& layer) { line->layer_planned(layer); });
     changed_layers_.clear();
     shown_position_ = {};
   }
@@ -54,8 +56,9 @@ void Daemon::follow_line() {
 }
 
 LiveLine& Daemon::live() {
-  if (!current_) throw Refused(Refused::Why::conflict, "nothing is being printed");
-  if (!current_->live) throw Refused(Refused::Why::conflict, "the print is still being prepared");
+  if (!current_) throw Refused(Refused::Why::conflict, "nothing_printed", "nothing is being printed");
+  if (!current_->live)
+    throw Refused(Refused::Why::conflict, "preparing", "the print is still being prepared");
   return *current_->live;
 }
 
@@ -96,6 +99,19 @@ void Daemon::show_soon() {
   });
 }
 
+/// The one that grows and those that are planned by turns; then the others, of a print that continues.
+/// Precondition: there is one.
+std::map<std::size_t, KnownLayer>::iterator Daemon::next_changed_layer() {
+  const auto from = [this](auto begin) {
+    return std::find_if(begin, changed_layers_.end(), [](const auto& one) { return !one.second.complete; });
+  };
+  auto next = from(changed_layers_.upper_bound(shown_layer_number_));
+  if (next == changed_layers_.end()) next = from(changed_layers_.begin());
+  if (next == changed_layers_.end()) next = changed_layers_.begin();
+  shown_layer_number_ = next->first;
+  return next;
+}
+
 /// One event, whichever is due longest.
 void Daemon::show() {
   const Session* session = current_ && current_->print ? current_->print->session() : nullptr;
@@ -111,10 +127,7 @@ void Daemon::show() {
     broadcast(to_json(SessionEvent{SessionEvent::Kind::progress, {}}, session->status()));
   } else if (!changed_layers_.empty() && now - shown_layer_ >= layer_interval) {
     shown_layer_ = now;
-    // The one that grows first; the others, of a print that continues, afterwards.
-    const auto last = std::find_if(changed_layers_.begin(), changed_layers_.end(),
-                                   [](const auto& one) { return !one.second.complete; });
-    const auto next = last == changed_layers_.end() ? changed_layers_.begin() : last;
+    const auto next = next_changed_layer();
     json event = to_json(next->second);
     event["event"] = "layer";
     broadcast_motion(event);

@@ -50,6 +50,12 @@ void PlannedProduction::catch_up(const Spool& spool) {
   }
 }
 
+void PlannedProduction::on_planned(std::function<void(const gcode::PlacedLayer&)> viewer) {
+  if (!viewer) return lookahead_->on_planned({});
+  lookahead_->on_planned(
+      [this, viewer = std::move(viewer)](const PlannedLayer& layer) { viewer(placed(prepared_, layer)); });
+}
+
 AskedMaterials PlannedProduction::asked() const {
   AskedMaterials asked{print_settings(prepared_).materials, prepared_.frame.zone_materials};
   for (std::size_t i = 0; i < asked.materials.size(); ++i) {

@@ -30,6 +30,7 @@ class PlannedProduction final : public Production {
   void plan(const LookaheadOptions& options) { lookahead_.emplace(*prepared_.part, options); }
   KeptSource& open(const SpoolExtent& kept) override;
   void catch_up(const Spool& spool) override;
+  void on_planned(std::function<void(const gcode::PlacedLayer&)> viewer) override;
   AskedMaterials asked() const override;
   std::vector<std::string> late_warnings() const override { return maker_.late_warnings(); }
   std::optional<Planning> planning() const override;

@@ -60,6 +60,12 @@ Remark PrinterView::hear(const std::string& line) {
   return {Remark::Kind::other, line};
 }
 
+void PrinterView::run(const std::string& line) {
+  expected.run(line);
+  if (line.starts_with("M104") || line.starts_with("M109")) job_nozzle = expected.nozzle;
+  if (line.starts_with("M140") || line.starts_with("M190")) job_bed = expected.bed;
+}
+
 bool PrinterView::knows_position() const {
   const auto& position = expected.position;
   return position[0] && position[1] && position[2] && !expected.relative;

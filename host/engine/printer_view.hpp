@@ -36,6 +36,9 @@ struct PrinterView {
   /// Takes a line from the printer into account.
   Remark hear(const std::string& line);
 
+  /// Takes a line of the print into account that is handed to the link.
+  void run(const std::string& line);
+
   /// Whether the nozzle's position is known, so that it can be taken aside and back.
   bool knows_position() const;
 
@@ -44,7 +47,9 @@ struct PrinterView {
   bool has_tools = true;               ///< false once the printer has denied one
   std::optional<std::size_t> feeders;  ///< feeders that meet in the nozzle, if the printer has said so
   bool halted = false;                 ///< the firmware has said that it has stopped itself
-  gcode::ModalState expected;      ///< its state after all lines of the print that were handed to the link
+  gcode::ModalState expected;  ///< its state after all lines of the print that were handed to the link
+  /// Targets by the print's own lines, whatever the user has set since; absent before them. °C
+  std::optional<double> job_nozzle, job_bed;
   HostPrompt prompt;               ///< what it asks a person
   PrinterDisplay display;          ///< what its own display shows
   std::string mixture;             ///< fed after those lines: name or shares; empty before the first

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,6 +59,10 @@ class Production {
   /// For a print that continues, after open() and before the source's first step: brings it to where the
   /// spool's last chunk ends. Throws SpoolError if the same lines are not made again.
   virtual void catch_up(const Spool& spool) = 0;
+
+  /// After begin(): `viewer` sees each layer on the bed that is planned and not in a step yet, also those
+  /// that wait already. As Lookahead::on_planned(); nobody is called if nothing is planned.
+  virtual void on_planned(std::function<void(const gcode::PlacedLayer&)> viewer) = 0;
 
   /// What the print asks for, as it is delivered.
   virtual AskedMaterials asked() const = 0;

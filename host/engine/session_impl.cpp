@@ -236,6 +236,8 @@ asio::awaitable<void> Session::State::send_spooled() {
   LegReader reader(spool->chunks(), leg, places.begin());
   const KeptLayers layers(spool->chunks());
   printer.expected = state_at(spool->chunks(), leg, places.begin());
+  if (printer.expected.nozzle > 0) printer.job_nozzle = printer.expected.nozzle;
+  if (printer.expected.bed > 0) printer.job_bed = printer.expected.bed;
   bool& heating = printer.may_wait_for_heat;
   heating = places.begin() < hot;
   printer.must_not_move = heating && !leg.lead_in.empty();
@@ -439,7 +441,7 @@ asio::awaitable<void> Session::State::send(const gcode::Chunk& chunk) {
 }
 
 asio::awaitable<void> Session::State::send_batch(std::vector<std::string> lines) {
-  for (const std::string& line : lines) printer.expected.run(line);
+  for (const std::string& line : lines) printer.run(line);
   co_await places.send(std::move(lines));
   if (!places.has_left_print() && !printer.may_wait_for_heat) report_position();
   announcer.event(SessionEvent::Kind::progress);

@@ -12,10 +12,12 @@ void add(json& to, const char* key, const std::optional<double>& value) {
   if (value) to[key] = *value;
 }
 
-json heater(const std::optional<double>& actual, const std::optional<double>& target) {
+json heater(const std::optional<double>& actual, const std::optional<double>& target,
+            const std::optional<double>& job) {
   json heater = json::object();
   add(heater, "actual_c", actual);
   add(heater, "target_c", target);
+  add(heater, "job_c", job);
   return heater;
 }
 
@@ -39,8 +41,8 @@ json to_json(const SessionStatus& s) {
                  {"layers", s.layers},
                  {"percent", s.percent},
                  {"elapsed_seconds", s.elapsed},
-                 {"nozzle", heater(s.temperatures.nozzle, s.temperatures.nozzle_target)},
-                 {"bed", heater(s.temperatures.bed, s.temperatures.bed_target)},
+                 {"nozzle", heater(s.temperatures.nozzle, s.temperatures.nozzle_target, s.job_nozzle)},
+                 {"bed", heater(s.temperatures.bed, s.temperatures.bed_target, s.job_bed)},
                  {"lookahead_seconds", s.lookahead},
                  {"lookahead_layers", s.lookahead_layers},
                  {"speed_percent", s.speed_percent},

@@ -81,6 +81,8 @@ SessionStatus Session::State::status() const {
   status.left = left();
   status.elapsed = seconds(clock->now() - began);
   status.temperatures = printer.temperatures;
+  status.job_nozzle = printer.job_nozzle;
+  status.job_bed = printer.job_bed;
   status.mixture = printer.mixture;
   if (printer.prompt.shown()) status.prompt = {printer.prompt.text(), printer.prompt.buttons()};
   const Waiting waiting = source.waiting();

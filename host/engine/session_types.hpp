@@ -117,6 +117,7 @@ struct SessionStatus {
   double elapsed = 0;                ///< s since the session began
   std::optional<double> left;        ///< s of printing, by the time model; absent before the first layer
   gcode::Temperatures temperatures;  ///< as last reported, °C
+  std::optional<double> job_nozzle, job_bed;  ///< what the print's own lines ask for, °C; absent before them
   std::string mixture;               ///< name, or shares, of the mixture that is fed; empty before the first
   double lookahead = 0;              ///< s of printing that are planned and not yet sent
   std::size_t lookahead_layers = 0;  ///< planned and waiting

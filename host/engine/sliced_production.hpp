@@ -43,6 +43,8 @@ class SlicedProduction final : public Production {
   void begin(const std::shared_ptr<Clock>& clock, const SpoolExtent& kept) override;
   KeptSource& open(const SpoolExtent& kept) override;
   void catch_up(const Spool& spool) override;
+  /// Lines that were remixed ahead are not layers yet.
+  void on_planned(std::function<void(const gcode::PlacedLayer&)>) override {}
   AskedMaterials asked() const override;
   std::vector<std::string> late_warnings() const override { return late_warnings_; }
   std::optional<Planning> planning() const override { return std::nullopt; }

@@ -55,6 +55,8 @@ class LiveLayers {
 
   /// A layer is planned; it is forgotten when it begins.
   void plan(std::size_t layer, double top, LaidPath path);
+  /// Whether the layer has begun, or its plan is here already.
+  bool knows(std::size_t layer) const { return layer < layers_.size() || planned_.contains(layer); }
 
   struct Mark {
     std::size_t layers = 0, beads = 0;

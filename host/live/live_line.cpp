@@ -77,6 +77,7 @@ struct LiveLine::State {
   void take(Chunk chunk, const std::stop_token& stop);
   void take(Interposed interposed, const std::stop_token& stop);
   void run(const std::stop_token& stop);
+  void plan(const gcode::PlacedLayer& layer);
   std::optional<LaidPath> planned_path(const gcode::PlacedLayer& layer) const;
   gcode::Shares asked_at(std::size_t material, const core::Vec2& place, double z) const;
   NamedMixture named(std::string name, const gcode::Shares& shares) const;
@@ -92,8 +93,6 @@ struct LiveLine::State {
   LiveLayers layers;
   LineTable table;
   LineRun lines;
-  std::optional<std::size_t>
-      first_layer;  ///< index of the first one in the part; unknown before the first plan
 
   mutable std::mutex work_mutex;  ///< of what follows
   mutable std::condition_variable_any wake;
@@ -158,17 +157,13 @@ void LiveLine::State::read_kept(const std::stop_token& stop) {
 }
 
 void LiveLine::State::take(Chunk chunk, const std::stop_token& stop) {
-  const gcode::PlacedLayer& next = chunk.planned;
-  std::optional<LaidPath> planned = planned_path(next);
+  plan(chunk.planned);
   {
     const std::lock_guard lock(mutex);
     const std::uint64_t done = executed;
     lines.drop_before(done);
     layers.make_room(lines.first_open_layer());
     lines.append(std::move(chunk.batch));
-    if (planned && !first_layer) first_layer = next.index;
-    if (planned && next.index >= *first_layer)
-      layers.plan(next.index - *first_layer, next.top, std::move(*planned));
   }
   run(stop);
 }
@@ -195,6 +190,18 @@ gcode::Shares LiveLine::State::asked_at(std::size_t material, const core::Vec2& 
   const double part = of.gradient->part_at(place, z);
   for (std::size_t f = 0; f < shares.size(); ++f) shares[f] += part * (of.gradient->to.share(f) - shares[f]);
   return shares;
+}
+
+/// Most layers are known from the look-ahead when their chunk comes.
+void LiveLine::State::plan(const gcode::PlacedLayer& layer) {
+  {
+    const std::lock_guard lock(mutex);
+    if (layers.knows(layer.index)) return;
+  }
+  std::optional<LaidPath> path = planned_path(layer);
+  if (!path) return;
+  const std::lock_guard lock(mutex);
+  if (!layers.knows(layer.index)) layers.plan(layer.index, layer.top, std::move(*path));
 }
 
 /// The layer's beads in the order in which they were planned, in the colours asked for.
@@ -248,6 +255,10 @@ LiveLine::~LiveLine() = default;
 
 void LiveLine::chunk_kept(const SpooledChunk& kept, const gcode::Chunk& made) {
   state_->give(State::Chunk{batch_of(kept, &made), kept.layer});
+}
+
+void LiveLine::layer_planned(const gcode::PlacedLayer& layer) {
+  state_->plan(layer);
 }
 
 void LiveLine::interposed(const std::vector<std::string>& lines, std::uint64_t line) {

@@ -7,14 +7,15 @@
 // nozzle behind it: the lines from there on are read again. Departures: of a print that continues, pauses of
 // earlier runs, and all restarts before the last one, are not known; they are washed out after some 10 mm³.
 //
-// Memory: 9 bytes for each bead of the layers at hand (live_layers.hpp), and some 110 bytes for each line
-// that is kept and not executed, which is at most a chunk's and mostly a layer's.
+// Memory: 9 bytes for each bead of the layers at hand (live_layers.hpp) and of those planned ahead, and some
+// 110 bytes for each line that is kept and not executed, which is at most a chunk's and mostly a layer's.
 //
 //   LiveLine live(subject);
 //   settings.follower = &live;
 //   if (const auto nozzle = live.nozzle(session.line_place(), now, 100)) show(*nozzle);
 //
-// The functions may be called on any thread, one at a time. mm, mm³, s.
+// The functions may be called on any thread, one at a time; layer_planned() also beside the others. mm, mm³,
+// s.
 #pragma once
 
 #include <cstdint>
@@ -85,6 +86,8 @@ class LiveLine final : public LineFollower {
 
   void chunk_kept(const SpooledChunk& kept, const gcode::Chunk& made) override;
   void interposed(const std::vector<std::string>& lines, std::uint64_t line) override;
+  /// A layer waits to be encoded. It takes some milliseconds: it belongs on a planning thread.
+  void layer_planned(const gcode::PlacedLayer& layer);
   /// The printer has executed the lines before this one: they need not be kept at hand.
   void executed(std::uint64_t line);
 

@@ -48,9 +48,12 @@ struct OpenLayer {
   double print_seconds = 0;  ///< estimated from the flow
   double sliced_at = 0;      ///< time on the printer's clock, s; in virtual time only
   double planned_cells = 0;  ///< total of the islands planned so far
+  std::size_t shown_to = 0;  ///< number of the last viewer who has seen it
+  bool being_shown = false;  ///< nobody may take it
 
   bool has_work() const { return sliced && !error && begun < result.plans.size(); }
   bool complete() const { return error ? begun == finished : sliced && finished == result.plans.size(); }
+  bool may_be_taken() const { return complete() && !being_shown; }
 
   void add_effort(double part, double cells) {
     const double before = planned_cells;
@@ -97,7 +100,7 @@ struct Lookahead::State {
   }
 
   std::size_t end() const { return options.first + options.count; }
-  bool front_ready() const { return !open.empty() && open.front()->complete(); }
+  bool front_ready() const { return !open.empty() && open.front()->may_be_taken(); }
   bool exhausted() const { return cancelled || (open.empty() && next_layer == end()); }
 
   bool may_open() const {
@@ -127,6 +130,14 @@ struct Lookahead::State {
     return found == open.end() ? nullptr : found->get();
   }
 
+  OpenLayer* layer_to_show() const {
+    if (!viewer) return nullptr;
+    const auto found = std::find_if(open.begin(), open.end(), [this](const auto& l) {
+      return l->may_be_taken() && !l->error && l->shown_to != viewer_number;
+    });
+    return found == open.end() ? nullptr : found->get();
+  }
+
   /// Older layers first: islands of open layers are planned before a new layer is sliced.
   void work() {
     lower_priority();
@@ -134,9 +145,12 @@ struct Lookahead::State {
     Timeline time(options.pace);
     std::unique_lock lock(mutex);
     for (;;) {
-      work_available.wait(lock, [&] { return cancelled || layer_with_work() || may_open(); });
+      work_available.wait(lock,
+                          [&] { return cancelled || layer_to_show() || layer_with_work() || may_open(); });
       if (cancelled) return;
-      if (OpenLayer* layer = layer_with_work())
+      if (OpenLayer* planned = layer_to_show())
+        show_one(lock, *planned);
+      else if (OpenLayer* layer = layer_with_work())
         plan_one(lock, *layer, time);
       else
         slice_one(lock, time);
@@ -177,6 +191,21 @@ struct Lookahead::State {
     });
     if (!layer.error) learn(layer, attempt, layer.result.plans[index].effort, time.now());
     ++layer.finished;
+  }
+
+  void show_one(std::unique_lock<std::mutex>& lock, OpenLayer& layer) {
+    layer.being_shown = true;
+    layer.shown_to = viewer_number;
+    const auto show = viewer;
+    lock.unlock();
+    show(layer.result);
+    lock.lock();
+    layer.being_shown = false;
+    shown.notify_all();
+  }
+
+  bool nothing_is_shown() const {
+    return std::none_of(open.begin(), open.end(), [](const auto& layer) { return layer->being_shown; });
   }
 
   /// The print waits for its first layer, so if that has a single island, it may use all threads. Not in
@@ -274,8 +303,10 @@ struct Lookahead::State {
   LookaheadOptions options;
   Pacer pacer{1, 1};
   mutable std::mutex mutex;
-  std::condition_variable work_available, consumer;
+  std::condition_variable work_available, consumer, shown;
   std::function<void()> listener;
+  std::function<void(const PlannedLayer&)> viewer;
+  std::size_t viewer_number = 0;
   std::deque<std::unique_ptr<OpenLayer>> open;  ///< in order of layers
   std::size_t next_layer = 0;
   std::size_t most_open = 0;
@@ -313,6 +344,15 @@ bool Lookahead::ready() const {
 void Lookahead::on_ready(std::function<void()> listener) {
   const std::lock_guard lock(state_->mutex);
   state_->listener = std::move(listener);
+}
+
+void Lookahead::on_planned(std::function<void(const PlannedLayer&)> viewer) {
+  const bool nobody = !viewer;
+  std::unique_lock lock(state_->mutex);
+  state_->viewer = std::move(viewer);
+  ++state_->viewer_number;
+  state_->work_available.notify_all();
+  if (nobody) state_->shown.wait(lock, [this] { return state_->nothing_is_shown(); });
 }
 
 void Lookahead::printed(double now, double left) {

@@ -78,3 +78,41 @@ TEST_CASE("a page sees the line, the nozzle and the heat of a print, and odd req
   for (const auto& line : later["lines"]) CHECK(line["id"] >= next);
   CHECK(status("/api/log?since=-1") == 400);
 }
+
+TEST_CASE("a page sees the layers that are planned while the printer heats, and none of them as laid") {
+  DaemonBench bench;
+  bench.start_printer("1");  // minutes until it is hot
+  bench.serve();
+  WebSocketClient events(bench.port(), "/api/events", "Authorization: Bearer " + bench.token() + "\r\n");
+  bench.ask("POST", "/api/jobs", R"({"job": "plate.toml"})");
+  bench.ask("POST", "/api/print/start");
+  nlohmann::json known;
+  const auto planned = [&] {
+    known = bench.ask("GET", "/api/print/layers").value("known", nlohmann::json::array());
+    return known.size() > 1;
+  };
+  test::await(planned, bench.daemon());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    CHECK(known[i]["layer"] == i);
+    CHECK(known[i]["planned"] == true);
+    CHECK(known[i]["complete"] == false);
+    CHECK(known[i]["beads"] > 20);
+  }
+  const std::string answer = bench.send(bench.request("GET", "/api/print/layers/1/path"));
+  const std::string path = answer.substr(answer.find("\r\n\r\n") + 4);
+  REQUIRE(path.size() == 32 + 9 * known[1]["beads"].get<std::size_t>());
+  CHECK(path[28] == 2);  // planned only
+  CHECK_FALSE(bench.ask("GET", "/api/print/position").contains("layer"));
+  for (bool shown = false; !shown;) {
+    const auto event = events.next();
+    REQUIRE(event);
+    shown = event->value("event", "") == "layer" && event->at("planned") == true;
+  }
+  bench.await_print("heating");
+  const auto asked = [&] { return bench.ask("GET", "/api/status")["print"]["nozzle"].value("job_c", 0); };
+  test::await([&] { return asked() > 0; }, bench.daemon());
+  CHECK(asked() == 210);
+  bench.ask("POST", "/api/temperature", R"({"nozzle_c": 220})");
+  CHECK(asked() == 210);
+  bench.ask("POST", "/api/print/stop");
+}

@@ -36,6 +36,18 @@ TEST_CASE("Temperatures that a line leaves out stay as they were") {
   CHECK(printer.temperatures.bed_target == 60.0);
 }
 
+TEST_CASE("What the print asks of the heaters is known apart from what the user has set since") {
+  PrinterView printer;
+  CHECK_FALSE(printer.job_nozzle);
+  for (const char* line : {"M140 S60", "M190 S60", "M104 S215", "G28"}) printer.run(line);
+  printer.expected.run("M104 S230");  // the user's
+  CHECK(printer.expected.nozzle == 230);
+  CHECK(printer.job_nozzle == 215.0);
+  CHECK(printer.job_bed == 60.0);
+  printer.run("M109 S205");
+  CHECK(printer.job_nozzle == 205.0);
+}
+
 TEST_CASE("The text of an action is kept word for word") {
   PrinterView printer;
   CHECK(printer.hear("//action:pause filament_runout").text == "pause filament_runout");

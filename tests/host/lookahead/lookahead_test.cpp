@@ -161,6 +161,34 @@ TEST_CASE("A listener is called when a layer is ready") {
   CHECK(order == std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6});
 }
 
+TEST_CASE("A viewer sees each layer that is planned ahead, also those that waited before it came") {
+  const Stack part(6);
+  std::mutex mutex;
+  std::condition_variable news;
+  std::multiset<std::size_t> seen;
+  Lookahead lookahead(part, options_for(0, 6, 2, 3));
+  const auto see = [&](const PlannedLayer& layer) {
+    const std::lock_guard lock(mutex);
+    if (layer.plans.size() == 3 && layer.plans[2].curves.size() == 1) seen.insert(layer.layer.index);
+    news.notify_all();
+  };
+  const auto until = [&](const std::multiset<std::size_t>& expected) {
+    std::unique_lock lock(mutex);
+    // The bound only lets a fault fail the test instead of hanging it.
+    REQUIRE(news.wait_for(lock, std::chrono::seconds(60), [&] { return seen == expected; }));
+  };
+  lookahead.on_planned(see);
+  until({0, 1, 2});
+  lookahead.on_planned(see);
+  until({0, 0, 1, 1, 2, 2});
+  CHECK(lookahead.wait()->layer.index == 0);
+  until({0, 0, 1, 1, 2, 2, 3});
+  lookahead.on_planned({});
+  for (std::size_t i = 1; i < 6; ++i) CHECK(lookahead.wait()->layer.index == i);
+  CHECK_FALSE(lookahead.wait());
+  CHECK(seen == std::multiset<std::size_t>{0, 0, 1, 1, 2, 2, 3});
+}
+
 TEST_CASE("The horizon in seconds is planned ahead, and at least one layer more than there are threads") {
   const double seconds = 75 * 0.2 / 1.5;  // three squares of 25 mm², 0.2 mm high, at 1.5 mm³/s
   const auto open_at_once = [&](double horizon) {
