@@ -43,18 +43,17 @@ export const access = {
 
 interface Options {
   body?: unknown;
-  raw?: BodyInit;
-  type?: string;
   limit?: number
 }
 
 async function send(method: string, path: string, options: Options = {}): Promise<Response> {
   const headers: Record<string, string> = {};
   if (access.token) headers['Authorization'] = `Bearer ${access.token}`;
-  let body = options.raw;
-  if (options.body !== undefined) body = JSON.stringify(options.body);
-  if (body !== undefined && !(body instanceof FormData))
-    headers['Content-Type'] = options.type ?? 'application/json';
+  let body: string|undefined;
+  if (options.body !== undefined) {
+    body = JSON.stringify(options.body);
+    headers['Content-Type'] = 'application/json';
+  }
   const stop = new AbortController();
   const timer = options.limit ? window.setTimeout(() => stop.abort(), options.limit) : 0;
   try {
@@ -67,15 +66,39 @@ async function send(method: string, path: string, options: Options = {}): Promis
 }
 
 async function refusal(response: Response): Promise<ApiError> {
+  return refusalOf(response.status, response.statusText, await response.text().catch(() => ''));
+}
+
+function refusalOf(status: number, statusText: string, body: string): ApiError {
   let answer: Record<string, unknown> = {};
   try {
-    answer = await response.json();
+    answer = JSON.parse(body) ?? {};
   } catch {
     // An answer without a sentence: a proxy's, perhaps.
   }
-  const sentence =
-      typeof answer.error === 'string' ? answer.error : `${response.status} ${response.statusText}`;
-  return new ApiError(sentence, response.status, typeof answer.code === 'string' ? answer.code : '', answer);
+  const sentence = typeof answer.error === 'string' ? answer.error : `${status} ${statusText}`;
+  return new ApiError(sentence, status, typeof answer.code === 'string' ? answer.code : '', answer);
+}
+
+/** Hears how many bytes of a body have left this device. */
+export type Sent = (bytes: number) => void;
+
+/** As json(), and says how far it is, which fetch() does not. */
+function transfer<T>(method: string, path: string, body: Blob|FormData, sent: Sent): Promise<T> {
+  return new Promise((resolve, reject) => {
+    const request = new XMLHttpRequest();
+    request.open(method, path);
+    if (access.token) request.setRequestHeader('Authorization', `Bearer ${access.token}`);
+    if (!(body instanceof FormData)) request.setRequestHeader('Content-Type', 'application/octet-stream');
+    request.upload.onprogress = (event) => sent(event.loaded);
+    request.onerror = request.onabort = () => reject(new TypeError('the connection has failed'));
+    request.onload = () => {
+      const good = request.status >= 200 && request.status < 300;
+      if (!good) return reject(refusalOf(request.status, request.statusText, request.responseText));
+      resolve(JSON.parse(request.responseText || '{}'));
+    };
+    request.send(body);
+  });
 }
 
 async function json<T>(method: string, path: string, options: Options = {}): Promise<T> {
@@ -89,9 +112,8 @@ export const api = {
   put: <T = unknown>(path: string, body: unknown) => json<T>('PUT', path, {body}),
   remove: <T = unknown>(path: string) => json<T>('DELETE', path),
   bytes: async (path: string) => (await send('GET', path, {limit: 30_000})).arrayBuffer(),
-  form: <T = unknown>(path: string, form: FormData) => json<T>('POST', path, {raw: form}),
-  upload: <T = unknown>(path: string, file: Blob) =>
-      json<T>('PUT', path, {raw: file, type: 'application/octet-stream'}),
+  form: <T = unknown>(path: string, form: FormData, sent: Sent) => transfer<T>('POST', path, form, sent),
+  upload: <T = unknown>(path: string, file: Blob, sent: Sent) => transfer<T>('PUT', path, file, sent),
 
   /** Learns what the token may do, and gets the cookie for pictures. Older daemons do not answer that. */
   async login(): Promise<void> {

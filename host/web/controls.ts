@@ -4,7 +4,7 @@ import {access, ApiError} from './api';
 import {Child, fill, h, icon, setAttribute, setText} from './dom';
 import {live} from './live';
 import type {Right} from './types';
-import {colour, number, t} from './words';
+import {colour, number, said, t, translated} from './words';
 
 interface CommandOptions {
   label: string;
@@ -75,7 +75,7 @@ export function command(options: CommandOptions): CommandButton {
 }
 
 export function sentenceOf(error: unknown): string {
-  if (error instanceof ApiError) return error.message;
+  if (error instanceof ApiError) return translated(`refused.${error.code}`) ?? said(error.message);
   if (error instanceof DOMException && error.name === 'AbortError') return t('error.slow');
   return error instanceof TypeError ? t('error.unreachable') : String((error as Error)?.message ?? error);
 }

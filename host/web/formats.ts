@@ -49,6 +49,21 @@ export function shares(language: string, values: number[]|undefined): string {
   return values.map((share) => number(language, share * 100)).join(' · ') + ' %';
 }
 
+/** A length of filament: what is not nothing is never shown as 0. */
+export function metres(language: string, value: number|null|undefined): string {
+  if (value === null || value === undefined || !isFinite(value)) return unknown;
+  if (value <= 0 || value >= 0.995) return `${number(language, value, 2)} m`;
+  return value < 0.001 ? `< ${number(language, 1)} mm` : `${number(language, value * 1000)} mm`;
+}
+
+/** The same for a mass. `digits`: behind the point. */
+export function grams(language: string, value: number|null|undefined, digits = 1): string {
+  if (value === null || value === undefined || !isFinite(value)) return unknown;
+  const least = 10 ** -digits;
+  return value > 0 && value < least ? `< ${number(language, least, digits)} g` :
+                                      `${number(language, value, digits)} g`;
+}
+
 /** "#rrggbb" if it is one, otherwise nothing: colours come from files. */
 export function colour(text: string|undefined): string {
   return text && /^#[0-9a-f]{6}$/i.test(text) ? text : '';

@@ -25,3 +25,9 @@ export function presetsOf(text: string): NonNullable<Preferences['presets']> {
     return {name: found[1], nozzle_c: Number(found[2]), bed_c: Number(found[3])};
   });
 }
+
+/** What the job asks of a heater, if that is known and is not the present target. */
+export function differingWish(heater: {target_c?: number; job_c?: number}|undefined): number|undefined {
+  const wish = heater?.job_c;
+  return wish === undefined || Math.abs(wish - (heater?.target_c ?? NaN)) < 0.5 ? undefined : wish;
+}

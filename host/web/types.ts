@@ -3,7 +3,8 @@
 
 export interface Heater {
   actual_c?: number;
-  target_c?: number
+  target_c?: number;
+  job_c?: number;  ///< what the print's own lines ask for
 }
 
 export interface Job {

@@ -44,6 +44,16 @@ export function word(group: string, value: string|undefined): string {
   return texts[key] ?? fallback[key] ?? value;
 }
 
+/** The same for what the daemon says in English: undefined in English, and where there is no translation. */
+export function translated(key: string): string|undefined {
+  return texts === fallback ? undefined : texts[key];
+}
+
+/** A sentence of the daemon in the person's language, if it is one that the page knows. */
+export function said(sentence: string|undefined): string {
+  return translated(`said.${sentence}`) ?? sentence ?? '';
+}
+
 /** "1 job", "3 jobs": the keys are `key.one` and `key.other`. */
 export function plural(key: string, n: number): string {
   return word(key, new Intl.PluralRules(chosen).select(n)).replace('{n}', number(n));
@@ -54,6 +64,8 @@ export const duration = (seconds: number|null|undefined) => formats.duration(sec
 export const moment = (when: number|null|undefined) => formats.moment(locale, when);
 export const shares = (values: number[]|undefined) => formats.shares(locale, values);
 export const percent = (value: number|null|undefined) => formats.percent(locale, value);
+export const metres = (value: number|null|undefined) => formats.metres(locale, value);
+export const grams = (value: number|null|undefined, digits = 1) => formats.grams(locale, value, digits);
 export const celsius = (value: number|null|undefined) =>
     (value === null || value === undefined ? formats.unknown : `${number(value)} °C`);
 export {colour, shortName, unknown} from './formats';

@@ -5,7 +5,7 @@ import {Child, fill, h, View} from '../dom';
 import {layerRange} from '../inputs';
 import {live} from '../live';
 import type {DryRun} from '../types';
-import {duration, moment, number, shortName, t, word} from '../words';
+import {duration, grams, moment, number, shortName, t, word} from '../words';
 import {rangeOf} from './queue';
 
 export class DryRunView extends View {
@@ -97,8 +97,7 @@ export class DryRunView extends View {
         h('div', {class: `tile ${grade ?? ''}`}, h('dt', {}, name), h('dd', {}, value),
           grade ? h('span', {class: 'grade'}, word('grade', grade)) : null);
     const used = (run.filaments ?? []).filter((one) => one.grams !== undefined);
-    const material =
-        h('ul', {}, ...used.map((one) => h('li', {}, `${one.name ?? ''} ${number(one.grams, 1)} g`)));
+    const material = h('ul', {}, ...used.map((one) => h('li', {}, `${one.name ?? ''} ${grams(one.grams)}`)));
     const share = (value: number|undefined) => (value === undefined ? '–' : `${number(value, 2)} %`);
     const grades = run.grades ?? {};
     return [

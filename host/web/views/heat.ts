@@ -2,6 +2,7 @@
 import {api, ApiError} from '../api';
 import {chart, Line} from '../chart';
 import {h, setHidden, setText, View} from '../dom';
+import {differingWish} from '../inputs';
 import {live} from '../live';
 import type {Heater, Temperatures} from '../types';
 import {celsius, t} from '../words';
@@ -72,7 +73,9 @@ export class HeatPanel extends View {
 
 function heater(value: Heater|undefined): string {
   const now = celsius(value?.actual_c);
-  return value?.target_c ? `${now} → ${celsius(value.target_c)}` : now;
+  const words = value?.target_c ? `${now} → ${celsius(value.target_c)}` : now;
+  const wish = differingWish(value);
+  return wish === undefined ? words : `${words} (${t('adjust.job', {value: celsius(wish)})})`;
 }
 
 customElements.define('heat-panel', HeatPanel);

@@ -4,7 +4,7 @@ import {ask, card, command, complain, empty, load, swatchOf} from '../controls';
 import {fill, h, View} from '../dom';
 import {live} from '../live';
 import type {History, PastPrint, UsedFilament} from '../types';
-import {duration, language, moment, number, shortName, t, word} from '../words';
+import {duration, grams, language, metres, moment, number, said, shortName, t, word} from '../words';
 import {picture} from './job_parts';
 
 const atOnce = 30;
@@ -90,7 +90,7 @@ export class HistoryView extends View {
           h('div', {class: 'run-head'}, h('h3', {class: 'job', title: print.job}, shortName(print.job)),
             h('span', {class: `badge ${print.ended}`}, word('state', print.ended)), remove),
           h('p', {class: 'soft'}, moment(print.ended_at ?? print.began)),
-          print.reason && print.ended !== 'completed' ? h('p', {class: 'prose'}, print.reason) : null,
+          print.reason && print.ended !== 'completed' ? h('p', {class: 'prose'}, said(print.reason)) : null,
           h('dl', {class: 'facts small'}, fact(t('history.took'), duration(print.seconds)),
             fact(t('history.foretold'), duration(print.foretold_seconds)), fact(t('print.layer'), layers)),
           usedList(print.filaments, print.currency),
@@ -151,8 +151,7 @@ function usedList(used: UsedFilament[]|undefined, currency: string|undefined): H
   if (!used?.length) return null;
   const row = (one: UsedFilament) => {
     const facts = [
-      one.metres === undefined ? '' : `${number(one.metres, 2)} m`,
-      one.grams === undefined ? '' : `${number(one.grams, 1)} g`,
+      one.metres === undefined ? '' : metres(one.metres), one.grams === undefined ? '' : grams(one.grams),
       one.cost === undefined ? '' : money(one.cost, one.currency ?? currency)
     ];
     return h(

@@ -1,7 +1,7 @@
 // Parts that several pages show of a job: its picture, and what it takes.
 import {h} from '../dom';
 import type {Job} from '../types';
-import {number, shortName} from '../words';
+import {grams, shortName} from '../words';
 
 /** A picture, or the first letter of the name if there is none. `address`: empty: none. */
 export function picture(address: string, name: string, size: 'small'|'large'): HTMLElement {
@@ -24,6 +24,6 @@ export function pictureOf(job: Job): string {
 }
 
 export function gramsOf(job: Job): string {
-  const grams = job.grams?.filter((one) => one.grams > 0) ?? [];
-  return grams.map((one) => `${one.name} ${number(one.grams, one.grams < 10 ? 1 : 0)} g`).join(' · ');
+  const used = job.grams?.filter((one) => one.grams > 0) ?? [];
+  return used.map((one) => `${one.name} ${grams(one.grams, one.grams < 10 ? 1 : 0)}`).join(' · ');
 }

@@ -3,7 +3,7 @@ import {api, ApiError} from '../api';
 import {fillList, h, setHidden, View} from '../dom';
 import {live} from '../live';
 import type {LogLine} from '../types';
-import {moment, t} from '../words';
+import {moment, said, t} from '../words';
 
 const most = 200;
 
@@ -22,7 +22,9 @@ export class LogPanel extends View {
       const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 8;
       fillList(
           list, shown, (line) => line.id,
-          (line) => h('li', {class: line.from}, h('time', {}, moment(line.time)), h('span', {}, line.text)),
+          (line) =>
+              h('li', {class: line.from}, h('time', {}, moment(line.time)),
+                h('span', {}, line.from === 'printer' ? line.text : said(line.text))),
           () => undefined);
       setHidden(none, shown.length > 0);
       setHidden(list, shown.length === 0);
@@ -63,7 +65,7 @@ export class LogPanel extends View {
       window.clearTimeout(soon);
       soon = window.setTimeout(() => void refresh(), 400);
     }));
-    this.every(10_000, () => void refresh());
+    this.every(this.all ? 3000 : 10_000, () => void refresh());
     void refresh();
   }
 }

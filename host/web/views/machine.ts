@@ -5,7 +5,7 @@ import {command, CommandButton, stepper, Stepper} from '../controls';
 import {fill, h, setHidden, setText, View} from '../dom';
 import {live} from '../live';
 import type {Preferences, Printer} from '../types';
-import {celsius, duration, number, t, unknown, word} from '../words';
+import {celsius, duration, number, said, t, translated, unknown, word} from '../words';
 
 /** Gives a command to the idle printer, and takes what it answers. */
 export async function order(what: string, body: unknown = {}): Promise<void> {
@@ -62,14 +62,16 @@ export class MachinePanel extends View {
             print = live.busy ? live.status?.print : undefined;
       setText(state, word('connection', live.busy ? 'printing' : printer?.connection));
       state.dataset.state = live.busy ? 'printing' : printer?.connection ?? 'unknown';
-      const said = printer?.firmware ?? '';  // after a print: the whole answer to M115
-      setText(firmware, /FIRMWARE_NAME:(.*?)(?: [A-Z_]+:|$)/.exec(said)?.[1] ?? (said || unknown));
+      const answer = printer?.firmware ?? '';  // after a print: the whole answer to M115
+      setText(firmware, /FIRMWARE_NAME:(.*?)(?: [A-Z_]+:|$)/.exec(answer)?.[1] ?? (answer || unknown));
       setText(port, printer?.port || unknown);
       setText(
           size, printer?.bed_mm ? `${printer.bed_mm.map((side) => number(side)).join(' × ')} mm` : unknown);
       setText(nozzle, printer?.nozzle_mm === undefined ? unknown : `${number(printer.nozzle_mm, 2)} mm`);
-      setText(doing, printer?.doing ?? (live.busy ? t('machine.busy') : ''));
-      setText(problem, printer?.problem ?? '');
+      setText(
+          doing,
+          translated(`doing.${printer?.action}`) ?? printer?.doing ?? (live.busy ? t('machine.busy') : ''));
+      setText(problem, said(printer?.problem));
       setHidden(problem, !printer?.problem);
       setText(cools, printer?.cools_in_seconds === undefined ? '' : t('machine.cools', {
                 time: duration(printer.cools_in_seconds)

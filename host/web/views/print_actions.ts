@@ -26,9 +26,15 @@ export class PrintActions extends View {
     });
     const stop = command({label: t('print.stop'), icon: 'stop', kind: 'danger stop', run: give('stop')});
     stop.title = t('print.stop_help');
+    // The browser takes the focus away from a button that is off, as both are while the connection is lost.
+    let held = false;
+    const note = (event: Event) => {
+      held = event.type === 'focusin' && (event.target === pause || event.target === resume);
+    };
     const draw = () => {
       const state = live.state, paused = state === 'paused' || state === 'resuming';
-      const focused = document.activeElement === pause || document.activeElement === resume;
+      const at = document.activeElement;
+      const focused = at === pause || at === resume || (held && (!at || at === document.body));
       setHidden(pause, paused);
       setHidden(resume, !paused);
       pause.allow(state === 'printing' || state === 'heating');
@@ -40,6 +46,10 @@ export class PrintActions extends View {
     this.setAttribute('role', 'group');
     this.setAttribute('aria-label', t('print.actions'));
     this.append(pause, resume, cancel, h('span', {class: 'apart'}), stop);
+    for (const kind of ['focusin', 'pointerdown']) {
+      document.addEventListener(kind, note);
+      this.until(() => document.removeEventListener(kind, note));
+    }
     this.until(live.on('status', draw), live.on('up', draw));
     draw();
   }

@@ -2,7 +2,9 @@
 import {api} from '../api';
 import {stepper} from '../controls';
 import {h, View} from '../dom';
+import {differingWish} from '../inputs';
 import {live} from '../live';
+import type {Heater} from '../types';
 import {celsius, t} from '../words';
 
 export class PrintAdjust extends View {
@@ -45,8 +47,8 @@ export class PrintAdjust extends View {
       if (limits?.bed_c) bed.limit(limits.bed_c);
       speed.show(print?.speed_percent, t('adjust.job', {value: '100 %'}));
       flow.show(print?.flow_percent, t('adjust.job', {value: '100 %'}));
-      nozzle.show(print?.nozzle?.target_c, t('adjust.now', {value: celsius(print?.nozzle?.actual_c)}));
-      bed.show(print?.bed?.target_c, t('adjust.now', {value: celsius(print?.bed?.actual_c)}));
+      nozzle.show(print?.nozzle?.target_c, besides(print?.nozzle));
+      bed.show(print?.bed?.target_c, besides(print?.bed));
       const running = live.status?.state === 'printing';
       for (const one of [speed, flow, nozzle, bed]) one.allow(running);
     };
@@ -57,6 +59,13 @@ export class PrintAdjust extends View {
     this.until(live.on('status', draw), live.on('up', draw), live.on('printer', draw));
     draw();
   }
+}
+
+/** How warm it is, and what the job asks for if that is not what the heater is set to. */
+function besides(heater: Heater|undefined): string {
+  const now = t('adjust.now', {value: celsius(heater?.actual_c)});
+  const wish = differingWish(heater);
+  return wish === undefined ? now : `${now} · ${t('adjust.job', {value: celsius(wish)})}`;
 }
 
 customElements.define('print-adjust', PrintAdjust);

@@ -4,7 +4,7 @@ import {api} from '../api';
 import {command} from '../controls';
 import {fill, h, setHidden, setText, View} from '../dom';
 import {live} from '../live';
-import {duration, moment, number, percent, shortName, t, unknown, word} from '../words';
+import {duration, moment, number, percent, said, shortName, t, unknown, word} from '../words';
 
 const wellAhead = 120;  // s planned ahead that fill the bar
 
@@ -69,7 +69,7 @@ export class PrintFacts extends View {
           print?.lookahead_seconds === undefined ? undefined : (print.lookahead_seconds / wellAhead) * 100);
       aheadBar.classList.toggle('low', (print?.lookahead_seconds ?? wellAhead) < 15);
       setText(heat, `${number(print?.nozzle?.actual_c)} / ${number(print?.bed?.actual_c)} °C`);
-      const reason = live.status?.problem ?? print?.reason ?? live.status?.job?.reason ?? '';
+      const reason = said(live.status?.problem ?? print?.reason ?? live.status?.job?.reason);
       setText(warning, reason);
       setHidden(warning, !reason);
       this.showQuestion(question);

@@ -6,7 +6,7 @@ import {fill, h, View} from '../dom';
 import {live} from '../live';
 import {printNow} from '../queue_data';
 import type {Job} from '../types';
-import {duration, moment, percent, plural, shortName, t, word} from '../words';
+import {duration, moment, percent, plural, said, shortName, t, word} from '../words';
 import {gramsOf, picture, pictureOf} from './job_parts';
 import {rangeOf} from './queue';
 
@@ -35,7 +35,7 @@ export class PrintIdle extends View {
     if (now === this.drawn) return;
     this.drawn = now;
     fill(
-        this, status?.problem ? h('p', {class: 'warning'}, status.problem) : null,
+        this, status?.problem ? h('p', {class: 'warning'}, said(status.problem)) : null,
         status?.interrupted ? this.interrupted() : null,
         ...(this.failed ? [this.last(), this.next(waiting)] : [this.next(waiting), this.last()]));
   }
@@ -95,7 +95,8 @@ export class PrintIdle extends View {
     return card(
         t('idle.next'), 'next', picture(pictureOf(job), job.job, 'large'),
         h('div', {class: 'stack'}, name, facts ? h('p', {class: 'soft'}, facts) : null,
-          job.reason ? h('p', {class: 'warning'}, job.reason) : null, h('div', {class: 'row'}, start), more));
+          job.reason ? h('p', {class: 'warning'}, said(job.reason)) : null, h('div', {class: 'row'}, start),
+          more));
   }
 
   private last(): HTMLElement|null {
@@ -111,7 +112,7 @@ export class PrintIdle extends View {
         h('div', {class: 'run-head'}, h('h3', {class: 'job', title: last.job.job}, shortName(last.job.job)),
           h('span', {class: `badge ${state}`}, word('state', state)),
           h('span', {class: 'soft'}, facts.filter(Boolean).join(' · '))),
-        last.job.reason ? h('p', {class: 'prose'}, last.job.reason) : null,
+        last.job.reason ? h('p', {class: 'prose'}, said(last.job.reason)) : null,
         h('a', {href: '#/history', class: 'more'}, t('idle.history')));
   }
 }

@@ -1,5 +1,5 @@
 // Queue and files: what waits, in its order; and what can be added, from this device or the daemon's folders.
-import {access, api} from '../api';
+import {access, api, Sent} from '../api';
 import {ask, card, command, complain, empty, labelFor, say} from '../controls';
 import {fill, fillList, h, icon, setHidden, setText, View} from '../dom';
 import {layerRange} from '../inputs';
@@ -7,7 +7,7 @@ import {live} from '../live';
 import {printNow, upload, uploadSliced} from '../queue_data';
 
 import type {Job} from '../types';
-import {duration, number, plural, shortName, t} from '../words';
+import {duration, number, percent, plural, said, shortName, t} from '../words';
 import {gramsOf, picture, pictureOf} from './job_parts';
 
 interface Row extends HTMLElement {
@@ -117,7 +117,7 @@ export class QueueView extends View {
       setText(facts, [
         now.seconds === undefined ? '' : duration(now.seconds), gramsOf(now), layers
       ].filter(Boolean).join(' · '));
-      setText(reason, now.reason ?? '');
+      setText(reason, said(now.reason));
       setHidden(reason, !now.reason);
       up.allow(!first);
       down.allow(!last);
@@ -189,7 +189,9 @@ export class QueueView extends View {
             if (!choose.disabled) void this.send([...(event.dataTransfer?.files ?? [])], area);
           }
         },
-          icon('upload'), h('p', {role: 'status'}, t('files.drop')), choose,
+          icon('upload'), h('p', {role: 'status'}, t('files.drop')),
+          h('progress', {max: 100, value: 0, hidden: true, 'aria-label': t('files.progress')}),
+          h('p', {class: 'soft', hidden: true, 'aria-hidden': 'true'}), choose,
           labelFor('files', t('files.choose'), 'button'));
     const allow = () => {
       choose.disabled = !live.ready || !access.may('queue');
@@ -200,16 +202,16 @@ export class QueueView extends View {
   }
 
   private async send(files: File[], area: HTMLElement): Promise<void> {
-    const words = area.querySelector('p');
-    if (!files.length || !words) return;
-    setText(words, t('files.sending', {name: files[0].name}));
+    if (!files.length) return;
+    const sending = new Sending(area, files);
     try {
       const sliced = files.filter((file) => /\.(gcode|gco|g)$/i.test(file.name)),
             others = files.filter((file) => !sliced.includes(file));
       const queued = sliced.map((file) => file.name);
-      for (const file of sliced) await uploadSliced(file);
+      for (const file of sliced) await uploadSliced(file, sending.begin([file]));
       if (others.length) {
-        const sent = await upload(others), known = (await api.get<{jobs: string[]}>('/api/files')).jobs;
+        const sent = await upload(others, sending.begin(others)),
+              known = (await api.get<{jobs: string[]}>('/api/files')).jobs;
         const jobs = sent.filter((job) => known.includes(job)),  // not a profile, which is TOML as well
             tomls = jobs.filter((job) => job.endsWith('.toml'));
         for (const job of tomls.length ? tomls : jobs.length ? jobs : sent) {
@@ -221,7 +223,7 @@ export class QueueView extends View {
     } catch (error) {
       complain(error);
     }
-    setText(words, t('files.drop'));
+    sending.end();
     await this.refresh();
   }
 
@@ -253,6 +255,42 @@ export class QueueView extends View {
         t('queue.add_title'), 'adding', labelFor('job', t('queue.job')), jobs,
         labelFor('layers', t('queue.layers')), layers, h('p', {class: 'soft'}, t('queue.layers_help')),
         h('div', {class: 'row'}, add));
+  }
+}
+
+/** What is said of files on their way: how much of all has left this device, and that the rest takes time. */
+class Sending {
+  private readonly words: Element;
+  private readonly bar: HTMLProgressElement;
+  private readonly share: HTMLElement;
+  private readonly all: number;
+  private before = 0;
+
+  constructor(area: HTMLElement, files: File[]) {
+    this.words = area.querySelector('p') as Element;
+    this.bar = area.querySelector('progress') as HTMLProgressElement;
+    this.share = this.bar.nextElementSibling as HTMLElement;
+    this.all = files.reduce((sum, file) => sum + file.size, 0);
+  }
+
+  /** The next ones. Returns who is to hear how many of their bytes were sent. */
+  begin(files: File[]): Sent {
+    const before = this.before, size = files.reduce((sum, file) => sum + file.size, 0), {name} = files[0];
+    this.before += size;
+    const show = (bytes: number) => {
+      const done = this.all ? Math.floor(((before + Math.min(bytes, size)) / this.all) * 100) : 100;
+      setText(this.words, t(bytes < size ? 'files.sending' : 'files.checking', {name}));
+      this.bar.value = done;
+      setText(this.share, percent(done));
+      for (const one of [this.bar, this.share]) setHidden(one, false);
+    };
+    show(0);
+    return show;
+  }
+
+  end(): void {
+    for (const one of [this.bar, this.share]) setHidden(one, true);
+    setText(this.words, t('files.drop'));
   }
 }
 

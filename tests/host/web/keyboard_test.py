@@ -14,6 +14,10 @@ new MutationObserver(() => { if (document.body.dataset.link !== 'up') window.was
 """
 
 
+def has_focus(browser, name):
+    return browser.js("return document.activeElement.innerText.trim()") == name
+
+
 class Keyboard(unittest.TestCase):
     def use(self, size):
         with Bench() as bench, Browser() as browser:
@@ -49,9 +53,10 @@ class Keyboard(unittest.TestCase):
             bench.until_state("paused")
             until(lambda: browser.button("Resume"), "the print can be resumed")
             until(lambda: browser.button("Resume").is_enabled(), "resuming is possible")
-            browser.tab_to("Resume")
+            until(lambda: has_focus(browser, "Resume"), "the focus is on the button that has replaced Pause")
             browser.key(Keys.ENTER)
             bench.until_state("printing")
+            until(lambda: has_focus(browser, "Pause"), "the focus is on the button that has replaced Resume")
             browser.tab_to("Cancel")
             browser.key(Keys.ENTER)
             until(lambda: browser.find("dialog[open]"), "the page asks")

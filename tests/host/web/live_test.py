@@ -96,6 +96,25 @@ class Line(unittest.TestCase):
         self.assertIn(f"Layer {at['layer'] + 1}", self.browser.text(".layer-label"))
         self.assertEqual(self.browser.errors(), [])
 
+    def test_while_the_printer_heats_the_planned_layers_are_shown(self):
+        with Bench() as cold:
+            cold.start_printer(1)  # minutes until it is hot
+            cold.serve()
+            cold.ask("POST", "/api/print/start", {"id": cold.queue(layers=[0, 9])})
+            self.browser.view(PHONE)
+            self.browser.open(cold)
+            until(lambda: self.browser.js("const view = document.querySelector('curve-view'); return view && view.work === null && view.known"),
+                  "the plan of the first layer is painted")
+            until(lambda: not self.browser.js("return document.querySelector('input.layers').disabled"), "the next one can be chosen")
+            self.assertIn("Layer 1, planned", self.browser.text(".layer-label"))
+            self.assertEqual(self.painted(), 0, "nothing is laid")
+            _, _, beads = beads_of(cold.ask("GET", "/api/print/layers/0/path"))
+            shown = self.pixels_of([one for one in beads if one[1] > 0])
+            self.assertGreater(sum(pixel[3] > 0 for pixel, _ in shown), 0.9 * len(beads), "the canvas is not empty")
+            self.assertLess(self.alike(shown), 0.3 * len(shown), "it is paler than what is laid")
+            self.assertIn(cold.state(), ("connecting", "heating"))
+        self.assertEqual(self.browser.errors(but=("network",)), [])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -51,6 +51,23 @@ test('what is not known is never shown as 0', () => {
   assert.equal(formats.number('en', 0), '0');
 });
 
+test('a little is not shown as nothing', () => {
+  const metres = [0, 0.0004, 0.0042, 0.42, 0.994, 0.996, 12.345].map((one) => formats.metres('en', one));
+  assert.deepEqual(metres, ['0 m', '< 1 mm', '4 mm', '420 mm', '994 mm', '1 m', '12.35 m']);
+  const grams = [0, 0.01, 0.1, 2.34].map((one) => formats.grams('de', one));
+  assert.deepEqual(grams, ['0 g', '< 0,1 g', '0,1 g', '2,3 g']);
+  assert.equal(formats.grams('en', 0.3, 0), '< 1 g');
+  assert.deepEqual([formats.metres('en', undefined), formats.grams('en', null)], ['–', '–']);
+});
+
+test('what the job asks of a heater is said if it is set to something else', () => {
+  assert.equal(inputs.differingWish({target_c: 210, job_c: 210}), undefined);
+  assert.equal(inputs.differingWish({target_c: 220, job_c: 210}), 210);
+  assert.equal(inputs.differingWish({job_c: 60}), 60);
+  assert.equal(inputs.differingWish({target_c: 60}), undefined);
+  assert.equal(inputs.differingWish(undefined), undefined);
+});
+
 test('times have two units at most', () => {
   assert.equal(formats.duration(59.4, words), 'unit.s:59');
   assert.equal(formats.duration(59.6, words), 'unit.min:1');

@@ -102,6 +102,27 @@ class Pages(unittest.TestCase):
         self.browser.errors()  # 401 is shown there
         self.browser.open(self.bench)
 
+    def test_5_an_upload_says_how_far_it_is(self):
+        file = self.bench.write("large.gcode", "G1 X1 Y1 E1\n" * 100_000)
+        bar = "document.querySelector('.drop progress')"
+        self.browser.open(self.bench, "queue")
+        self.browser.cdp("Network.enable")
+        slowly = {"offline": False, "latency": 0, "downloadThroughput": -1}
+        self.browser.cdp("Network.emulateNetworkConditions", uploadThroughput=600_000, **slowly)
+        self.browser.find("#files")[0].send_keys(str(file))
+        until(lambda: self.browser.js(f"return !{bar}.hidden && {bar}.value > 0 && {bar}.value < 100"), "a part of the file is sent")
+        self.check("an upload")
+        until(lambda: self.browser.js(f"return {bar}.hidden"), "the upload has ended")
+        self.browser.cdp("Network.emulateNetworkConditions", uploadThroughput=-1, **slowly)
+        until(lambda: self.browser.find(".message"), "the page says what has become of it")
+
+    def test_6_what_the_daemon_refuses_is_said_in_german(self):
+        self.bench.queue(layers=[0, 1])
+        self.bench.stop_printer()
+        self.browser.open(self.bench, language="de")
+        self.browser.press("Bett ist frei")
+        until(lambda: "Der Anschluss des Druckers ist nicht da" in self.browser.text(".messages"), "the page says why")
+
 
 if __name__ == "__main__":
     unittest.main()
