@@ -293,7 +293,7 @@ class Daemon {
   bool progress_due_ = false;
   std::chrono::steady_clock::time_point shown_progress_{}, shown_layer_{};
   std::map<std::size_t, KnownLayer> changed_layers_;  ///< that nobody was shown yet
-  std::size_t shown_layer_number_ = 0;                ///< of the last one that was shown
+  std::size_t next_layer_number_ = 0;                 ///< whose turn it is to be shown
   nlohmann::json shown_position_;
   asio::thread_pool disk_{1}, preparing_{1};
   asio::thread_pool looking_{1};  ///< at how kept prints would go on; it may take as long as a preparation

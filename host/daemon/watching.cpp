@@ -50,6 +50,7 @@ void Daemon::follow_line() {
     print.production().on_planned(
         [line = current_->live](const gcode::PlacedLayer& layer) { line->layer_planned(layer); });
     changed_layers_.clear();
+    next_layer_number_ = 0;
     shown_position_ = {};
   }
   print.follow(current_->live.get());
@@ -105,10 +106,10 @@ std::map<std::size_t, KnownLayer>::iterator Daemon::next_changed_layer() {
   const auto from = [this](auto begin) {
     return std::find_if(begin, changed_layers_.end(), [](const auto& one) { return !one.second.complete; });
   };
-  auto next = from(changed_layers_.upper_bound(shown_layer_number_));
+  auto next = from(changed_layers_.lower_bound(next_layer_number_));
   if (next == changed_layers_.end()) next = from(changed_layers_.begin());
   if (next == changed_layers_.end()) next = changed_layers_.begin();
-  shown_layer_number_ = next->first;
+  next_layer_number_ = next->first + 1;
   return next;
 }
 

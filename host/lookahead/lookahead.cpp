@@ -132,10 +132,11 @@ struct Lookahead::State {
 
   OpenLayer* layer_to_show() const {
     if (!viewer) return nullptr;
-    const auto found = std::find_if(open.begin(), open.end(), [this](const auto& l) {
-      return l->may_be_taken() && !l->error && l->shown_to != viewer_number;
-    });
-    return found == open.end() ? nullptr : found->get();
+    for (const auto& layer : open) {
+      if (!layer->complete() || layer->error) break;
+      if (!layer->being_shown && layer->shown_to != viewer_number) return layer.get();
+    }
+    return nullptr;
   }
 
   /// Older layers first: islands of open layers are planned before a new layer is sliced.

@@ -65,10 +65,9 @@ class Lookahead {
   /// Sets a function that is called, mostly by a planning thread, when ready() may have become true. It must
   /// not call back. After on_ready({}) has returned, it is not called any more.
   void on_ready(std::function<void()> listener);
-  /// Sets a function that a planning thread calls, without a lock, with each layer that is planned and waits
-  /// to be handed over, also with those that wait already; in any order, and with several at once. It must be
-  /// quick and not throw: a layer is not handed over meanwhile. After on_planned({}) has returned, it is not
-  /// called any more.
+  /// Sets a function that a planning thread calls, without a lock, with each layer of waiting(), also with
+  /// those that wait already; two threads may do so at once. It must be quick and not throw: a layer is not
+  /// handed over meanwhile. After on_planned({}) has returned, it is not called any more.
   void on_planned(std::function<void(const PlannedLayer&)> viewer);
 
   /// Reports that at time `now` the printer has `left` s of printing before it needs the next layer. Until
