@@ -68,11 +68,13 @@ struct Strip {
 
 struct Band {
   Polygon shape;
+  int level = 0;  ///< 0 is the outermost
   core::BorderIndex border;
   std::vector<Vec2> cuts, links;          ///< where they lie on the middle of the band
   std::vector<std::optional<Vec2>> gate;  ///< per ring: the cut that opens it
 
-  Band(Polygon polygon, double w) : shape(std::move(polygon)), border(shape, w), gate(border.ring_count()) {}
+  Band(Polygon polygon, int depth, double w)
+      : shape(std::move(polygon)), level(depth), border(shape, w), gate(border.ring_count()) {}
 
   const core::Ring& ring(std::size_t r) const { return r == 0 ? shape.outer : shape.holes[r - 1]; }
 };
@@ -118,13 +120,14 @@ class Spirals {
 
  private:
   void make_bands() {
-    for (double depth = 0.5;; depth += 2) {
+    for (int level = 0;; ++level) {
+      const double depth = 2 * level + 0.5;
       const Region outer = core::offset({island_}, -depth * w_, arc_tolerance * w_);
       if (outer.empty()) break;
       const Region inner = core::offset({island_}, -(depth + 1) * w_, arc_tolerance * w_);
       const Region band =
           core::opened(core::subtract(outer, inner), thinnest_band / 2 * w_, arc_tolerance * w_);
-      for (const Polygon& piece : band) bands_.emplace_back(piece, w_);
+      for (const Polygon& piece : band) bands_.emplace_back(piece, level, w_);
     }
     std::stable_sort(bands_.begin(), bands_.end(), [](const Band& a, const Band& b) {
       return core::area(Polygon{a.shape.outer, {}}) > core::area(Polygon{b.shape.outer, {}});
@@ -161,6 +164,7 @@ class Spirals {
     std::vector<Facing> facing;
     for (std::size_t a = 0; a < bands_.size(); ++a) {
       for (std::size_t b = a + 1; b < bands_.size(); ++b) {
+        if (std::abs(bands_[a].level - bands_[b].level) > 1) continue;
         const std::vector<Strip> between = crossings(bands_[a], bands_[b]);
         if (!between.empty()) facing.push_back({a, b, shortest(between)});
       }

@@ -170,6 +170,36 @@ void measure_exactly(const Part& part, const Run& run, Figures& result) {
   result.exact_variation = meter.spread().variation;
 }
 
+/// Half a bead width of the line to either side of a vertex shares the points that are nearest to it, as
+/// core::segment_areas() does it; else a short segment at the tip of a hairpin would get a blob.
+void share_vertex(const Line& line, std::size_t vertex, double area, double reach, double* areas) {
+  struct Share {
+    std::size_t segment;
+    double length;
+  };
+  const std::size_t count = line.segments();
+  std::vector<Share> shares;
+  double all = 0;
+  for (const bool ahead : {true, false}) {
+    double left = reach;
+    std::size_t i = ahead ? vertex : vertex - 1;
+    for (std::size_t steps = 0; left > 0 && steps < count; ++steps) {
+      if (i >= count) {
+        if (!line.closed) break;
+        i = ahead ? 0 : count - 1;
+      }
+      const double length = std::min(left, line.length(i));
+      shares.push_back({i, length});
+      all += length;
+      left -= line.length(i);
+      i = ahead ? i + 1 : i - 1;
+    }
+  }
+  for (const Share& share : shares) {
+    if (all > 0) areas[share.segment] += area * share.length / all;
+  }
+}
+
 }  // namespace
 
 std::vector<double> areas_of(const std::vector<Line>& lines, const Polygon& island, double bead_width,
@@ -177,18 +207,29 @@ std::vector<double> areas_of(const std::vector<Line>& lines, const Polygon& isla
   const core::Lattice lattice = core::sample(turned_by(island, lattice_turn), bead_width / samples_per_width);
   std::vector<Line> turned = lines;
   for (Line& line : turned) line.points = turned_by(line.points, lattice_turn);
-  std::vector<core::Segment> segments = segments_of_lines(turned);
+  const std::vector<core::Segment> segments = segments_of_lines(turned);
   std::vector<double> areas(segments.size(), 0.0);
   if (segments.empty()) return areas;
   core::LatticeOwners owners(lattice);
-  owners.assign(std::move(segments));
+  owners.assign(segments);
   moment += owners.second_moment();
   const double limit = far_away * far_away * bead_width * bead_width;
+  std::vector<double> starts(segments.size(), 0.0), ends(segments.size(), 0.0);  // of the vertices' cells
   for (std::size_t k = 0; k < lattice.size(); ++k) {
-    const std::int32_t owner = owners.owner(k);
-    if (owner < 0) continue;
-    areas[static_cast<std::size_t>(owner)] += lattice.weight(k);
+    if (owners.owner(k) < 0) continue;
+    const auto owner = static_cast<std::size_t>(owners.owner(k));
+    const core::Segment& s = segments[owner];
+    const double along = (lattice.position(k) - s.a).dot(s.b - s.a), whole = (s.b - s.a).squaredNorm();
+    (along <= 0 ? starts : along >= whole ? ends : areas)[owner] += lattice.weight(k);
     if (owners.distance2(k) > limit) bare += lattice.weight(k);
+  }
+  std::size_t first = 0;
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i < line.segments(); ++i) {
+      share_vertex(line, i, starts[first + i], bead_width / 2, &areas[first]);
+      share_vertex(line, i + 1, ends[first + i], bead_width / 2, &areas[first]);
+    }
+    first += line.segments();
   }
   return areas;
 }

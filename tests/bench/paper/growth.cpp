@@ -21,12 +21,14 @@ using core::Curve;
 using core::Polygon;
 using core::Vec2;
 
-constexpr double edge_length = 0.4;       ///< of the resampled curve, spacings
-constexpr double own_stretch = 1.3;       ///< along the curve nothing repels, spacings
-constexpr double longest_step = 0.15;     ///< spacings
-constexpr double least_distance = 0.35;   ///< nearer ones repel as from here, spacings
-constexpr double enough_length = 0.93;    ///< of area ÷ spacing, before the spacing is halved
-constexpr std::size_t look_every = 25;    ///< iterations between looks at what is covered
+constexpr double edge_length = 0.4;      ///< of the resampled curve, spacings
+constexpr double own_stretch = 1.3;      ///< along the curve nothing repels, spacings
+constexpr double longest_step = 0.15;    ///< spacings
+constexpr double least_distance = 0.35;  ///< nearer ones repel as from here, spacings
+constexpr double slide = 0.2;           ///< share of the way to the middle of the neighbours, along the curve
+constexpr double relaxed = 0.2;         ///< of the push, in the end
+constexpr double most_bare = 0.03;      ///< a curve that leaves more was given up
+constexpr std::size_t look_every = 25;  ///< iterations between looks at what is covered
 constexpr std::size_t coarse_looks = 6;   ///< looks without progress before the spacing is halved
 constexpr double least_progress = 0.002;  ///< of the island's area
 constexpr double far = 0.75;              ///< bead widths; what is farther from the curve is bare
@@ -87,38 +89,33 @@ class Growing {
     std::size_t stalled = 0;
     double best_bare = 1;
     spacing_ = options_.coarsest * w_;
-    for (;; ++filling.iterations) {
+    for (bool growing = true; growing && moves < options_.most_moves; ++filling.iterations) {
       if (filling.iterations % look_every == 0) {
         const double bare = bare_share_of(lattice_, curve_, spacing_);
-        const bool last = spacing_ <= w_ * 1.001;
         stalled = bare < best_bare - least_progress ? 0 : stalled + 1;
         best_bare = std::min(best_bare, bare);
-        if (last && long_enough() && bare <= options_.bare_share) break;
-        if (last && stalled * look_every > options_.patience) {
-          filling.finished = long_enough();
-          break;
-        }
-        if (!last && (long_enough() || stalled > coarse_looks)) {
+        const bool last = spacing_ <= w_ * 1.001;
+        if (last) {
+          growing = bare > options_.bare_share && stalled * look_every <= options_.patience;
+        } else if (bare <= options_.bare_share || stalled > coarse_looks) {
           spacing_ = std::max(w_, spacing_ / 2);
           stalled = 0;
           best_bare = 1;
         }
-        if (moves > options_.most_moves) {
-          filling.finished = false;
-          break;
-        }
       }
       moves += curve_.size();
-      step();
+      step(options_.stretch);
     }
+    for (std::size_t k = 0; k < options_.relaxation; ++k, ++filling.iterations)
+      step(relaxed * options_.stretch);
+    filling.finished = bare_share_of(lattice_, curve_, w_) < most_bare;
     filling.lines.push_back({curve_.vertices, true});
     return filling;
   }
 
  private:
-  bool long_enough() const { return curve_.length() >= enough_length * area_ / spacing_; }
-
-  void step() {
+  /// One iteration, in which edges push their ends apart by `push`.
+  void step(double push) {
     curve_ = core::respaced(curve_, border_, edge_length * spacing_);
     const std::vector<core::Segment> segments = curve_.segments();
     const core::SegmentGrid grid(segments, spacing_);
@@ -128,8 +125,6 @@ class Growing {
       starts[i] = length;
       length += (segments[i].b - segments[i].a).norm();
     }
-    // The edges stop pushing as the curve becomes as long as it should be.
-    const double push = std::clamp(4 * (1 - length * spacing_ / area_), 0.0, 1.0) * options_.stretch;
     // Bends across the curve; along it, vertices only even out.
     std::vector<Vec2> moves(curve_.size()), bends(curve_.size()), slides(curve_.size());
     for (std::size_t i = 0; i < curve_.size(); ++i) {
@@ -143,8 +138,9 @@ class Growing {
       const Vec2& p = curve_.vertices[i];
       const Vec2 noise(random_.uniform(-1, 1), random_.uniform(-1, 1));
       const Vec2 around = (bends[curve_.after(i)] + bends[curve_.before(i)]) / 2;
-      moves[i] = options_.brownian * spacing_ * noise + options_.fairing * (bends[i] - around + slides[i]) -
-                 2 * push * bends[i] + from_strands(i, segments, grid, starts, length) + from_border(p);
+      const Vec2 fair = options_.fairing * (bends[i] - around) - 2 * push * bends[i];
+      moves[i] = options_.brownian * spacing_ * noise + slide * slides[i] + fair +
+                 from_strands(i, segments, grid, starts, length) + from_border(p);
       const double norm = moves[i].norm();
       if (norm > longest_step * spacing_) moves[i] *= longest_step * spacing_ / norm;
     }
@@ -199,7 +195,7 @@ class Growing {
       least = r;
       push = (wanted - r) / r * away;
     });
-    return push / 2;
+    return push;
   }
 
   const Polygon& island_;

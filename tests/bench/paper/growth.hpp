@@ -10,14 +10,14 @@
 // a circle in the widest place, with a spacing of many bead widths that is halved whenever the curve has
 // filled what it can reach, as in the paper's Figure 26a, where it was done by hand.
 //
-// It ends once the curve has 0.93 of the length area ÷ bead width and all but `bare_share` of the island is
-// nearer than 0.75 bead widths to it, once nothing has improved for `patience` iterations, or once it has
-// moved `most_moves` vertices in all.
+// The growth ends once all but `bare_share` of the island is nearer than 0.75 bead widths to the curve, once
+// nothing has improved for `patience` iterations, or once `most_moves` vertices have moved in all. The curve
+// then evens out for `relaxation` iterations, in which edges hardly push.
 //
-// Simplifications against the original: each edge also pushes its ends apart as long as the curve is too
-// short, which grows faster than Brownian motion alone; fairing evens bends out instead of flattening them,
-// which would undo that; and a vertex moves at most as far as keeps the curve simple and inside
-// (core/curve/clearance.hpp), where theirs bounds the step. All of this favours the growth.
+// Simplifications against the original: each edge also pushes its ends apart, which grows faster than
+// Brownian motion alone; fairing evens bends out instead of flattening them, which would undo that; and a
+// vertex moves at most as far as keeps the curve simple and inside (core/curve/clearance.hpp), where theirs
+// bounds the step. All of this favours the growth.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +36,7 @@ struct GrowthOptions {
   double coarsest = 8;         ///< first spacing, bead widths
   double bare_share = 0.005;   ///< of the island's area, at the end
   std::size_t patience = 300;  ///< iterations
+  std::size_t relaxation = 100;
   std::uint64_t most_moves = 12'000'000;
   std::uint64_t seed = 1;
 };

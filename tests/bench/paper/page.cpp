@@ -20,7 +20,7 @@ h1{font-size:28px;margin-bottom:4px}h2{margin-top:44px;border-top:2px solid #d8d
 table{border-collapse:collapse;margin:14px 0;font-size:14px}
 th,td{padding:5px 10px;text-align:right;border-bottom:1px solid #e2e7ee}
 th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #8b97a8;vertical-align:bottom}
-.claims td{text-align:left;vertical-align:top}.claims td:first-child{white-space:nowrap;font-weight:600}
+.claims td,.claims th{text-align:left}.claims td{vertical-align:top}.claims td:first-child{white-space:nowrap;font-weight:600}
 .yes{color:#146c37}.no{color:#b3261e}.best{font-weight:700}.dim{color:#5a6675}
 .row{display:grid;grid-template-columns:repeat(4,1fr);gap:14px}figure{margin:0}
 figure img{width:100%;height:auto;border:1px solid #e2e7ee;background:#fff}figcaption{font-size:13px;color:#5a6675}
@@ -44,8 +44,8 @@ std::string colour_of_method(const std::string& method) {
   return "#a03c7c";
 }
 
-/// A column of the table of figures. `less`: a smaller value is better.
-struct Column {
+/// A figure in the table of a part. `less`: a smaller value is better.
+struct Row {
   std::string head;
   std::string format;
   std::optional<double> (*value)(const Figures&);
@@ -56,61 +56,67 @@ std::optional<double> number(std::size_t n) {
   return static_cast<double>(n);
 }
 
-const std::vector<Column>& columns() {
+const std::vector<Row>& rows_of_figures() {
   using F = const Figures&;
-  static const std::vector<Column> all{
+  static const std::vector<Row> all{
       {"travels", "{:.0f}", [](F f) { return number(f.travels); }},
-      {"travel<br>mm", "{:.0f}", [](F f) { return std::optional(f.travel_length); }},
-      {"crossings of<br>materials", "{:.0f}", [](F f) { return number(f.crossings); }},
-      {"meets itself<br>/ outside", "{:.0f}", [](F f) { return number(f.meetings + f.outside); }},
-      {"spacing<br>mm", "{:.3f}", [](F f) { return std::optional(f.spacing.mean); }, false},
-      {"CV", "{:.3f}", [](F f) { return std::optional(f.spacing.variation); }},
-      {"CV<br>exact", "{:.3f}", [](F f) { return f.exact_variation; }},
-      {"E", "{:.4f}", [](F f) { return std::optional(f.coverage); }},
-      {"E<br>exact", "{:.4f}", [](F f) { return f.exact_coverage; }},
-      {"bare<br>%", "{:.2f}", [](F f) { return std::optional(100 * f.bare); }},
-      {"gaps %<br>one width", "{:.2f}", [](F f) { return std::optional(100 * f.constant.gaps); }},
-      {"overfill %<br>one width", "{:.2f}", [](F f) { return std::optional(100 * f.constant.overfill); }},
-      {"gaps %<br>own areas", "{:.2f}", [](F f) { return std::optional(100 * f.own.gaps); }},
-      {"overfill %<br>own areas", "{:.2f}", [](F f) { return std::optional(100 * f.own.overfill); }},
-      {"alignment<br>rad²", "{:.3f}", [](F f) { return f.alignment; }},
-      {"E_iso<br>rad²", "{:.5f}", [](F f) { return f.isotropy; }},
+      {"length of travels, mm", "{:.0f}", [](F f) { return std::optional(f.travel_length); }},
+      {"crossings of materials' borders", "{:.0f}", [](F f) { return number(f.crossings); }},
+      {"segments that meet or lie outside", "{:.0f}", [](F f) { return number(f.meetings + f.outside); }},
+      {"mean spacing, mm", "{:.3f}", [](F f) { return std::optional(f.spacing.mean); }, false},
+      {"CV of the spacing, on a lattice", "{:.3f}", [](F f) { return std::optional(f.spacing.variation); }},
+      {"CV of the spacing, exact diagram", "{:.3f}", [](F f) { return f.exact_variation; }},
+      {"E, on a lattice", "{:.4f}", [](F f) { return std::optional(f.coverage); }},
+      {"E, exact diagram", "{:.4f}", [](F f) { return f.exact_coverage; }},
+      {"farther than 0.75 bead widths, % of the area", "{:.2f}",
+       [](F f) { return std::optional(100 * f.bare); }},
+      {"gaps with one width, % of the area", "{:.2f}",
+       [](F f) { return std::optional(100 * f.constant.gaps); }},
+      {"overfill with one width, %", "{:.2f}", [](F f) { return std::optional(100 * f.constant.overfill); }},
+      {"gaps with own areas, %", "{:.2f}", [](F f) { return std::optional(100 * f.own.gaps); }},
+      {"overfill with own areas, %", "{:.2f}", [](F f) { return std::optional(100 * f.own.overfill); }},
+      {"squared angle to the asked directions, rad²", "{:.3f}", [](F f) { return f.alignment; }},
+      {"E_iso of the isotropic zones, rad²", "{:.5f}", [](F f) { return f.isotropy; }},
       {"iterations", "{:.0f}",
        [](F f) -> std::optional<double> {
          if (f.iterations == 0) return std::nullopt;
          return number(f.iterations);
        },
        false},
-      {"CPU s", "{:.2f}", [](F f) { return std::optional(f.seconds); }}};
+      {"processor time, s", "{:.2f}", [](F f) { return std::optional(f.seconds); }}};
   return all;
 }
 
+bool has_best(const PartReport& part, const Row& figure_row, double value) {
+  return figure_row.less && part.methods.size() > 1 &&
+         std::none_of(part.methods.begin(), part.methods.end(), [&](const auto& m) {
+           const auto other = figure_row.value(m.second);
+           return other && *other < value;
+         });
+}
+
+/// One row for each figure, one column for each method.
 std::string table_of(const PartReport& part) {
-  std::string html = "<table><thead><tr><th>method</th>";
-  std::vector<const Column*> shown;
-  for (const Column& column : columns()) {
-    const bool any = std::any_of(part.methods.begin(), part.methods.end(),
-                                 [&](const auto& m) { return column.value(m.second).has_value(); });
-    if (any) shown.push_back(&column);
-  }
-  for (const Column* column : shown) html += "<th>" + column->head + "</th>";
-  html += "</tr></thead><tbody>";
+  std::vector<const Figures*> methods;
+  std::string html = "<table><thead><tr><th></th>";
   for (const std::string_view name : method_names) {
     const auto found = part.methods.find(std::string(name));
     if (found == part.methods.end()) continue;
-    html += "<tr><td>" + escaped(title_of(name)) + (found->second.finished ? "" : " (given up)") + "</td>";
-    for (const Column* column : shown) {
-      const auto value = column->value(found->second);
-      const bool best = value && column->less && part.methods.size() > 1 &&
-                        std::none_of(part.methods.begin(), part.methods.end(), [&](const auto& m) {
-                          const auto other = column->value(m.second);
-                          return other && *other < *value;
-                        });
-      html += best ? "<td class='best'>" : "<td>";
-      html += value ? fmt::format(fmt::runtime(column->format), *value) : "";
-      html += "</td>";
+    methods.push_back(&found->second);
+    html += "<th>" + escaped(title_of(name)) + (found->second.finished ? "" : "<br>(given up)") + "</th>";
+  }
+  html += "</tr></thead><tbody>";
+  for (const Row& figure_row : rows_of_figures()) {
+    std::string row;
+    bool any = false;
+    for (const Figures* figures : methods) {
+      const auto value = figure_row.value(*figures);
+      any = any || value;
+      row += value && has_best(part, figure_row, *value) ? "<td class='best'>" : "<td>";
+      row += value ? fmt::format(fmt::runtime(figure_row.format), *value) : "";
+      row += "</td>";
     }
-    html += "</tr>";
+    if (any) html += "<tr><td>" + figure_row.head + "</td>" + row + "</tr>";
   }
   return html + "</tbody></table>";
 }
@@ -245,7 +251,10 @@ std::string operations_section(const Report& report) {
       "<th>refined:<br>split-and-reconnect</th><th>doubled<br>edges</th><th>share</th>"
       "<th>not refined:<br>split-and-reconnect</th><th>doubled<br>edges</th><th>share</th>"
       "</tr></thead><tbody>" +
-      rows + "</tbody></table>";
+      rows +
+      "</tbody></table><p class='dim'>Without refinement, a face whose sides belong to cycles in turns, "
+      "each to another, is turned over here. That joins up to three cycles at once, where Figure 7 joins "
+      "two across a quadrilateral, so fewer are left for doubled edges than in the paper.</p>";
   rows.clear();
   for (const PartReport& p : report.parts) {
     const core::LocalOperations& o = p.operations;
@@ -338,7 +347,7 @@ constexpr const char* intro =
     "plastic, "
     "laid evenly along its lines; <em>own areas</em> gives each segment the plastic of its area. Bold is "
     "best "
-    "in a column. Travels between islands count for no method.</p>";
+    "in a figure_row. Travels between islands count for no method.</p>";
 
 }  // namespace
 
