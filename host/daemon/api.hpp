@@ -92,6 +92,7 @@ class Api : public HttpHandler {
   // Of a print that goes on (live_api.cpp)
   asio::awaitable<Response> layers(Request request);
   asio::awaitable<Response> layer_path(Request request);
+  asio::awaitable<Response> layer_plan(Request request);
   asio::awaitable<Response> position(Request request);
   asio::awaitable<Response> temperatures(Request request);
   asio::awaitable<Response> log(Request request);

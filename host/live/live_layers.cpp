@@ -14,13 +14,13 @@ void LiveLayers::begin(double top) {
   next.top = top;
   next.height = top > below ? top - below : top;  // the first one of a further part lies on the bed
   next.revision = revision_;
-  planned_.erase(layers_.size());
   layers_.push_back(std::move(next));
 }
 
 void LiveLayers::end() {
   if (layers_.empty()) return;
   layers_.back().complete = layers_.back().changed = true;
+  planned_.erase(planned_.begin(), planned_.lower_bound(layers_.size()));
 }
 
 LaidPath& LiveLayers::path(const core::Vec2& from) {
@@ -39,7 +39,7 @@ std::vector<KnownLayer> LiveLayers::take_changed() {
   for (std::size_t i = 0; i < layers_.size(); ++i)
     if (std::exchange(layers_[i].changed, false)) changed.push_back(layers_[i].known(i));
   for (auto& [number, layer] : planned_)
-    if (std::exchange(layer.changed, false))
+    if (number >= layers_.size() && std::exchange(layer.changed, false))
       changed.push_back({number, layer.top, layer.path.size(), false, true});
   return changed;
 }
@@ -65,33 +65,34 @@ std::vector<KnownLayer> LiveLayers::known() const {
   for (std::size_t i = 0; i < layers_.size(); ++i)
     if (!layers_[i].lost) known.push_back(layers_[i].known(i));
   for (const auto& [number, layer] : planned_)
-    known.push_back({number, layer.top, layer.path.size(), false, true});
+    if (number >= layers_.size()) known.push_back({number, layer.top, layer.path.size(), false, true});
   return known;
 }
 
 std::optional<PathPiece> LiveLayers::piece(std::size_t number, std::size_t from) const {
-  PathPiece piece;
-  std::string records;
-  LaidPath::Place first;
-  if (number < layers_.size()) {
-    const Layer& layer = layers_[number];
-    if (layer.lost) return std::nullopt;
-    static_cast<KnownLayer&>(piece) = layer.known(number);
-    piece.revision = layer.revision;
-    records = records_of(layer);
-    if (records.size() != layer.beads() * LaidPath::record) return std::nullopt;
-    first = layer.first;
-  } else {
-    const auto planned = planned_.find(number);
-    if (planned == planned_.end()) return std::nullopt;
-    static_cast<KnownLayer&>(piece) = {number, planned->second.top, planned->second.path.size(), false, true};
-    records = planned->second.path.bytes();
-    first = planned->second.path.first();
+  if (number >= layers_.size()) {
+    std::optional<PathPiece> plan = plan_of(number);
+    if (plan) plan->keep_from(from);
+    return plan;
   }
-  piece.first = std::min(from, piece.beads);
-  piece.begin = LaidPath::begin_of(records, first, piece.first);
-  piece.records = records.substr(piece.first * LaidPath::record);
+  const Layer& layer = layers_[number];
+  PathPiece piece{layer.known(number), 0, layer.first, layer.revision, records_of(layer)};
+  if (layer.lost || piece.records.size() != layer.beads() * LaidPath::record) return std::nullopt;
+  piece.keep_from(from);
   return piece;
+}
+
+std::optional<PathPiece> LiveLayers::plan_of(std::size_t number) const {
+  const auto found = planned_.find(number);
+  if (found == planned_.end()) return std::nullopt;
+  const auto& [top, path, changed] = found->second;
+  return PathPiece{{number, top, path.size(), false, true}, 0, path.first(), 0, path.bytes()};
+}
+
+void PathPiece::keep_from(std::size_t from) {
+  first = std::min(from, beads);
+  begin = LaidPath::begin_of(records, begin, first);
+  records.erase(0, first * LaidPath::record);
 }
 
 std::string LiveLayers::records_of(const Layer& layer) const {

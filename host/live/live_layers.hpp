@@ -30,6 +30,9 @@ struct PathPiece : KnownLayer {
   LaidPath::Place begin;      ///< of that bead
   std::uint8_t revision = 0;  ///< another one: records that were given before are void
   std::string records;
+
+  /// Leaves out the beads before this one. Precondition: none was left out yet.
+  void keep_from(std::size_t from);
 };
 
 class LiveLayers {
@@ -53,7 +56,7 @@ class LiveLayers {
   /// Whether layers have grown since somebody may have heard of them; clears that.
   std::vector<KnownLayer> take_changed();
 
-  /// A layer is planned; it is forgotten when it begins.
+  /// A layer is planned; the plan is forgotten when the layer ends.
   void plan(std::size_t layer, double top, LaidPath path);
   /// Whether the layer has begun, or its plan is here already.
   bool knows(std::size_t layer) const { return layer < layers_.size() || planned_.contains(layer); }
@@ -68,6 +71,8 @@ class LiveLayers {
   std::vector<KnownLayer> known() const;
   /// Absent if the layer is not known, or not any more. `from` behind the last bead: an empty piece.
   std::optional<PathPiece> piece(std::size_t layer, std::size_t from) const;
+  /// The plan of a layer that has not ended; absent if there is none.
+  std::optional<PathPiece> plan_of(std::size_t layer) const;
   /// Brings layers before `layer` to the disk until the rest has room in memory.
   void make_room(std::size_t layer);
 
@@ -94,7 +99,7 @@ class LiveLayers {
 
   const std::filesystem::path folder_;
   std::vector<Layer> layers_;
-  std::map<std::size_t, Planned> planned_;
+  std::map<std::size_t, Planned> planned_;  ///< also of the layer that has begun last
   Descriptor file_;
   bool no_file_ = false;
   std::uint64_t file_size_ = 0;

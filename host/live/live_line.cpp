@@ -291,6 +291,11 @@ std::optional<PathPiece> LiveLine::path(std::size_t layer, std::size_t from) con
   return state_->layers.piece(layer, from);
 }
 
+std::optional<PathPiece> LiveLine::plan(std::size_t layer) const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->layers.plan_of(layer);
+}
+
 std::optional<LiveNozzle> LiveLine::nozzle(const LinePlace& place, TimePoint now, double speed) {
   State& s = *state_;
   if (!s.up_to_date) return std::nullopt;

@@ -94,6 +94,8 @@ class LiveLine final : public LineFollower {
   LiveOverview overview() const;
   /// As LiveLayers::piece().
   std::optional<PathPiece> path(std::size_t layer, std::size_t from) const;
+  /// As LiveLayers::plan_of().
+  std::optional<PathPiece> plan(std::size_t layer) const;
   /// Absent before the first move, and while the spool is still being read. `speed`: M220, per cent.
   std::optional<LiveNozzle> nozzle(const LinePlace& place, TimePoint now, double speed);
   /// The layers that have become known or have grown since the last call.

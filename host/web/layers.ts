@@ -8,7 +8,7 @@ const keptPaths = 4;
 export class PrintLayers {
   info: Layers|null = null;
   private readonly paths = new Map<number, LayerPath>();
-  private readonly plans = new Map<number, LayerPath>();
+  private readonly plans = new Map<number, LayerPath|null>();  ///< null: there is none
   private readonly loading = new Map<number, Promise<LayerPath|null>>();
 
   /** Fetches what is known now; null while no print goes on. */
@@ -87,9 +87,20 @@ export class PrintLayers {
     return path;
   }
 
-  /** The plan of a layer that is not encoded to its end yet; null if this page did not see it. */
-  plan(path: LayerPath|null): LayerPath|null {
-    return path && !path.complete && !path.planned ? this.plans.get(path.layer) ?? null : null;
+  /** The plan of a layer that is not encoded to its end yet; null if it is not known. */
+  async plan(path: LayerPath|null): Promise<LayerPath|null> {
+    if (!path || path.complete || path.planned) return null;
+    const {layer} = path, known = this.plans.get(layer);
+    if (known !== undefined) return known;
+    this.plans.set(layer, null);  // a page that comes late asks for it once
+    try {
+      const plan = new LayerPath(layer);
+      plan.add(decodeChunk(await api.bytes(`/api/print/layers/${layer}/plan`)));
+      this.plans.set(layer, plan.count ? plan : null);
+    } catch (error) {
+      if (!(error instanceof ApiError)) this.plans.delete(layer);
+    }
+    return this.plans.get(layer) ?? null;
   }
 }
 

@@ -59,6 +59,8 @@ export function plural(key: string, n: number): string {
   return word(key, new Intl.PluralRules(chosen).select(n)).replace('{n}', number(n));
 }
 
+/** On one line. */
+export const together = (text: string) => text.replace(/ /g, '\u00a0');
 export const number = (value: number|null|undefined, digits = 0) => formats.number(locale, value, digits);
 export const duration = (seconds: number|null|undefined) => formats.duration(seconds, t);
 export const moment = (when: number|null|undefined) => formats.moment(locale, when);

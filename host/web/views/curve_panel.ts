@@ -137,9 +137,10 @@ export class CurvePanel extends View {
   private async fetchShown(again = true): Promise<void> {
     const layer = this.shownLayer;
     if (layer < 0) return;
-    let path: LayerPath|null;
+    let path: LayerPath|null, plan: LayerPath|null;
     try {
       path = this.layers.about(layer) ? await this.layers.path(layer) : null;
+      plan = await this.layers.plan(path);
     } catch {
       return;
     }
@@ -147,7 +148,7 @@ export class CurvePanel extends View {
     this.path = path;
     this.absent = path ? -1 : layer;
     this.curve.say(path && path.count ? '' : t('curve.unknown'));
-    this.curve.show(path, path ? laidOf(layer, live.position, path.count) : 0, this.layers.plan(path));
+    this.curve.show(path, path ? laidOf(layer, live.position, path.count) : 0, plan);
     this.showLabel();
     this.readPlan();
     const about = this.layers.about(layer);

@@ -5,7 +5,7 @@ import {h, setHidden, setText, View} from '../dom';
 import {differingWish} from '../inputs';
 import {live} from '../live';
 import type {Heater, Temperatures} from '../types';
-import {celsius, t} from '../words';
+import {celsius, t, together} from '../words';
 
 export class HeatPanel extends View {
   private rows: (number|null)[][] = [];
@@ -75,7 +75,7 @@ function heater(value: Heater|undefined): string {
   const now = celsius(value?.actual_c);
   const words = value?.target_c ? `${now} → ${celsius(value.target_c)}` : now;
   const wish = differingWish(value);
-  return wish === undefined ? words : `${words} (${t('adjust.job', {value: celsius(wish)})})`;
+  return wish === undefined ? words : `${words} (${together(t('adjust.job', {value: celsius(wish)}))})`;
 }
 
 customElements.define('heat-panel', HeatPanel);

@@ -3,7 +3,7 @@ import {api, ApiError} from '../api';
 import {fillList, h, setHidden, View} from '../dom';
 import {live} from '../live';
 import type {LogLine} from '../types';
-import {moment, said, t} from '../words';
+import {moment, said, t, translated} from '../words';
 
 const most = 200;
 
@@ -23,8 +23,7 @@ export class LogPanel extends View {
       fillList(
           list, shown, (line) => line.id,
           (line) =>
-              h('li', {class: line.from}, h('time', {}, moment(line.time)),
-                h('span', {}, line.from === 'printer' ? line.text : said(line.text))),
+              h('li', {class: line.from}, h('time', {}, moment(line.time)), h('span', {}, inWords(line))),
           () => undefined);
       setHidden(none, shown.length > 0);
       setHidden(list, shown.length === 0);
@@ -68,6 +67,15 @@ export class LogPanel extends View {
     this.every(this.all ? 3000 : 10_000, () => void refresh());
     void refresh();
   }
+}
+
+/** What the daemon notes in English, as far as it is a state or a sentence that the page knows. */
+function inWords(line: LogLine): string {
+  if (line.from === 'printer') return line.text;
+  const [, id, job, word] = /^(?:print|job (\d+) (.*)): (\w+)$/.exec(line.text) ?? [];
+  const state = translated(`state.${word}`);
+  if (!state) return said(line.text);
+  return id ? t('log.job', {id, job, state}) : t('log.print', {state});
 }
 
 customElements.define('log-panel', LogPanel);

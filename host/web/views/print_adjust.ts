@@ -5,7 +5,7 @@ import {h, View} from '../dom';
 import {differingWish} from '../inputs';
 import {live} from '../live';
 import type {Heater} from '../types';
-import {celsius, t} from '../words';
+import {celsius, t, together} from '../words';
 
 export class PrintAdjust extends View {
   protected show(): void {
@@ -65,7 +65,7 @@ export class PrintAdjust extends View {
 function besides(heater: Heater|undefined): string {
   const now = t('adjust.now', {value: celsius(heater?.actual_c)});
   const wish = differingWish(heater);
-  return wish === undefined ? now : `${now} · ${t('adjust.job', {value: celsius(wish)})}`;
+  return wish === undefined ? now : `${now} · ${together(t('adjust.job', {value: celsius(wish)}))}`;
 }
 
 customElements.define('print-adjust', PrintAdjust);

@@ -1,4 +1,5 @@
 // What a page asks the daemon about a print that goes on.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/host/support/daemon_process.hpp"
@@ -58,6 +59,21 @@ TEST_CASE("a page sees the line, the nozzle and the heat of a print, and odd req
   CHECK(status("/api/print/layers/-1/path") == 404);
   CHECK(status("/api/print/layers/99999999999999999999999/path") == 404);
   CHECK(status("/api/print/layers/0/picture") == 404);
+  CHECK(status("/api/print/layers/-1/plan") == 404);
+  const auto plan_of = [&](const std::string& of) {
+    const std::string plan = bench.send(bench.request("GET", "/api/print/layers/" + of + "/plan"));
+    return plan.substr(plan.find("\r\n\r\n") + 4);
+  };
+  CHECK(plan_of("99999").size() == 32);
+  test::await(  // the layer that grows still has its plan
+      [&] {
+        const auto now = bench.ask("GET", "/api/print/layers")["known"];
+        return std::any_of(now.begin(), now.end(), [&](const auto& one) {
+          return one["complete"] == false && one["planned"] == false &&
+                 plan_of(one["layer"].dump()).size() > 32;
+        });
+      },
+      bench.daemon());
 
   const auto heat = bench.ask("GET", "/api/temperatures");
   CHECK(heat["columns"] == nlohmann::json({"time", "nozzle", "nozzle_target", "bed", "bed_target"}));
@@ -102,6 +118,8 @@ TEST_CASE("a page sees the layers that are planned while the printer heats, and 
   const std::string path = answer.substr(answer.find("\r\n\r\n") + 4);
   REQUIRE(path.size() == 32 + 9 * known[1]["beads"].get<std::size_t>());
   CHECK(path[28] == 2);  // planned only
+  const std::string plan = bench.send(bench.request("GET", "/api/print/layers/1/plan"));
+  CHECK(plan.substr(plan.find("\r\n\r\n") + 4) == path);
   CHECK_FALSE(bench.ask("GET", "/api/print/position").contains("layer"));
   for (bool shown = false; !shown;) {
     const auto event = events.next();
