@@ -18,6 +18,8 @@ constexpr double full_trust = 0.05;      ///< linear; the logarithm of darker li
 constexpr double contrast_range = 0.15;  ///< how far the exponent of a camera's contrast usually is from 1
 constexpr double reference_noise = 0.03;
 constexpr int rounds = 6;
+constexpr double one_colour = 8;          ///< greatest ΔE between the quarters of a patch
+constexpr double most_mixed_part = 0.25;  ///< share of the patches that may be spoilt
 
 core::Box box_of(const Chart& chart) {
   return {chart.marks[0], chart.marks[2]};
@@ -64,6 +66,40 @@ CameraLaw camera_law(const Chart& chart, const std::vector<SeenPatch>& seen,
   return {{found(0), found(1), found(2)}, std::clamp(found(3), 0.5, 2.0)};
 }
 
+/// Whether the quarters of a patch look alike. They do not if a border of patches runs through it.
+bool of_one_colour(const Sheet& sheet, const core::Box& middle) {
+  const core::Vec2 quarter = middle.size() / 4;
+  std::vector<picture::Lab> seen;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const core::Vec2 place = middle.center() + core::Vec2(x * quarter.x(), y * quarter.y());
+      seen.push_back(picture::lab_of(sheet.light(place, {1, 0}, quarter.x(), quarter.y()).light));
+    }
+  }
+  for (const picture::Lab& one : seen) {
+    if (picture::difference(one, seen.front()) > one_colour ||
+        picture::difference(one, seen.back()) > one_colour)
+      return false;
+  }
+  return true;
+}
+
+/// Another chart may have its marks in similar places, but not its patches.
+void expect_this_chart(const Sheet& sheet, const Chart& chart, const std::filesystem::path& file) {
+  const auto mixed = std::count_if(chart.patches.begin(), chart.patches.end(), [&](const ChartPatch& patch) {
+    return !of_one_colour(sheet, patch.middle);
+  });
+  const auto all = std::ssize(chart.patches);
+  if (static_cast<double>(mixed) <= most_mixed_part * static_cast<double>(all)) return;
+  throw core::DataError(
+      file.string(), "",
+      fmt::format("shows another chart than this profile's: {} of its {} patches are not of one colour",
+                  mixed, all),
+      "use the profile with which the chart was printed, with the dead and mixing volume that it had then, "
+      "and a "
+      "photo without reflections");
+}
+
 }  // namespace
 
 SheetPlan sheet_plan(const Chart& chart) {
@@ -91,6 +127,7 @@ std::vector<SeenPatch> read_chart(const Sheet& sheet, const Chart& chart, const 
     throw core::DataError(file.string(), "", fmt::format("shows feeder {} too bright", f + 1),
                           "take a photo with less exposure, without reflections");
   }
+  expect_this_chart(sheet, chart, file);
   const EvenLight even(known, box_of(chart));
   for (SeenPatch& one : seen) one.light = even.evened(chart.patches[one.patch].middle.center(), one.light);
   return seen;
