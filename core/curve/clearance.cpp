@@ -11,9 +11,12 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double safe_share = 0.45;  ///< share of a clearance that either side may use; less than one half
-constexpr double rounding = 1e-14;   ///< a distance that may be zero, as a share of the largest coordinate
-constexpr std::size_t range = 1024;  ///< segments per piece of parallel work
+constexpr double safe_share = 0.45;    ///< share of a clearance that either side may use; less than one half
+constexpr double rounding = 1e-14;     ///< a distance that may be zero, as a share of the largest coordinate
+constexpr double headroom = 1 + 1e-6;  ///< on how far is searched, for rounding
+constexpr double least_margin = 1e-9;  ///< mm, for rounding
+constexpr std::size_t few = 6;         ///< a curve of fewer segments is searched as a whole
+constexpr std::size_t range = 1024;    ///< segments per piece of parallel work
 
 double mean_length(const std::vector<Segment>& segments) {
   double sum = 0;
@@ -52,6 +55,7 @@ class Strands {
       ax_[k] = s.a.x(), ay_[k] = s.a.y();
       ux_[k] = u.x(), uy_[k] = u.y();
       inverse_[k] = inverse(u);
+      half_length_ = std::max(half_length_, headroom * u.norm() / 2);
     }
     from_start_.assign(segments.size(), reach * reach);
     from_end_ = from_start_;
@@ -62,7 +66,7 @@ class Strands {
     std::vector<double> to_segments, to_points;
     for (std::size_t i = first; i < last; ++i) {
       const Segment& s = segments_[i];
-      const Vec2 margin = Vec2::Constant(reach_ + rows_.half_length());
+      const Vec2 margin = Vec2::Constant(reach_of(i) + half_length_);
       const Vec2 low = s.a.cwiseMin(s.b) - margin, high = s.a.cwiseMax(s.b) + margin, u = s.b - s.a;
       Found found{i, reach_ * reach_, reach_ * reach_};
       const std::ptrdiff_t from = rows_.column(low.x()), to = rows_.column(high.x());
@@ -93,6 +97,17 @@ class Strands {
     std::size_t segment;
     double own, before;
   };
+
+  /// How far from segment i others can matter: the next two places along the curve on either side bound what
+  /// is found for the segment and for the one before it.
+  double reach_of(std::size_t i) const {
+    if (curve_.size() < few) return reach_;
+    const Segment &s = segments_[i], &after = segments_[curve_.after(i)];
+    const double own = std::min(distance_to_segment(after.b, s.a, s.b),
+                                distance_to_segment(segments_[curve_.before(i)].a, s.a, s.b));
+    const double before = distance_to_segment(s.a, after.a, after.b);
+    return std::min(reach_, headroom * std::max(own, before));
+  }
 
   static double inverse(const Vec2& u) {
     const double length2 = u.squaredNorm();
@@ -125,6 +140,7 @@ class Strands {
   const std::vector<Segment>& segments_;
   SegmentRows rows_;
   double reach_;
+  double half_length_ = least_margin;                ///< of the longest segment in rows_, mm
   std::vector<double> ax_, ay_, ux_, uy_, inverse_;  ///< in the order of rows_
   std::vector<double> from_start_, from_end_;        ///< per segment, found at its start and at its end
 };

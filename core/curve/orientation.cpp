@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace unicursal::core {
 namespace {
@@ -55,18 +56,17 @@ double isotropy_distance(std::vector<Stroke> strokes) {
 
 double isotropy_with_gradient(const Curve& curve, const std::vector<char>& counts, double weight,
                               std::vector<Vec2>& gradient) {
-  std::vector<std::size_t> order;
-  std::vector<Stroke> strokes(curve.size());
+  std::vector<std::pair<double, std::size_t>> order;  // angle and segment
   for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (!counts[i]) continue;
     const Vec2 u = curve.vertices[curve.after(i)] - curve.vertices[i];
-    strokes[i] = {modulo_pi(std::atan2(u.y(), u.x())), u.norm()};
-    if (counts[i] && strokes[i].length > 0) order.push_back(i);
+    if (u.norm() > 0) order.emplace_back(modulo_pi(std::atan2(u.y(), u.x())), i);
   }
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return strokes[a].angle != strokes[b].angle ? strokes[a].angle < strokes[b].angle : a < b;
-  });
+  std::sort(order.begin(), order.end());
   std::vector<Stroke> sorted;
-  for (const std::size_t i : order) sorted.push_back(strokes[i]);
+  sorted.reserve(order.size());
+  for (const auto& [angle, i] : order)
+    sorted.push_back({angle, (curve.vertices[curve.after(i)] - curve.vertices[i]).norm()});
   const Transport transport(std::move(sorted));
   if (!(transport.length > 0)) return 0;
 
@@ -89,7 +89,7 @@ double isotropy_with_gradient(const Curve& curve, const std::vector<char>& count
   for (std::size_t k = n; k-- > 0;) {
     after += jump[k];
     const double stretch = (after - weighted) / transport.length;
-    const std::size_t i = order[k], j = curve.after(i);
+    const std::size_t i = order[k].second, j = curve.after(i);
     const Vec2 u = curve.vertices[j] - curve.vertices[i];
     const double l = transport.sorted[k].length;
     const Vec2 pull = weight * (turn[k] / (l * l) * perpendicular(u) + stretch / l * u);

@@ -108,7 +108,8 @@ class ListMaker {
       const std::size_t first = lattice_.group_start[group] - first_block,
                         last = lattice_.group_start[group + 1] - first_block;
       choose_ranges(box_of(first, last));
-      for (std::size_t c = first; c < last; ++c) needed = std::max(needed, list_for(circles_[c]));
+      for (std::size_t c = first; c < last; ++c)
+        needed = std::max(needed, list_for(circles_[c], lattice_.blocks[first_block + c]));
       if (needed > reach_) break;
     }
     return needed;
@@ -117,6 +118,7 @@ class ListMaker {
   void gather() {
     lists_.segments.clear();
     arrays_.clear();
+    local_.clear();
     runs_.clear();
     const Box box = box_of(0, circles_.size());
     const std::ptrdiff_t from = rows_.column(box.min.x()), to = rows_.column(box.max.x());
@@ -139,7 +141,8 @@ class ListMaker {
 
   void add(std::int32_t segment) {
     lists_.segments.push_back(segment);
-    arrays_.add(in_tile(segments_[static_cast<std::size_t>(segment)], tile_.corner));
+    local_.push_back(in_tile(segments_[static_cast<std::size_t>(segment)], tile_.corner));
+    arrays_.add(local_.back());
   }
 
   /// Chooses the parts of the tile's runs that lie in the box of a group.
@@ -156,7 +159,8 @@ class ListMaker {
     if (first_long_ < lists_.segments.size()) ranges_.emplace_back(first_long_, lists_.segments.size());
   }
 
-  double list_for(const Circle& circle) {
+  /// Lists what may be nearest within the circle, and of that what may be nearest to a sample.
+  double list_for(const Circle& circle, const Lattice::Block& block) {
     std::size_t count = 0;
     float nearest2 = infinite;
     for (const auto& [begin, end] : ranges_) {
@@ -169,12 +173,17 @@ class ListMaker {
     }
     const float limit = (std::sqrt(nearest2) + 2 * circle.radius + slack_) * (1 + rounding);
     // Without branches: they would be unpredictable.
-    std::size_t kept = entries_.size();
+    const std::size_t before = entries_.size();
+    std::size_t kept = before;
     entries_.resize(kept + count + 1);
     for (std::size_t k = 0; k < count; ++k) {
       entries_[kept] = candidate_[k];
       kept += distance2_[k] <= limit * limit ? 1 : 0;
     }
+    const Lattice::BorderBlock* border =
+        block.border < 0 ? nullptr : &lattice_.borders[static_cast<std::size_t>(block.border)];
+    kept = before + keep_near(block, border, static_cast<float>(lattice_.pitch), local_.data(), slack_,
+                              entries_.data() + before, kept - before, scratch_);
     entries_.resize(kept);
     lists_.start.push_back(static_cast<std::uint32_t>(kept));
     return limit;
@@ -191,6 +200,8 @@ class ListMaker {
   std::vector<Run> runs_;
   std::size_t first_long_ = 0;
   SegmentArrays arrays_;
+  std::vector<TileSegment> local_;  ///< the same, one after the other
+  std::vector<float> scratch_;
   std::vector<std::pair<std::size_t, std::size_t>> ranges_;
   std::vector<float> distance2_;
   std::vector<std::int32_t> candidate_, entries_;

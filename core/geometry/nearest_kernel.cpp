@@ -15,6 +15,7 @@ namespace {
 
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
+using Longs = std::int64_t __attribute__((vector_size(32)));
 using Quad = float __attribute__((vector_size(16)));
 using Doubles = double __attribute__((vector_size(32)));
 
@@ -23,6 +24,7 @@ constexpr Floats square_x{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
 constexpr Floats square_y{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
 constexpr float same_direction = 0.5F;  ///< cosine above which two nearest points lie in the same direction
 constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float list_rounding = 1e-5F;  ///< relative; added to the limit that decides which segments are kept
 
 /// The nearest point of a segment, per sample.
 struct Foot {
@@ -78,10 +80,9 @@ UNICURSAL_INLINE void add(std::array<float, 4>* sums, const Foot& foot, const Fl
 /// near, but the border between them and the owner does not matter.
 UNICURSAL_INLINE Foot competitor(const TileScan& tile, std::uint32_t begin, std::uint32_t end,
                                  const Floats& x, const Floats& y, const Foot& own) {
+  const Ints first{}, owner = own.owner < first ? first : own.owner;
   Ints place{};
-  for (std::size_t k = 0; k < Lattice::lanes; ++k) {
-    place[k] = own.owner[k] < 0 ? 0 : tile.along[own.owner[k]];
-  }
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) place[k] = tile.along[owner[k]];
   const Floats zero{};
   Foot other = nowhere();
   for (std::uint32_t e = begin; e < end; ++e) {
@@ -140,7 +141,7 @@ double scan_blocks(const TileScan& tile) {
     own.owner = mass > zero ? own.owner : all;
     std::memcpy(tile.owner + Lattice::lanes * b, &own.owner, sizeof own.owner);
     Floats mean = own.distance2;
-    if (tile.along != nullptr) {
+    if (tile.along != nullptr && begin < end) {
       const Foot other = competitor(tile, begin, end, x, y, own);
       const Floats share = split(own, other, tile.pitch, mean);
       add(tile.sums, other, share * mass);
@@ -152,6 +153,39 @@ double scan_blocks(const TileScan& tile) {
     for (std::size_t k = 0; k < Lattice::lanes; ++k) moment += mass[k] > 0 ? weighed[k] : 0.0F;
   }
   return moment;
+}
+
+UNICURSAL_VECTORISED
+std::size_t keep_near(const Lattice::Block& block, const Lattice::BorderBlock* border, float pitch,
+                      const TileSegment* segments, float slack, std::int32_t* entries, std::size_t count,
+                      std::vector<float>& scratch) {
+  const Floats zero{};
+  Floats x = block.x + pitch * square_x, y = block.y + pitch * square_y, mass = zero + 1.0F;
+  if (border != nullptr) {
+    std::memcpy(&x, border->x.data(), sizeof x);
+    std::memcpy(&y, border->y.data(), sizeof y);
+    std::memcpy(&mass, border->weight.data(), sizeof mass);
+  }
+  scratch.resize(Lattice::lanes * count);
+  Floats nearest = zero + infinite;
+  for (std::size_t e = 0; e < count; ++e) {
+    const Floats d = foot_on(segments[entries[e]], 0, x, y).distance2;
+    std::memcpy(scratch.data() + Lattice::lanes * e, &d, sizeof d);
+    nearest = d < nearest ? d : nearest;
+  }
+  Floats limit = (root(nearest) + slack) * (1 + list_rounding);
+  limit = mass > zero ? limit * limit : zero - 1.0F;
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < count; ++e) {
+    Floats d;
+    std::memcpy(&d, scratch.data() + Lattice::lanes * e, sizeof d);
+    const Ints within = d <= limit;
+    Longs pairs;
+    std::memcpy(&pairs, &within, sizeof pairs);
+    entries[kept] = entries[e];
+    kept += ((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) != 0 ? 1 : 0;
+  }
+  return kept;
 }
 
 UNICURSAL_VECTORISED

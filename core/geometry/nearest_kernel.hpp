@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/geometry/lattice.hpp"
 
@@ -34,6 +35,13 @@ struct TileScan {
 
 /// Finds owners, adds to the sums, and returns Σ m · distance².
 double scan_blocks(const TileScan& tile);
+
+/// Drops those of `count` entries whose segments are, for every sample with weight, farther than the nearest
+/// one by more than `slack`. Returns how many are left, in their order at the beginning of `entries`.
+/// `border` is null for a block wholly inside. `scratch` is used for distances.
+std::size_t keep_near(const Lattice::Block& block, const Lattice::BorderBlock* border, float pitch,
+                      const TileSegment* segments, float slack, std::int32_t* entries, std::size_t count,
+                      std::vector<float>& scratch);
 
 /// Squared distances from (x, y) to segments, given as one array for each member of TileSegment. Works on
 /// eight at a time, and so reads and writes up to seven entries past `count`.
