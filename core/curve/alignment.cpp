@@ -1,7 +1,6 @@
 #include "core/curve/alignment.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace unicursal::core {
 namespace {
@@ -9,9 +8,11 @@ namespace {
 constexpr double least_field = 0.1;  ///< a smaller ‖V‖ asks for no direction
 constexpr int pieces = 4;            ///< of a segment; the field is looked up in each
 
-/// The angle from direction `v` (a doubled vector) to the line along `u`, in [−π/2, π/2].
+/// The angle from direction `v` (a doubled vector) to the line along `u`, in [−π/2, π/2]: half of the angle
+/// from v to u, doubled.
 double angle_between(const Vec2& u, const Vec2& v) {
-  return std::remainder(std::atan2(u.y(), u.x()) - direction(v), std::numbers::pi);
+  const Vec2 doubled(u.x() * u.x() - u.y() * u.y(), 2 * u.x() * u.y());
+  return std::atan2(cross(v, doubled), v.dot(doubled)) / 2;
 }
 
 }  // namespace
@@ -49,21 +50,31 @@ double Alignment::evaluate(const Curve& curve, const LatticeOwners& owners, doub
   return value;
 }
 
-double alignment_along(const Curve& curve, const DirectionField& field, double turn, double width,
-                       double weight, std::vector<Vec2>& gradient) {
+std::vector<Vec2> asked_along(const Curve& curve, const DirectionField& field, double turn) {
   const double c = std::cos(turn), s = std::sin(turn);
+  const double c2 = std::cos(2 * turn), s2 = std::sin(2 * turn);
+  std::vector<Vec2> asked(curve.size(), Vec2(0, 0));
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vec2 middle = (curve.vertices[i] + curve.vertices[curve.after(i)]) / 2;
+    const Vec2 v = field.at({c * middle.x() + s * middle.y(), c * middle.y() - s * middle.x()});
+    if (v.norm() >= least_field) asked[i] = {c2 * v.x() - s2 * v.y(), s2 * v.x() + c2 * v.y()};
+  }
+  return asked;
+}
+
+double alignment_along(const Curve& curve, const std::vector<Vec2>& asked, double width, double weight,
+                       std::vector<Vec2>& gradient) {
   double value = 0;
   for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double strength = width * asked[i].norm();
+    if (!(strength > 0)) continue;
     const std::size_t j = curve.after(i);
-    const Vec2 u = curve.vertices[j] - curve.vertices[i],
-               middle = (curve.vertices[i] + curve.vertices[j]) / 2;
+    const Vec2 u = curve.vertices[j] - curve.vertices[i];
     const double length = u.norm();
-    const Vec2 v = field.at({c * middle.x() + s * middle.y(), c * middle.y() - s * middle.x()});
-    if (!(length > 0) || v.norm() < least_field) continue;
-    const double asked = width * v.norm();
-    const double off = std::remainder(std::atan2(u.y(), u.x()) - turn - direction(v), std::numbers::pi);
-    value += asked * length * off * off;
-    const Vec2 pull = weight * asked * off / length * (off * u + 2 * perpendicular(u));
+    if (!(length > 0)) continue;
+    const double off = angle_between(u, asked[i]);
+    value += strength * length * off * off;
+    const Vec2 pull = weight * strength * off / length * (off * u + 2 * perpendicular(u));
     gradient[i] -= pull;
     gradient[j] += pull;
   }

@@ -36,11 +36,15 @@ class Alignment {
   std::vector<std::array<float, 2>> values_;  ///< ∫ V over each sample's piece of the island, mm²
 };
 
-/// The same objective with the area of each segment's cell taken as its length times `width` mm, and the
-/// field looked up in its middle: the gradient then leaves out only that the field varies, so that descent
-/// does not stall, and no cell is needed. The curve is turned by `turn` rad against the field.
-double alignment_along(const Curve& curve, const DirectionField& field, double turn, double width,
-                       double weight, std::vector<Vec2>& gradient);
+/// The field in the middle of each segment, in the frame of a curve that is turned by `turn` rad against it.
+/// Vectors that are too short to ask for a direction are zero.
+std::vector<Vec2> asked_along(const Curve& curve, const DirectionField& field, double turn);
+
+/// The same objective with the area of each segment's cell taken as its length times `width` mm, and with
+/// what asked_along() has found for a curve nearby: the gradient is then exact, so that descent does not
+/// stall where the field jumps, and no cell is needed.
+double alignment_along(const Curve& curve, const std::vector<Vec2>& asked, double width, double weight,
+                       std::vector<Vec2>& gradient);
 
 /// Mean squared angle between the curve and the field, weighted by length, where the field asks for a
 /// direction, rad². A curve that ignores the field gives π²/12 = 0.82. Zero if no direction is asked along

@@ -116,17 +116,34 @@ class Fairer {
     const double finer = static_cast<double>(curve.size()) / coarse;
     const double smooth = options_.smoothness * per_vertex * finer * finer * finer;
     value += smooth * smoothness_with_gradient(curve, smooth, gradient);
-    const double weight = alignment_weight_ * options_.bead_width * options_.bead_width;
-    if (!alignment_.empty()) {
-      value += weight * alignment_.evaluate(curve, coverage_.owners(), weight, gradient);
-    } else if (options_.field != nullptr) {
-      value += weight * alignment_along(curve, *options_.field, irrational_turn, options_.bead_width, weight,
-                                        gradient);
-    }
+    if (!alignment_.empty())
+      value += field_weight() * alignment_.evaluate(curve, coverage_.owners(), field_weight(), gradient);
+    value += along_field(curve, field_weight(), gradient);
     value += orientation(curve, gradient);
     const double excess = curve.length() - options_.target_length;
     length_with_gradient(curve, multiplier_ + 2 * stiffness_ * excess, gradient);
     return value + multiplier_ * excess + stiffness_ * excess * excess;
+  }
+
+  double field_weight() const { return alignment_weight_ * options_.bead_width * options_.bead_width; }
+
+  double along_field(const Curve& curve, double weight, Field& gradient) const {
+    if (asked_.empty()) return 0;
+    return weight * alignment_along(curve, asked_, options_.bead_width, weight, gradient);
+  }
+
+  /// Looks up the field where the curve is now, which until the next call is taken not to change.
+  void look_up_field(const Curve& curve) {
+    if (options_.field != nullptr && options_.alignment_by_length)
+      asked_ = asked_along(curve, *options_.field, irrational_turn);
+  }
+
+  /// Looks up the field again, and puts right what depends on it.
+  void follow_field(const Curve& curve, double& value, Field& gradient) {
+    if (asked_.empty()) return;
+    value += along_field(curve, -field_weight(), gradient);
+    look_up_field(curve);
+    value += along_field(curve, field_weight(), gradient);
   }
 
   double orientation(const Curve& curve, Field& gradient) const {
@@ -180,6 +197,7 @@ class Fairer {
       curve = std::move(trial);
       value = trial_value;
       gradient = std::move(trial_gradient);
+      follow_field(curve, value, gradient);
       leash_.follow(curve);
       return true;
     }
@@ -191,6 +209,7 @@ class Fairer {
     newton_.forget({curve.vertices, finest_wave * w, wave_strength});
     leash_.fasten(curve);
     look_up_zones(curve);
+    look_up_field(curve);
     Field gradient;
     double value = evaluate(curve, gradient);
     for (int i = 0; i < iterations; ++i) {
@@ -221,6 +240,7 @@ class Fairer {
   Lattice lattice_;
   Coverage coverage_;
   Alignment alignment_;
+  Field asked_;  ///< per segment, if alignment is by length
   Leash leash_;
   QuasiNewton newton_;
   std::vector<std::vector<char>>
