@@ -36,8 +36,8 @@ struct FairingOptions {
   double target_length = 0;      ///< mm
   bool hold_length = true;       ///< false: coverage alone decides on the length, as thin islands need
   double bead_width = 0;         ///< mm, area ÷ target length: the unit of the weights below
-  int coarse_iterations = 40;    ///< on the given curve
-  int fine_iterations = 40;      ///< on the subdivided curve
+  int coarse_iterations = 34;    ///< on the given curve
+  int fine_iterations = 34;      ///< on the subdivided curve
   double samples_per_width = 5;  ///< lattice squares per bead width
   const DirectionField* field = nullptr;  ///< the directions to follow; null if there are none
   // Weight of (33) on the given curve, square bead widths; compare γ_Obj (54).
