@@ -130,26 +130,29 @@ TEST_CASE("A photo of the chart is enough: colours then come out as wanted", "[t
   }
 }
 
-TEST_CASE("A photo of another chart, or of other filaments, is refused, and the profile stays",
-          "[tuning][optimised]") {
-  ColourStudio studio({Dye::blue, Dye::red, Dye::white});
+TEST_CASE("A photo whose patches are elsewhere is refused, and the profile stays", "[tuning][optimised]") {
+  const ColourStudio studio({Dye::blue, Dye::red, Dye::white});
   const std::string rasters = (studio.folder / "rasters").string();
   REQUIRE(run({"tune", "colours", studio.profile, "--simulate", "--rasters", rasters}).code == 0);
   const PrintedChart print(rasters, studio.optics);
   const core::Box box{studio.chart.marks[0], studio.chart.marks[2]};
   const std::string file = (studio.folder / "chart.png").string();
   picture::write_png(file, photo_of(print, box, {}));
-  // With a larger chamber the patches lie farther apart.
-  const auto volumes = [](const std::string& text) {
-    return text + "\n[transition]\ndead_volume = 9.0\nmixing_volume = 12.0\n";
-  };
-  REQUIRE(studio.text.find("[transition]") == std::string::npos);
-  const std::string other = studio.folder.write("other.toml", volumes(studio.text)).string();
-  const Outcome refused = run({"tune", "colours", other, "--photo", file, "--yes"});
+  // Corners half a patch beside the marks. The inverse of photo_of().
+  std::string corners;
+  const double scale = 1.3 * std::max(box.size().x(), box.size().y() * 1500 / 900);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const core::Vec2 at = (studio.chart.marks[i] + core::Vec2(7, 0) - box.center()) / scale;
+    const double slant = 1 / (1 - 0.15 * at.x() + 0.2 * at.y());
+    corners += (i > 0 ? "," : "") + std::to_string((at.x() * slant + 0.5) * 1500) + "," +
+               std::to_string(450 - at.y() * slant * 1500);
+  }
+  const Outcome refused =
+      run({"tune", "colours", studio.profile, "--photo", file, "--corners", corners, "--yes"});
   INFO(refused.out << refused.err);
   CHECK(refused.code == 2);
   CHECK(refused.err.find("another chart") != std::string::npos);
-  CHECK(test::read_text(other) == volumes(studio.text));
+  CHECK(test::read_text(studio.profile) == studio.text);
 }
 
 TEST_CASE("A photo that does not show the chart is refused, and the profile stays", "[tuning]") {
