@@ -9,7 +9,7 @@
 namespace unicursal::bench {
 namespace {
 
-constexpr double chart_width = 460, chart_height = 300, chart_left = 62, chart_bottom = 44, chart_top = 26;
+constexpr double chart_width = 460, chart_height = 300, chart_left = 74, chart_bottom = 44, chart_top = 26;
 constexpr double legend_line = 16;
 constexpr int ticks = 4;
 constexpr double bars_width = 220, bars_height = 90;
@@ -71,15 +71,18 @@ std::string line_chart(const ChartLabels& labels, const std::vector<Series>& ser
                        chart_height - chart_bottom + 16, vx);
   }
   for (const Series& s : series) svg += curve_of(s, x, y);
+  // The names stand where falling or rising lines leave room.
+  const bool falling = series.front().y.front() > series.front().y.back();
   double at = chart_top + 14;
   for (const Series& s : series) {
-    svg += fmt::format("<text x='{}' y='{}' class='n' fill='{}'>{}</text>", chart_left + 10, at, s.colour,
-                       s.name);
+    svg +=
+        fmt::format("<text x='{}' y='{}' class='n{}' fill='{}'>{}</text>",
+                    falling ? chart_width - 20 : chart_left + 10, at, falling ? " e" : "", s.colour, s.name);
     at += legend_line;
   }
   svg += fmt::format("<text x='{}' y='{}' class='n m'>{}</text>", (chart_left + chart_width) / 2,
                      chart_height - 8, labels.x);
-  svg += fmt::format("<text x='14' y='{0}' class='n m' transform='rotate(-90 14 {0})'>{1}</text></svg>",
+  svg += fmt::format("<text x='12' y='{0}' class='n m' transform='rotate(-90 12 {0})'>{1}</text></svg>",
                      chart_height / 2 - 8, labels.y);
   return svg;
 }

@@ -24,7 +24,7 @@ th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #
 .yes{color:#146c37}.no{color:#b3261e}.best{font-weight:700}.dim{color:#5a6675}
 .row{display:grid;grid-template-columns:repeat(4,1fr);gap:14px}figure{margin:0}
 figure img{width:100%;height:auto;border:1px solid #e2e7ee;background:#fff}figcaption{font-size:13px;color:#5a6675}
-.charts{display:flex;flex-wrap:wrap;gap:24px}svg{background:#fafbfc}
+.charts{display:flex;flex-wrap:wrap;align-items:flex-start;gap:24px}svg{background:#fafbfc}
 .n{font-size:12px}.t{font-size:14px;font-weight:600}.e{text-anchor:end}.m{text-anchor:middle}
 .g{stroke:#dfe4ea}.one{stroke:#b3261e;stroke-dasharray:3 3}
 )";
@@ -77,7 +77,7 @@ const std::vector<Row>& rows_of_figures() {
       {"overfill with own areas, %", "{:.2f}", [](F f) { return std::optional(100 * f.own.overfill); }},
       {"squared angle to the asked directions, rad²", "{:.3f}", [](F f) { return f.alignment; }},
       {"E_iso of the isotropic zones, rad²", "{:.5f}", [](F f) { return f.isotropy; }},
-      {"iterations", "{:.0f}",
+      {"iterations (ours: sweeps of the cycle and steps of fairing)", "{:.0f}",
        [](F f) -> std::optional<double> {
          if (f.iterations == 0) return std::nullopt;
          return number(f.iterations);
