@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace unicursal::host {
 
@@ -69,17 +70,28 @@ std::vector<KnownLayer> LiveLayers::known() const {
   return known;
 }
 
-std::optional<PathPiece> LiveLayers::piece(std::size_t number, std::size_t from) const {
+std::optional<LiveLayers::Found> LiveLayers::find(std::size_t number) const {
   if (number >= layers_.size()) {
     std::optional<PathPiece> plan = plan_of(number);
-    if (plan) plan->keep_from(from);
-    return plan;
+    if (!plan) return std::nullopt;
+    return Found{std::move(*plan), std::nullopt};
   }
   const Layer& layer = layers_[number];
-  PathPiece piece{layer.known(number), 0, layer.first, layer.revision, records_of(layer)};
-  if (layer.lost || piece.records.size() != layer.beads() * LaidPath::record) return std::nullopt;
+  if (layer.lost) return std::nullopt;
+  return Found{{layer.known(number), 0, layer.first, layer.revision, layer.path ? layer.path->bytes() : ""},
+               layer.offset};
+}
+
+std::optional<PathPiece> LiveLayers::piece(Found found, std::size_t from) const {
+  PathPiece& piece = found.piece;
+  if (found.offset) {
+    piece.records.resize(piece.beads * LaidPath::record);
+    const ssize_t read =
+        ::pread(file_.get(), piece.records.data(), piece.records.size(), static_cast<off_t>(*found.offset));
+    if (read != static_cast<ssize_t>(piece.records.size())) return std::nullopt;
+  }
   piece.keep_from(from);
-  return piece;
+  return std::move(piece);
 }
 
 std::optional<PathPiece> LiveLayers::plan_of(std::size_t number) const {
@@ -95,42 +107,35 @@ void PathPiece::keep_from(std::size_t from) {
   records.erase(0, first * LaidPath::record);
 }
 
-std::string LiveLayers::records_of(const Layer& layer) const {
-  if (layer.path) return layer.path->bytes();
-  std::string records(layer.on_disk * LaidPath::record, '\0');
-  if (!layer.offset) return records;
-  const ssize_t read =
-      ::pread(file_.get(), records.data(), records.size(), static_cast<off_t>(*layer.offset));
-  records.resize(read > 0 ? static_cast<std::size_t>(read) : 0);
-  return records;
-}
-
-void LiveLayers::make_room(std::size_t number) {
+std::optional<std::size_t> LiveLayers::next_to_move(std::size_t number) {
   std::size_t bytes = 0;
   for (std::size_t i = moved_; i < layers_.size(); ++i) bytes += layers_[i].beads() * LaidPath::record;
   for (; moved_ < std::min(number, layers_.size()) && bytes > most_in_memory; ++moved_) {
-    Layer& layer = layers_[moved_];
+    const Layer& layer = layers_[moved_];
     if (!layer.complete) break;
     bytes -= layer.beads() * LaidPath::record;
-    if (layer.path) put_on_disk(layer);
+    if (layer.path) return moved_;
   }
+  return std::nullopt;
 }
 
 /// The file has no name, so that nothing is left of it however this program ends.
-void LiveLayers::put_on_disk(Layer& layer) {
+std::optional<std::uint64_t> LiveLayers::write_out(std::size_t number) {
   if (!file_ && !no_file_ && !folder_.empty())
     file_.reset(::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   no_file_ = !file_;
-  const std::string& bytes = layer.path->bytes();
+  const std::string& bytes = layers_[number].path->bytes();
   const ssize_t written =
       file_ ? ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(file_size_)) : -1;
-  if (written == static_cast<ssize_t>(bytes.size())) {
-    layer.on_disk = layer.path->size();
-    layer.offset = file_size_;
-    file_size_ += bytes.size();
-  } else {
-    layer.lost = true;
-  }
+  if (written != static_cast<ssize_t>(bytes.size())) return std::nullopt;
+  return std::exchange(file_size_, file_size_ + bytes.size());
+}
+
+void LiveLayers::moved(std::size_t number, std::optional<std::uint64_t> offset) {
+  Layer& layer = layers_[number];
+  layer.offset = offset;
+  layer.lost = !offset;
+  if (offset) layer.on_disk = layer.path->size();
   layer.path.reset();
 }
 

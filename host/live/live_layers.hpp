@@ -69,12 +69,25 @@ class LiveLayers {
   void back_to(const Mark& mark);
 
   std::vector<KnownLayer> known() const;
-  /// Absent if the layer is not known, or not any more. `from` behind the last bead: an empty piece.
-  std::optional<PathPiece> piece(std::size_t layer, std::size_t from) const;
+  /// A layer's way that was found, and perhaps still lies on the disk.
+  struct Found {
+    PathPiece piece;  ///< with all records, unless they are on the disk
+    std::optional<std::uint64_t> offset;
+  };
+  /// Absent if the layer is not known, or not any more.
+  std::optional<Found> find(std::size_t layer) const;
+  /// What was found, from the bead `from` on; behind the last bead: an empty piece. May read the disk, also
+  /// while another thread changes the layers. Absent if it cannot be read.
+  std::optional<PathPiece> piece(Found found, std::size_t from) const;
+
+  /// The next layer before `layer` that is to be brought to the disk, until the rest has room in memory.
+  std::optional<std::size_t> next_to_move(std::size_t layer);
+  /// Writes it, which may take long; changes nothing that others look at. Absent: the disk has no room.
+  std::optional<std::uint64_t> write_out(std::size_t layer);
+  /// It is there now, at this offset; or it is lost.
+  void moved(std::size_t layer, std::optional<std::uint64_t> offset);
   /// The plan of a layer that has not ended; absent if there is none.
   std::optional<PathPiece> plan_of(std::size_t layer) const;
-  /// Brings layers before `layer` to the disk until the rest has room in memory.
-  void make_room(std::size_t layer);
 
  private:
   struct Layer {
@@ -94,13 +107,10 @@ class LiveLayers {
     LaidPath path;
     bool changed = true;
   };
-  void put_on_disk(Layer& layer);
-  std::string records_of(const Layer& layer) const;
-
   const std::filesystem::path folder_;
   std::vector<Layer> layers_;
   std::map<std::size_t, Planned> planned_;  ///< also of the layer that has begun last
-  Descriptor file_;
+  Descriptor file_;                         ///< is open before the first offset in it is known
   bool no_file_ = false;
   std::uint64_t file_size_ = 0;
   std::size_t moved_ = 0;  ///< layers before this one are not in memory

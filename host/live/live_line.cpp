@@ -76,6 +76,7 @@ struct LiveLine::State {
   void read_kept(const std::stop_token& stop);
   void take(Chunk chunk, const std::stop_token& stop);
   void take(Interposed interposed, const std::stop_token& stop);
+  void make_room();
   void run(const std::stop_token& stop);
   void plan(const gcode::PlacedLayer& layer);
   std::optional<LaidPath> planned_path(const gcode::PlacedLayer& layer) const;
@@ -162,10 +163,23 @@ void LiveLine::State::take(Chunk chunk, const std::stop_token& stop) {
     const std::lock_guard lock(mutex);
     const std::uint64_t done = executed;
     lines.drop_before(done);
-    layers.make_room(lines.first_open_layer());
     lines.append(std::move(chunk.batch));
   }
+  make_room();
   run(stop);
+}
+
+/// Only this thread changes layers; others may look at them while one is written to the disk.
+void LiveLine::State::make_room() {
+  for (;;) {
+    std::unique_lock lock(mutex);
+    const auto next = layers.next_to_move(lines.first_open_layer());
+    if (!next) return;
+    lock.unlock();
+    const auto offset = layers.write_out(*next);
+    lock.lock();
+    layers.moved(*next, offset);
+  }
 }
 
 void LiveLine::State::take(Interposed interposed, const std::stop_token& stop) {
@@ -287,8 +301,13 @@ LiveOverview LiveLine::overview() const {
 }
 
 std::optional<PathPiece> LiveLine::path(std::size_t layer, std::size_t from) const {
-  const std::lock_guard lock(state_->mutex);
-  return state_->layers.piece(layer, from);
+  std::optional<LiveLayers::Found> found;
+  {
+    const std::lock_guard lock(state_->mutex);
+    found = state_->layers.find(layer);
+  }
+  if (!found) return std::nullopt;
+  return state_->layers.piece(std::move(*found), from);
 }
 
 std::optional<PathPiece> LiveLine::plan(std::size_t layer) const {

@@ -92,7 +92,8 @@ class LiveLine final : public LineFollower {
   void executed(std::uint64_t line);
 
   LiveOverview overview() const;
-  /// As LiveLayers::piece().
+  /// A layer's way from the bead `from` on; behind the last bead: an empty piece. Absent if the layer is not
+  /// known, or not any more. May read the disk.
   std::optional<PathPiece> path(std::size_t layer, std::size_t from) const;
   /// As LiveLayers::plan_of().
   std::optional<PathPiece> plan(std::size_t layer) const;
