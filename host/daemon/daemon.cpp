@@ -47,7 +47,10 @@ Daemon::Daemon(asio::io_context& loop, const DaemonOptions& options)
       options_(options),
       files_(options.jobs, options.state / "files"),
       queue_(options.state / "queue.json"),
-      past_prints_(folder_of_prints(options)),
+      past_prints_(folder_of_prints(options),
+                   [this](const std::string& trouble) {
+                     asio::post(loop_, [this, trouble] { note_history(trouble); });
+                   }),
       sketch_timer_(loop),
       dry_runs_(loop, options.state / "dry-runs", [this](const json& event) { broadcast(event); }),
       progress_(loop),
@@ -72,6 +75,17 @@ Daemon::~Daemon() {
   disk_.join();
   preparing_.join();
   ending_.join();
+}
+
+/// When a print was added to the history; empty: without trouble.
+void Daemon::note_history(const std::string& trouble) {
+  if (trouble.empty() && history_problem_.empty()) return;
+  history_problem_ = trouble;
+  if (!trouble.empty()) {
+    announce("problem", {}, trouble);
+    log_record_.note(LogRecord::From::notice, trouble);
+  }
+  broadcast_status();
 }
 
 // ---- status
@@ -103,7 +117,8 @@ json Daemon::status() const {
   if (const IdleStatus idle = idle_.status(); !current_ && idle.connection == IdleStatus::Connection::open)
     status["idle"] = idle_heat(idle.temperatures);
   status["bed_clear"] = bed_clear_;
-  if (!problem_.empty()) status["problem"] = problem_;
+  if (const std::string& problem = problem_.empty() ? history_problem_ : problem_; !problem.empty())
+    status["problem"] = problem;
   return status;
 }
 

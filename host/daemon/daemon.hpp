@@ -208,6 +208,7 @@ class Daemon {
   asio::awaitable<StreamResult> run_sessions(std::uint64_t id);
   asio::awaitable<StreamResult> run_session(std::uint64_t id);
   std::string conclude(const StreamResult& result, QueuedJob::State& ending);
+  void note_history(const std::string& trouble);
   void foretell();
   void announce(const std::string& event, const std::string& state, const std::string& reason);
   void announce_session(const SessionEvent& event);
@@ -273,10 +274,11 @@ class Daemon {
   std::shared_ptr<std::multiset<std::string>> being_added_ = std::make_shared<std::multiset<std::string>>();
   std::optional<Current> current_;
   std::optional<Interrupted> interrupted_;
-  bool bed_clear_ = false;  ///< somebody has confirmed it, and no print has begun since
-  nlohmann::json last_;     ///< the final status of the last print, or null
-  std::string firmware_;    ///< the printer's last answer to M115
-  std::string problem_;     ///< with the state folder, a sentence; empty: none
+  bool bed_clear_ = false;       ///< somebody has confirmed it, and no print has begun since
+  nlohmann::json last_;          ///< the final status of the last print, or null
+  std::string firmware_;         ///< the printer's last answer to M115
+  std::string problem_;          ///< with the state folder, a sentence; empty: none
+  std::string history_problem_;  ///< when the last print was added to the history; as above
   std::function<void()> when_idle_;
   std::vector<std::unique_ptr<Follower>> followers_;
   PastPrints past_prints_;

@@ -106,8 +106,13 @@ asio::awaitable<void> PastPrints::remove(std::int64_t id) {
 }
 
 void PastPrints::keep(HistoryEntry entry) {
-  asio::post(thread_, [entry = std::move(entry)]() mutable {
-    for (const std::string& note : keep_in_history(std::move(entry))) log_line(note);
+  asio::post(thread_, [kept = kept_, entry = std::move(entry)]() mutable {
+    std::string trouble;
+    for (const std::string& note : keep_in_history(std::move(entry))) {
+      log_line(note);
+      trouble += (trouble.empty() ? "" : "; ") + note;
+    }
+    kept(trouble);
   });
 }
 

@@ -6,6 +6,7 @@
 #include <asio/awaitable.hpp>
 #include <asio/thread_pool.hpp>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -19,8 +20,10 @@ class PastPrints {
  public:
   static constexpr std::size_t most_at_once = 200;  ///< prints in one answer
 
-  /// `root`: the folder of the prints; empty: there is none.
-  explicit PastPrints(std::filesystem::path root) : root_(std::move(root)) {}
+  /// `root`: the folder of the prints; empty: there is none. `kept`: is called in the other thread when a
+  /// print has been added, with a sentence if that did not go well.
+  PastPrints(std::filesystem::path root, std::function<void(const std::string& trouble)> kept)
+      : root_(std::move(root)), kept_(std::move(kept)) {}
   ~PastPrints() { thread_.join(); }
 
   /// As in API.md: `prints`, the newest first, and `totals`. `printing`: the name of the print that is going
@@ -46,6 +49,7 @@ class PastPrints {
   auto with_history(Work work);
 
   const std::filesystem::path root_;
+  const std::function<void(const std::string& trouble)> kept_;
   asio::thread_pool thread_{1};
 };
 

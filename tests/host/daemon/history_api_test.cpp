@@ -1,4 +1,6 @@
 // What the daemon says of prints that have ended, and what it does with them and with its queue.
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -94,6 +96,34 @@ TEST_CASE("a print of the daemon is in its history with picture, note and table,
   CHECK(past_prints(bench).empty());
   bench.transcript();
   check_steps(bench, print);
+}
+
+TEST_CASE("a print goes on while the disk has no room for its history, and its row comes later",
+          "[optimised]") {
+  DaemonBench bench;
+  bench.start_printer("0");
+  bench.serve();
+  const auto print = [&] {
+    const int id = queue_job(bench);
+    bench.ask("POST", "/api/print/start", "{}");
+    bench.await_job(id, "done");
+  };
+  print();
+  await_row(bench);
+  // What a print keeps of itself has room; the table, which is the largest file, cannot grow.
+  const rlimit full{std::filesystem::file_size(bench.path("spool/history.db")), RLIM_INFINITY};
+  const rlimit room{RLIM_INFINITY, RLIM_INFINITY};
+  REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &full, nullptr) == 0);
+  print();
+  await([&] { return bench.ask("GET", "/api/status").contains("problem"); }, bench.daemon());
+  const std::string problem = bench.ask("GET", "/api/status")["problem"];
+  CHECK(problem.find("the history of prints cannot be written") != std::string::npos);
+  CHECK(problem.find("is added to it later") != std::string::npos);
+  CHECK(bench.ask("GET", "/api/log").dump().find("history of prints cannot be written") != std::string::npos);
+  REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &room, nullptr) == 0);
+  print();
+  await([&] { return past_prints(bench).size() == 3; }, bench.daemon());
+  CHECK(bench.ask("GET", "/api/history")["totals"]["prints"] == 3);
 }
 
 TEST_CASE("a print that was stopped is one row with what was fed for it", "[optimised]") {
