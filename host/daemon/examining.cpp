@@ -123,7 +123,10 @@ asio::awaitable<void> Daemon::keep_profile(std::filesystem::path file, std::stri
 /// Where a new profile goes. Throws Refused.
 std::filesystem::path Daemon::new_profile_file(bool replace) const {
   if (options_.profile)
-    throw Refused(Why::conflict, "the daemon was started with a profile of its own; change that one");
+    throw Refused(
+        Why::conflict,
+        "the daemon was started with --profile: change that profile, or start the daemon without it to "
+        "make one of your own");
   const auto file = own_profile_path();
   if (!file)
     throw Refused(Why::conflict,

@@ -1,5 +1,7 @@
 // The daemon's idle printer, its profile and its examination, over HTTP against a simulated printer.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "tests/host/support/daemon_process.hpp"
 
@@ -122,6 +124,64 @@ TEST_CASE("a hot printer whose cable is pulled before the print begins is found 
     return line["from"] == "notice" &&
            line["text"].get<std::string>().find("heaters were switched off") != std::string::npos;
   }));
+}
+
+TEST_CASE("a kept print goes on from a preheated idle printer, hot and without a reset, to the same end",
+          "[optimised]") {
+  const auto last_bead = [](const std::string& lines) {
+    std::string last;
+    std::istringstream all(lines);
+    for (std::string line; std::getline(all, line);)
+      if (line.find("G1 ") != std::string::npos && line.find(" E") != std::string::npos &&
+          line.find(" X") != std::string::npos)
+        last = line.substr(line.find("G1 "));
+    return last.substr(0, last.find(" E"));
+  };
+  DaemonBench reference;
+  reference.start_printer("0");
+  reference.serve();
+  REQUIRE(reference.command({"queue", "--add", "plate.toml", "--layers", "0:3"}).code == 0);
+  REQUIRE(reference.command({"start"}).code == 0);
+  reference.await_job(1, "done");
+  IdleDaemon bench;
+  REQUIRE(bench.command({"queue", "--add", "plate.toml", "--layers", "0:3"}).code == 0);
+  REQUIRE(bench.command({"start"}).code == 0);
+  test::await([&] { return bench.ask("GET", "/api/status").value("/print/layer"_json_pointer, 0) > 1; },
+              bench.daemon());
+  REQUIRE(bench.command({"cancel"}).code == 0);
+  bench.await_job(1, "stopped");
+  bench.connect();
+  REQUIRE(bench.post("heat", R"({"nozzle_c": 200, "bed_c": 60})") == 202);
+  bench.until([](const json& now) { return now["bed"].value("target_c", 0.0) == 60; });
+  const std::size_t before = test::read_text(bench.path("lines.txt")).size();
+  const json kept = bench.ask("GET", "/api/prints")["prints"];
+  REQUIRE(kept.size() == 1);
+  const json body{{"name", kept[0]["name"]}, {"sure", true}};
+  const json going = bench.ask("POST", "/api/prints/resume", body.dump());
+  INFO(going.dump());
+  REQUIRE(going.contains("id"));
+  bench.await_job(going["id"], "done");
+  bench.until([](const json& now) { return now["connection"] == "open"; });
+  const std::string lines = bench.transcript();
+  const std::string rest = lines.substr(before);
+  CHECK(rest.find("M104 S0") > rest.rfind(" E"));  // hot until the end
+  CHECK(rest.find("M140 S0") > rest.rfind(" E"));
+  CHECK(occurrences(lines, "M115") == 4);  // print, connection, rest of the print, connection
+  CHECK_FALSE(last_bead(rest).empty());
+  CHECK(last_bead(rest) == last_bead(reference.transcript()));
+}
+
+TEST_CASE("a firmware's name is bounded and shown without control characters, whatever it holds") {
+  const std::string name = "<img src=x onerror=alert(1)>\x1b[2J\x07\xff" + std::string(10'000, 'n');
+  IdleDaemon bench("50", {"--fault", "say:FIRMWARE_NAME:" + name + "@command=M115"});
+  bench.connect();
+  const std::string shown = bench.printer()["firmware"];
+  CHECK(shown.find("<img src=x onerror=alert(1)>") != std::string::npos);  // the page shows it as text
+  CHECK(shown.size() < 1000);
+  const auto controls = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  CHECK(std::none_of(shown.begin(), shown.end(), controls));
+  const std::string log = bench.ask("GET", "/api/log")["lines"].dump();
+  CHECK(log.find("\\u001b") == std::string::npos);
 }
 
 TEST_CASE("a daemon that ends switches an idle printer off") {
