@@ -18,9 +18,10 @@ using core::Polygon;
 using core::Vec2;
 
 constexpr double raster_pixel = 0.05;
-constexpr double around_part = 3;         ///< mm
-constexpr double longest_picture = 1100;  ///< pixels
-constexpr double finest_pixel = 0.03;     ///< mm
+constexpr std::size_t white = 2, green = 4;  ///< among the usual filaments
+constexpr double around_part = 3;            ///< mm
+constexpr double longest_picture = 1100;     ///< pixels
+constexpr double finest_pixel = 0.03;        ///< mm
 
 core::Box box_of(const Part& part) {
   std::vector<Polygon> outlines;
@@ -116,7 +117,8 @@ picture::Image drawing(const Part& part, const Run& run) {
   const std::vector<host::RegionLabel> labels = host::scan(zones, grid);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == host::outside_all) continue;
-    const picture::Colour zone = picture::usual_filaments[labels[i]];
+    // Green stands for white, which would not be seen on the page.
+    const picture::Colour zone = picture::usual_filaments[labels[i] == white ? green : labels[i]];
     const auto pale = [](std::uint8_t c) { return static_cast<std::uint8_t>(255 - (255 - c) * 3 / 10); };
     image.set(i % grid.columns, grid.rows - 1 - i / grid.columns, {pale(zone.r), pale(zone.g), pale(zone.b)});
   }
