@@ -221,7 +221,7 @@ class Fairer {
       ++iterations_;
       if (i > 0 && i % multiplier_period == 0) {
         multiplier_ += stiffness_ * (curve.length() - options_.target_length);
-        value = evaluate(curve, gradient);  // a force has changed, but not how it changes: earlier steps hold
+        value = evaluate(curve, gradient);  // the curvature has changed little: earlier steps still serve
       }
       if (step(curve, value, gradient)) continue;
       const bool fresh = newton_.empty();

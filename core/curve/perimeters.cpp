@@ -43,14 +43,14 @@ Region without_hairs(const Region& difference, double w) {
 }
 
 /// The places narrower than two beads, without corners.
-Region thin_places(const Polygon& region, double w) {
+Region thin_parts(const Polygon& region, double w) {
   Region thin = without_hairs(subtract({region}, opened({region}, thin_reach * w, arc_tolerance * w)), w);
   std::erase_if(thin, [&](const Polygon& piece) { return area(piece) < thin_area * w * w; });
   return thin;
 }
 
 /// Removes vertices that offsets leave very close to each other, sometimes in reverse order.
-Ring without_crumbs(const Ring& ring, double least) {
+Ring without_short_edges(const Ring& ring, double least) {
   Ring result;
   for (const Vec2& v : ring) {
     if (result.empty() || (v - result.back()).norm() >= least) result.push_back(v);
@@ -62,8 +62,8 @@ Ring without_crumbs(const Ring& ring, double least) {
 /// Removes superfluous vertices: every offset doubles the vertices of round borders.
 Region lean(Region region, double tolerance) {
   for (Polygon& polygon : region) {
-    polygon.outer = simplified(without_crumbs(polygon.outer, tolerance), tolerance);
-    for (Ring& hole : polygon.holes) hole = simplified(without_crumbs(hole, tolerance), tolerance);
+    polygon.outer = simplified(without_short_edges(polygon.outer, tolerance), tolerance);
+    for (Ring& hole : polygon.holes) hole = simplified(without_short_edges(hole, tolerance), tolerance);
   }
   return region;
 }
@@ -111,7 +111,7 @@ Region without_dust(Region region, double w) {
 }
 
 Curve ring_curve(const Ring& ring, double w) {
-  Curve curve{simplified(without_crumbs(ring, shortest_segment * w), bend * w)};
+  Curve curve{simplified(without_short_edges(ring, shortest_segment * w), bend * w)};
   while (curve.size() < fewest_vertices) curve = subdivided(curve);
   return curve;
 }
@@ -136,7 +136,7 @@ bool worth_a_curve(const Polygon& piece, double bead_width) {
 Region within_ring(const Polygon& region, double bead_width, double least_width) {
   const double w = bead_width, tolerance = arc_tolerance * w;
   const Region base = disc_reach(offset({region}, -w / 2, tolerance), corner_radius * w, w);
-  const Region thin = thin_places(region, w);
+  const Region thin = thin_parts(region, w);
   if (thin.empty() && base.size() == 1) return without_pockets(base, region, w);
   Region followed = base;
   for (const Polygon& discs : subtract(half_discs({region}, least_width, w), base)) {

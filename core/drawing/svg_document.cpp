@@ -25,7 +25,7 @@ bool declares_entities(const pugi::xml_document& tree) {
   });
 }
 
-bool is_utf8(const std::string& bytes) {
+bool reads_as_utf8(const std::string& bytes) {
   return bytes.find('\0') == std::string::npos;
 }
 
@@ -57,7 +57,7 @@ SvgDocument::SvgDocument(const std::filesystem::path& file) : file_(file.string(
   refuse_too_many_elements(bytes_, file_);
   pugi::xml_parse_result parsed = tree_.load_buffer(bytes_.data(), bytes_.size(), how_to_parse);
   if (parsed && declares_entities(tree_)) {
-    if (!is_utf8(bytes_)) {
+    if (!reads_as_utf8(bytes_)) {
       std::ostringstream utf8;
       tree_.save(utf8, "", pugi::format_raw, pugi::encoding_utf8);
       bytes_ = utf8.str();

@@ -61,7 +61,7 @@ std::shared_ptr<const Names> names_of(const pugi::xml_node& node, const std::sha
   return std::make_shared<const Names>(Names{std::move(own), outer});
 }
 
-bool contains(const pugi::xml_node& outer, pugi::xml_node node) {
+bool holds_node(const pugi::xml_node& outer, pugi::xml_node node) {
   for (; node; node = node.parent()) {
     if (node == outer) return true;
   }
@@ -245,7 +245,7 @@ void Scene::clone(const pugi::xml_node& node, const Entered& entered) {
     if (!link_of(node).empty()) notes_.add(Finding::missing_target, document_.where(node));
     return;
   }
-  if (in_use(target) || contains(target, node))
+  if (in_use(target) || holds_node(target, node))
     return notes_.add(Finding::circle_of_links, document_.where(node));
   const std::string_view name = document_.name(target);
   if (purpose_ == Purpose::clip && !is_shape(name) && name != "text") return;

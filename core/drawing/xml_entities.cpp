@@ -35,7 +35,7 @@ std::size_t end_of_declaration(std::string_view text, std::size_t from) {
   return text.size();
 }
 
-std::string_view word(std::string_view text, std::size_t& at) {
+std::string_view next_word(std::string_view text, std::size_t& at) {
   while (at < text.size() && is_xml_space(text[at])) ++at;
   const std::size_t from = at;
   while (at < text.size() && !is_xml_space(text[at]) && text[at] != '>') ++at;
@@ -45,7 +45,7 @@ std::string_view word(std::string_view text, std::size_t& at) {
 /// Reads `name "value">`; declarations that name a file are skipped.
 void read_entity(std::string_view text, Entities& entities) {
   std::size_t at = 0;
-  const std::string_view name = word(text, at);
+  const std::string_view name = next_word(text, at);
   while (at < text.size() && is_xml_space(text[at])) ++at;
   if (name.empty() || name == "%" || at >= text.size() || (text[at] != '"' && text[at] != '\'')) return;
   const std::size_t end = text.find(text[at], at + 1);

@@ -28,7 +28,7 @@ constexpr double farthest_sample = 1e5;              ///< mm
 constexpr double largest_angle = 1e6;  ///< degrees; beyond, rounding loses the fraction of a turn
 constexpr const char* remedy = "write x,y,angle or x,y,z,angle on each line, in mm and degrees";
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -73,7 +73,7 @@ class DirectionReader {
     const std::string_view line = rest_.substr(0, rest_.find('\n'));
     rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
     ++line_;
-    return trimmed(line);
+    return without_blanks(line);
   }
 
   /// The words between the commas. Stops at five, which is already too many: a line may be very long.
@@ -81,7 +81,7 @@ class DirectionReader {
     std::vector<std::string_view> result;
     for (;;) {
       const auto comma = line.find(',');
-      result.push_back(trimmed(line.substr(0, comma)));
+      result.push_back(without_blanks(line.substr(0, comma)));
       if (comma == std::string_view::npos || result.size() > 4) return result;
       line.remove_prefix(comma + 1);
     }

@@ -1,11 +1,11 @@
 #include "core/model/largest_face.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,17 +14,21 @@ namespace unicursal::core {
 namespace {
 
 using HullPoint = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-using HullFacet = std::array<std::size_t, 3>;
+using Hull = CGAL::Surface_mesh<HullPoint>;
 
 constexpr double same_face = 0.5 * std::numbers::pi / 180;  ///< between normals of facets of one face
 
 /// Each facet's normal, as long as the facet is large (twice its area).
-std::vector<Vec3> normals_of(const std::vector<HullPoint>& corners, const std::vector<HullFacet>& facets) {
-  const auto corner = [&](std::size_t i) { return Vec3(corners[i].x(), corners[i].y(), corners[i].z()); };
+std::vector<Vec3> normals_of(const Hull& hull) {
   std::vector<Vec3> result;
-  for (const HullFacet& facet : facets) {
-    const Vec3 a = corner(facet[0]);
-    result.push_back((corner(facet[1]) - a).cross(corner(facet[2]) - a));
+  for (const auto facet : hull.faces()) {
+    const auto h = hull.halfedge(facet);
+    const auto corner = [&](auto half_edge) {
+      const auto& p = hull.point(hull.target(half_edge));
+      return Vec3(p.x(), p.y(), p.z());
+    };
+    const Vec3 a = corner(h), b = corner(hull.next(h)), c = corner(hull.next(hull.next(h)));
+    result.push_back((b - a).cross(c - a));
   }
   return result;
 }
@@ -35,10 +39,9 @@ Eigen::Matrix3d largest_face_down(const std::vector<Vec3>& points) {
   std::vector<HullPoint> cloud;
   cloud.reserve(points.size());
   for (const Vec3& p : points) cloud.emplace_back(p.x(), p.y(), p.z());
-  std::vector<HullPoint> corners;
-  std::vector<HullFacet> facets;
-  CGAL::convex_hull_3(cloud.begin(), cloud.end(), corners, facets);
-  std::vector<Vec3> normals = normals_of(corners, facets);
+  Hull hull;
+  CGAL::convex_hull_3(cloud.begin(), cloud.end(), hull);
+  std::vector<Vec3> normals = normals_of(hull);
   std::erase_if(normals, [](const Vec3& n) { return n.norm() == 0; });
   // Large facets first: each takes the smaller ones that face the same way.
   std::stable_sort(normals.begin(), normals.end(),

@@ -75,7 +75,7 @@ Ring from_extreme(Ring ring) {
 
 /// Removes the tiny steps that overlapping outlines, welds and facets leave in borders. `beyond` mm: how far
 /// the result may leave the region.
-Region smoothed(const Region& region, double beyond) {
+Region smooth_region(const Region& region, double beyond) {
   std::vector<Ring> rings;
   const auto add = [&](Ring ring, bool outer) {
     if ((signed_area(ring) > 0) != outer)
@@ -92,10 +92,10 @@ Region smoothed(const Region& region, double beyond) {
 /// The outline with its gaps closed and few vertices. Only where a gap is closed, the new border may run a
 /// little outside of the old one, or notches would stay at the gap's ends.
 Region mended(const Region& whole, const Region& gaps) {
-  if (gaps.empty()) return smoothed(whole, outwards);
+  if (gaps.empty()) return smooth_region(whole, outwards);
   const Region welded = unite(whole, offset(gaps, overlap, rounding));
   const Region around = offset(gaps, weld_width, rounding);
-  return smoothed(intersect(smoothed(welded, smoothing), unite(welded, around)), outwards);
+  return smooth_region(intersect(smooth_region(welded, smoothing), unite(welded, around)), outwards);
 }
 
 void remove_specks(Region& region) {
@@ -113,7 +113,7 @@ std::vector<ZoneRegion> local_claims(const Polygon& outline, const Claims& claim
     if (local.empty()) continue;
     local = intersect(local, {outline});
     std::erase_if(local, is_sliver);
-    local = smoothed(local, smoothing);
+    local = smooth_region(local, smoothing);
     if (!local.empty()) result.push_back({zone, std::move(local)});
   }
   return result;

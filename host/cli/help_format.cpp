@@ -34,7 +34,7 @@ const Measures& measures() {
 
 /// Breaks the text at blanks. Each line after the first begins with `indent` blanks; the first one is taken
 /// to stand in that column already.
-std::string wrapped(const std::string& text, std::size_t indent) {
+std::string indented(const std::string& text, std::size_t indent) {
   std::istringstream words(text);
   std::string result, word;
   std::size_t column = indent;
@@ -62,11 +62,11 @@ std::string help_entry(const std::string& name, const std::string& description) 
     line += '\n' + std::string(first_column, ' ');
   else
     line += std::string(first_column - columns(line), ' ');
-  return line + wrapped(description, first_column) + '\n';
+  return line + indented(description, first_column) + '\n';
 }
 
 std::string help_paragraph(const std::string& text) {
-  return wrapped(text, 0) + '\n';
+  return indented(text, 0) + '\n';
 }
 
 HelpFormat::HelpFormat() {
@@ -96,7 +96,7 @@ std::string HelpFormat::make_footer(const CLI::App* app) const {
   std::istringstream lines(app->get_footer());
   std::string result;
   for (std::string line; std::getline(lines, line);)
-    result += (line.starts_with(' ') ? line : wrapped(line, 0)) + '\n';
+    result += (line.starts_with(' ') ? line : indented(line, 0)) + '\n';
   return result;
 }
 

@@ -20,8 +20,8 @@ std::string for_event(const std::string& text) {
 }
 
 /// "leaf.toml has been printed"
-std::string sentence_of(const std::string& event, const std::string& job, const std::string& state,
-                        const std::string& reason) {
+std::string event_sentence(const std::string& event, const std::string& job, const std::string& state,
+                           const std::string& reason) {
   const std::string why = reason.empty() ? "" : ": " + reason;
   if (event == "print_started") return fmt::format("{} is being printed", job);
   if (event == "print_ended" && state == "done") return fmt::format("{} has been printed", job);
@@ -67,7 +67,7 @@ void Daemon::announce(const std::string& event, const std::string& state, const 
     if (status.left) object["left_seconds"] = *status.left;
     if (status.prompt) object["answers"] = status.prompt->answers;
   }
-  const std::string text = sentence_of(event, job ? for_event(job->name) : "", state, for_event(reason));
+  const std::string text = event_sentence(event, job ? for_event(job->name) : "", state, for_event(reason));
   object["text"] = text;
   event_command_->run({event, text, object.dump(-1, ' ', false, json::error_handler_t::replace)});
 }

@@ -21,7 +21,7 @@ constexpr HeaterWatch::Rules nozzle_rules{15, 6, 0.8, 15};
 /// A bed has much more mass, and a part comes off before the bed is cold.
 constexpr HeaterWatch::Rules bed_rules{6, 4, 0.8, 15};
 
-std::string sentence(const char* heater, HeatTrouble what, double reading, double target) {
+std::string heat_sentence(const char* heater, HeatTrouble what, double reading, double target) {
   switch (what) {
     case HeatTrouble::cold:
       return fmt::format(
@@ -115,7 +115,7 @@ std::optional<HeatWatch::Trouble> HeatWatch::note(TimePoint at, const gcode::Tem
                         std::optional<double> target, double wanted) {
     if (!reading) return;
     const auto what = watch.note(at, *reading, target, wanted);
-    if (what && !trouble) trouble = Trouble{*what, sentence(name, *what, *reading, wanted), false};
+    if (what && !trouble) trouble = Trouble{*what, heat_sentence(name, *what, *reading, wanted), false};
   };
   look(nozzle_, "nozzle", reported.nozzle, reported.nozzle_target, nozzle);
   look(bed_, "bed", reported.bed, reported.bed_target, bed);

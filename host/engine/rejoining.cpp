@@ -13,7 +13,7 @@ constexpr std::uint32_t number_distance = 20000;
 /// Lines that may count as acknowledged too early, after an ok was damaged (host/link/ledger.hpp).
 constexpr std::uint64_t uncertain_oks = 16;
 
-bool elsewhere(const gcode::ModalState& expected, const std::array<double, 3>& found) {
+bool is_elsewhere(const gcode::ModalState& expected, const std::array<double, 3>& found) {
   for (std::size_t axis = 0; axis < found.size(); ++axis) {
     const auto& coordinate = expected.position[axis];
     if (coordinate && std::abs(*coordinate - found[axis]) > same_place) return true;
@@ -88,7 +88,7 @@ std::optional<Lost> lost_since(const JournalState& journal, const Rejoined& foun
                 std::nullopt};
   }
   const gcode::ModalState expected = state_at(chunks, journal.leg, *place);
-  if (found.position && elsewhere(expected, *found.position)) {
+  if (found.position && is_elsewhere(expected, *found.position)) {
     return Lost{fmt::format("its nozzle is at {:.2f}, {:.2f}, {:.2f} mm, where this print did not leave it",
                             (*found.position)[0], (*found.position)[1], (*found.position)[2]),
                 std::nullopt};

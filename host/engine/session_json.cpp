@@ -8,16 +8,16 @@ namespace {
 
 using nlohmann::json;
 
-void add(json& to, const char* key, const std::optional<double>& value) {
+void add_if_known(json& to, const char* key, const std::optional<double>& value) {
   if (value) to[key] = *value;
 }
 
 json heater(const std::optional<double>& actual, const std::optional<double>& target,
             const std::optional<double>& job) {
   json heater = json::object();
-  add(heater, "actual_c", actual);
-  add(heater, "target_c", target);
-  add(heater, "job_c", job);
+  add_if_known(heater, "actual_c", actual);
+  add_if_known(heater, "target_c", target);
+  add_if_known(heater, "job_c", job);
   return heater;
 }
 
@@ -48,8 +48,8 @@ json to_json(const SessionStatus& s) {
                  {"speed_percent", s.speed_percent},
                  {"flow_percent", s.flow_percent},
                  {"warnings", s.warnings}};
-  add(status, "left_seconds", s.left);
-  add(status, "queue_fill", s.queue);
+  add_if_known(status, "left_seconds", s.left);
+  add_if_known(status, "queue_fill", s.queue);
   if (!s.mixture.empty()) status["mixture"] = s.mixture;
   if (!s.reason.empty()) status["reason"] = s.reason;
   if (s.prompt) status["prompt"] = {{"text", s.prompt->text}, {"answers", s.prompt->answers}};

@@ -17,7 +17,7 @@ bool is_device_or_pipe(const fs::path& file) {
 }
 
 /// The file behind symbolic links, also when it does not exist yet.
-fs::path target_of(const fs::path& file) {
+fs::path end_of_links(const fs::path& file) {
   std::error_code error;
   if (!fs::is_symlink(fs::symlink_status(file, error))) return file;
   if (const fs::path whole = fs::canonical(file, error); !error) return whole;
@@ -38,7 +38,7 @@ WholeFile::WholeFile(fs::path file, Access access) : file_(std::move(file)) {
   }
   if (file_.has_parent_path()) fs::create_directories(file_.parent_path(), error);
   const bool direct = is_device_or_pipe(file_);
-  target_ = direct || access == Access::owner_only ? file_ : target_of(file_);
+  target_ = direct || access == Access::owner_only ? file_ : end_of_links(file_);
   draft_ = target_;
   if (!direct) {
     draft_ += ".part";

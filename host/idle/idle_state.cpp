@@ -38,7 +38,7 @@ void check_heat(const char* what, std::optional<double> wanted, double most) {
       fmt::format("{} of {:g} °C is beyond the profile's limits: choose 0 to {:g} °C", what, *wanted, most));
 }
 
-std::string in_words(const std::string& verb, const FeedingOrder& order, double length) {
+std::string feeding_in_words(const std::string& verb, const FeedingOrder& order, double length) {
   if (!order.feeder) return fmt::format("each feeder {} {:g} mm", verb, length);
   return fmt::format("feeder {} {} {:g} mm", *order.feeder + 1, verb, length);
 }
@@ -267,7 +267,8 @@ void IdlePrinter::feed(const FeedingOrder& order) {
   State& s = *state_;
   Feeding made = host::feeding(order, s.profile);
   s.check_open();
-  State::Step step{State::Step::Kind::feed, {}, {}, in_words(verb_of(order.kind), order, made.length), {}};
+  State::Step step{
+      State::Step::Kind::feed, {}, {}, feeding_in_words(verb_of(order.kind), order, made.length), {}};
   step.feeding = std::move(made);
   s.accept(std::move(step));
 }

@@ -156,7 +156,7 @@ bool differs_only_there(const std::string& before, const std::string& after,
   }
 }
 
-std::string in_words(std::span<const ProfileChange> changes) {
+std::string changes_in_words(std::span<const ProfileChange> changes) {
   std::vector<std::string> words;
   for (const ProfileChange& change : changes) {
     const std::string table =
@@ -187,7 +187,7 @@ std::string with_changes(const std::string& text, std::span<const ProfileChange>
   }
   if (!differs_only_there(text, changed, changes, file)) {
     throw JobError(file.string(), changes.front().table, "is written in a way that cannot be changed here",
-                   fmt::format("write {} yourself", in_words(changes)));
+                   fmt::format("write {} yourself", changes_in_words(changes)));
   }
   return changed;
 }
@@ -203,7 +203,7 @@ void ProfileText::set(std::span<const ProfileChange> changes) const {
   const std::string changed = with_changes(text_, changes, file_);
   if (read(file_) != text_) {
     throw core::FileError(file_.string(), "", "has been changed by another program meanwhile",
-                          fmt::format("write {} into it yourself", in_words(changes)));
+                          fmt::format("write {} into it yourself", changes_in_words(changes)));
   }
   write_whole_file(file_, changed, WholeFile::Access::as_before);
 }

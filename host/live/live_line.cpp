@@ -33,7 +33,7 @@ bool changes_feed(const std::string& line) {
   return std::any_of(words.begin(), words.end(), [&](const char* word) { return line.starts_with(word); });
 }
 
-std::uint8_t asked_number(std::size_t material) {
+std::uint8_t number_asked_for(std::size_t material) {
   return static_cast<std::uint8_t>(std::min<std::size_t>(material, LaidPath::nothing_asked));
 }
 
@@ -237,7 +237,7 @@ std::optional<LaidPath> LiveLine::State::planned_path(const gcode::PlacedLayer& 
       const gcode::Shares shares = asked_at(material, middle, layer.top - layer.height / 2);
       if (coloured != shares) colour = picture::colour_of({shares.begin(), shares.size()}, colours);
       coloured = shares;
-      path->lay(beads.end(i), beads.width(i), asked_number(material), colour);
+      path->lay(beads.end(i), beads.width(i), number_asked_for(material), colour);
     }
   }
   return path;

@@ -6,7 +6,7 @@
 namespace unicursal::host {
 namespace {
 
-void add(core::StageTime& sum, const core::StageTime& more) {
+void add_to_sum(core::StageTime& sum, const core::StageTime& more) {
   sum.seconds += more.seconds;
   sum.cpu_seconds += more.cpu_seconds;
 }
@@ -18,7 +18,7 @@ void worst_of(core::CurveObjectives& sum, const core::CurveObjectives& more) {
   sum.width_variation = std::max(sum.width_variation, more.width_variation);
 }
 
-void add(Figures& sum, const core::PlannedCurve& curve) {
+void add_to_sum(Figures& sum, const core::PlannedCurve& curve) {
   sum.curves += 1;
   sum.vertices += curve.path.size();
   sum.length += curve.path.total_length();
@@ -50,7 +50,7 @@ Figures measure(const core::IslandPlan& plan) {
   Figures figures;
   figures.islands = 1;
   figures.empty_islands = plan.curves.empty() ? 1 : 0;
-  for (const core::PlannedCurve& curve : plan.curves) add(figures, curve);
+  for (const core::PlannedCurve& curve : plan.curves) add_to_sum(figures, curve);
   figures.unfilled_area = plan.unfilled_area;
   figures.far_area = plan.far_area;
   figures.graph = plan.graph;
@@ -89,10 +89,10 @@ Figures& operator+=(Figures& sum, const Figures& more) {
   sum.wide_length += more.wide_length;
   sum.unfilled_area += more.unfilled_area;
   sum.far_area += more.far_area;
-  add(sum.graph, more.graph);
-  add(sum.cycle, more.cycle);
-  add(sum.fairing, more.fairing);
-  add(sum.widths, more.widths);
+  add_to_sum(sum.graph, more.graph);
+  add_to_sum(sum.cycle, more.cycle);
+  add_to_sum(sum.fairing, more.fairing);
+  add_to_sum(sum.widths, more.widths);
   return sum;
 }
 

@@ -29,7 +29,7 @@ Bins bins(const nlohmann::json& object, const char* key) {
   return result;
 }
 
-double seconds(const Bins& bins) {
+double all_seconds(const Bins& bins) {
   double sum = 0;
   for (const auto& [flow, time] : bins) sum += time;
   return sum;
@@ -40,13 +40,13 @@ double share_near(const Bins& bins, double nominal) {
   for (const auto& [flow, time] : bins) {
     if (std::abs(flow - nominal) <= MotionFindings::tolerance * nominal) near += time;
   }
-  const double all = seconds(bins);
+  const double all = all_seconds(bins);
   return all > 0 ? near / all : 0;
 }
 
 /// The flow below which this fraction of the time lies.
 double quantile(const Bins& bins, double share) {
-  double left = share * seconds(bins);
+  double left = share * all_seconds(bins);
   for (const auto& [flow, time] : bins) {
     left -= time;
     if (left < 0) return flow;
@@ -63,7 +63,7 @@ double holdable(const Bins& by_second, double nominal) {
 double mean(const Bins& bins) {
   double volume = 0;
   for (const auto& [flow, time] : bins) volume += flow * time;
-  const double all = seconds(bins);
+  const double all = all_seconds(bins);
   return all > 0 ? volume / all : 0;
 }
 

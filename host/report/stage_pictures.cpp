@@ -29,7 +29,7 @@ constexpr Colour paper{255, 255, 255}, ink{46, 48, 56}, faint{176, 178, 186}, bo
 constexpr Colour needle_ink{196, 60, 52}, night{38, 40, 48};
 constexpr Colour narrow{44, 110, 214}, as_asked{244, 242, 236}, wide{222, 62, 48};
 
-Colour between(Colour a, Colour b, double share) {
+Colour blend(Colour a, Colour b, double share) {
   const auto mix = [share](std::uint8_t from, std::uint8_t to) {
     return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
   };
@@ -100,7 +100,7 @@ class Painter {
   Canvas zones(std::string_view caption) const {
     Canvas canvas = captioned(caption);
     for (const core::ZoneRegion& region : story_.island.zones) {
-      const Colour colour = between(style_.zone_colours.at(region.zone), paper, paleness);
+      const Colour colour = blend(style_.zone_colours.at(region.zone), paper, paleness);
       for (const core::Polygon& polygon : region.polygons) canvas.fill(polygon, colour);
     }
     canvas.outline(story_.island.outline, thin_line, border);
@@ -153,7 +153,7 @@ class Painter {
 
 Colour width_colour(double ratio) {
   const double deviation = std::clamp((ratio - 1) / most_deviation, -1.0, 1.0);
-  return between(as_asked, deviation < 0 ? narrow : wide, std::abs(deviation));
+  return blend(as_asked, deviation < 0 ? narrow : wide, std::abs(deviation));
 }
 
 void write_stage_pictures(const std::filesystem::path& folder, const IslandStory& story,

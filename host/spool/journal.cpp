@@ -114,7 +114,7 @@ void apply(JournalState& state, ByteReader bytes) {
 }
 
 /// Of the numbers that `number`, perhaps modulo 65536, can mean: the one nearest to `expected`.
-std::int64_t nearest(std::uint32_t number, std::int64_t expected) {
+std::int64_t nearest_line(std::uint32_t number, std::int64_t expected) {
   std::int64_t best = number;
   if (number >= repetier_modulus) return best;
   const std::int64_t turns = (expected - number + repetier_modulus / 2) / repetier_modulus;
@@ -129,7 +129,7 @@ std::optional<std::uint64_t> JournalState::place_of(std::uint32_t number) const 
   const Anchor& last = anchors.back();
   const std::int64_t expected =
       last.number + static_cast<std::int64_t>(handed) - static_cast<std::int64_t>(last.place);
-  const std::int64_t meant = nearest(number, expected);
+  const std::int64_t meant = nearest_line(number, expected);
   const auto after = std::find_if(anchors.begin(), anchors.end(),
                                   [&](const Anchor& anchor) { return anchor.number > meant; });
   if (after == anchors.begin()) return std::nullopt;

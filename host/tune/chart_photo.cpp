@@ -66,14 +66,17 @@ CameraLaw camera_law(const Chart& chart, const std::vector<SeenPatch>& seen,
   return {{found(0), found(1), found(2)}, std::clamp(found(3), 0.5, 2.0)};
 }
 
-/// Whether the quarters of a patch look alike. They do not if a border of patches runs through it.
+/// Whether the quarters of a patch look alike. They do not if a border of patches runs through it. A patch
+/// that is too bright for the camera says nothing.
 bool of_one_colour(const Sheet& sheet, const core::Box& middle) {
   const core::Vec2 quarter = middle.size() / 4;
   std::vector<picture::Lab> seen;
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
       const core::Vec2 place = middle.center() + core::Vec2(x * quarter.x(), y * quarter.y());
-      seen.push_back(picture::lab_of(sheet.light(place, {1, 0}, quarter.x(), quarter.y()).light));
+      const auto light = sheet.light(place, {1, 0}, quarter.x(), quarter.y());
+      if (light.clipped > most_clipped) return true;
+      seen.push_back(picture::lab_of(light.light));
     }
   }
   for (const picture::Lab& one : seen) {

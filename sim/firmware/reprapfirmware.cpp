@@ -38,7 +38,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-std::string name(const Command& command) {
+std::string name_of_command(const Command& command) {
   return fmt::format("{}{}", command.letter(), command.code());
 }
 
@@ -213,7 +213,8 @@ void RepRapFirmware::execute(const std::string& body) {
                      std::find(heard_when_halted.begin(), heard_when_halted.end(), command->code()) !=
                          heard_when_halted.end();
   if (stopped_ && !heard) {
-    say(fmt::format("Error: {}: Machine is halted", command ? name(*command) : text_.substr(0, 1)));
+    say(fmt::format("Error: {}: Machine is halted",
+                    command ? name_of_command(*command) : text_.substr(0, 1)));
     return;
   }
   if (text_.starts_with('T')) return change_tool(text_);
@@ -230,11 +231,11 @@ void RepRapFirmware::execute(const std::string& body) {
 
 void RepRapFirmware::not_supported(const Command& command) {
   ++counts_.unknown;
-  say(fmt::format("Warning: {}: Command is not supported", name(command)));
+  say(fmt::format("Warning: {}: Command is not supported", name_of_command(command)));
 }
 
 void RepRapFirmware::fail(const Command& command, std::string_view why) {
-  say(fmt::format("Error: {}: {}", name(command), why));
+  say(fmt::format("Error: {}: {}", name_of_command(command), why));
 }
 
 void RepRapFirmware::travel(const Command& command) {

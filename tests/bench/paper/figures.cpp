@@ -209,7 +209,10 @@ std::vector<double> areas_of(const std::vector<Line>& lines, const Polygon& isla
   for (Line& line : turned) line.points = turned_by(line.points, lattice_turn);
   const std::vector<core::Segment> segments = segments_of_lines(turned);
   std::vector<double> areas(segments.size(), 0.0);
-  if (segments.empty()) return areas;
+  if (segments.empty()) {
+    bare += core::area(island);
+    return areas;
+  }
   core::LatticeOwners owners(lattice);
   owners.assign(segments);
   moment += owners.second_moment();

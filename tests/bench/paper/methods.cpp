@@ -49,8 +49,8 @@ std::string title_of(std::string_view method) {
 Run run_method(std::string_view method, const Part& part) {
   Run run;
   run.method = method;
-  const double start = processor_seconds();
   const core::IslandPlanner planner(part.zones);
+  const double start = processor_seconds();
   for (std::size_t k = 0; k < part.layer.islands.size(); ++k) {
     const core::Polygon& outline = part.layer.islands[k].outline;
     const double w = part.width();

@@ -15,7 +15,7 @@ std::string title_of(std::string_view method);
 /// Fills the islands of the part, one after another.
 Run run_method(std::string_view method, const Part& part);
 
-/// The processor time of this thread, s.
+/// The processor time of this process, s.
 double processor_seconds();
 
 }  // namespace unicursal::bench

@@ -32,7 +32,11 @@ figure img{width:100%;height:auto;border:1px solid #e2e7ee;background:#fff}figca
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+    result += c == '<'    ? "&lt;"
+              : c == '>'  ? "&gt;"
+              : c == '&'  ? "&amp;"
+              : c == '\'' ? "&#39;"
+                          : std::string(1, c);
   }
   return result;
 }
@@ -194,8 +198,10 @@ std::string spacing_section(const Report& report) {
   if (report.held)
     html += fmt::format(
         "<p>This project holds the length instead. Asked for {:.2f} mm, the spacing of whole "
-        "plans on the same shapes is {:.3f} to {:.3f} bead widths; the worst CV is {:.3f}.</p>",
-        report.held_width, report.held->least, report.held->most, report.held->worst_variation);
+        "plans on the same shapes is {:.3f} to {:.3f} bead widths; the worst CV is {:.3f}. Shapes that "
+        "could not be planned: {}.</p>",
+        report.held_width, report.held->least, report.held->most, report.held->worst_variation,
+        report.held->failed);
   return html;
 }
 
@@ -346,8 +352,7 @@ constexpr const char* intro =
     "parallel rows have E = 0.0833. In the simulator, <em>one width</em> gives every method the same "
     "plastic, "
     "laid evenly along its lines; <em>own areas</em> gives each segment the plastic of its area. Bold is "
-    "best "
-    "in a figure_row. Travels between islands count for no method.</p>";
+    "the best of a row. Travels between islands count for no method.</p>";
 
 }  // namespace
 

@@ -142,7 +142,7 @@ SpacingAgainstD spacing_at(double d, const std::vector<Polygon>& shapes) {
 }
 
 HeldSpacing held_spacing(double bead_width, const std::vector<Polygon>& shapes) {
-  HeldSpacing result{1e300, 0, 0};
+  HeldSpacing result{1e300, 0, 0, 0};
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     core::PlanOptions options;
     options.bead_width = bead_width;
@@ -156,7 +156,10 @@ HeldSpacing held_spacing(double bead_width, const std::vector<Polygon>& shapes) 
       length += curve.path.total_length();
       result.worst_variation = std::max(result.worst_variation, curve.objectives.width_variation);
     }
-    if (!(length > 0)) continue;
+    if (!(length > 0)) {
+      ++result.failed;
+      continue;
+    }
     result.least = std::min(result.least, area / length / bead_width);
     result.most = std::max(result.most, area / length / bead_width);
   }

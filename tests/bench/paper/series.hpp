@@ -26,6 +26,7 @@ SpacingAgainstD spacing_at(double d, const std::vector<core::Polygon>& shapes);
 struct HeldSpacing {
   double least = 0, most = 0;  ///< bead widths
   double worst_variation = 0;  ///< CV
+  std::size_t failed = 0;      ///< shapes without a curve
 };
 HeldSpacing held_spacing(double bead_width, const std::vector<core::Polygon>& shapes);
 

@@ -35,7 +35,7 @@ std::set<std::string> documented(const std::string& page) {
   return keys;
 }
 
-void add(std::set<std::string>& all, const std::string& table, const keys::Keys& keys) {
+void add_keys(std::set<std::string>& all, const std::string& table, const keys::Keys& keys) {
   for (const std::string& key : keys) all.insert(table + "." + key);
 }
 
@@ -49,27 +49,27 @@ std::string first_example(const std::string& page) {
 
 TEST_CASE("unicursal-job(5) names the keys of a job and no others") {
   std::set<std::string> known = {"printer", "mixture.NAME"};
-  add(known, "part", keys::part);
-  add(known, "part.deposit", keys::deposit);
-  add(known, "part.skirt", keys::skirt);
-  add(known, "part.fan", keys::fan);
-  add(known, "part.temperatures", keys::temperatures);
-  add(known, "zone", keys::zone);
-  add(known, "zone.pattern", keys::pattern);
-  add(known, "zone.mixture", keys::gradient);
+  add_keys(known, "part", keys::part);
+  add_keys(known, "part.deposit", keys::deposit);
+  add_keys(known, "part.skirt", keys::skirt);
+  add_keys(known, "part.fan", keys::fan);
+  add_keys(known, "part.temperatures", keys::temperatures);
+  add_keys(known, "zone", keys::zone);
+  add_keys(known, "zone.pattern", keys::pattern);
+  add_keys(known, "zone.mixture", keys::gradient);
   CHECK(documented(page("unicursal-job.5")) == known);
   CHECK(keys::job == keys::Keys{"printer", "part", "zone", "mixture"});
 }
 
 TEST_CASE("unicursal-profile(5) names the keys of a profile and no others") {
   std::set<std::string> known;
-  add(known, "printer", keys::printer);
-  add(known, "extruder", keys::extruder);
-  add(known, "filament", keys::filament);
-  add(known, "temperature", keys::temperature);
-  add(known, "colours", keys::colours);
-  add(known, "transition", keys::transition);
-  add(known, "gcode", keys::gcode);
+  add_keys(known, "printer", keys::printer);
+  add_keys(known, "extruder", keys::extruder);
+  add_keys(known, "filament", keys::filament);
+  add_keys(known, "temperature", keys::temperature);
+  add_keys(known, "colours", keys::colours);
+  add_keys(known, "transition", keys::transition);
+  add_keys(known, "gcode", keys::gcode);
   CHECK(documented(page("unicursal-profile.5")) == known);
   CHECK(keys::profile ==
         keys::Keys{"printer", "extruder", "filament", "colours", "temperature", "transition", "gcode"});

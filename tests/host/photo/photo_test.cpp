@@ -25,7 +25,7 @@ camera::Photo slope(std::size_t width, std::size_t height) {
   return photo;
 }
 
-void check_same(const Photo& read, const camera::Photo& written, int tolerance) {
+void check_same_pixels(const Photo& read, const camera::Photo& written, int tolerance) {
   REQUIRE(read.width() == written.width);
   REQUIRE(read.height() == written.height);
   for (std::size_t y = 1; y < written.height; y += 7) {
@@ -44,11 +44,11 @@ TEST_CASE("PNG and JPEG files are read, and turned as their EXIF says") {
   const test::TempFolder folder;
   const camera::Photo photo = slope(61, 40);
   camera::write_photo(folder / "photo.png", photo);
-  check_same(read_photo(folder / "photo.png"), photo, 0);
+  check_same_pixels(read_photo(folder / "photo.png"), photo, 0);
   for (int orientation = 1; orientation <= 8; ++orientation) {
     CAPTURE(orientation);
     camera::write_photo(folder / "photo.jpg", photo, 95, orientation);
-    check_same(read_photo(folder / "photo.jpg"), photo, 6);
+    check_same_pixels(read_photo(folder / "photo.jpg"), photo, 6);
   }
 }
 
