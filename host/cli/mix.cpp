@@ -26,7 +26,7 @@ class Mix final : public Command {
   CLI::App& declare(CLI::App& program) override {
     CLI::App& app =
         add_command(program, "mix", "Try without a printer",
-                    "StepWait the tools of a slicer's G-code into mixtures, for a card or another host.",
+                    "Turn the tools of a slicer's G-code into mixtures, for a card or another host.",
                     "unicursal mix part.gcode -o mixed.gcode");
     add_value(app, "JOB", job_.job, " ", "").required();
     job_.declare_sliced(app);

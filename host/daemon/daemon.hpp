@@ -190,6 +190,7 @@ class Daemon {
     nlohmann::json last_status;  ///< of its last session, or null
     EndedSession outcome;        ///< for the history
     bool sent = false;           ///< a session has had its printer
+    bool took_over = false;      ///< the idle connection's open port
     bool announced = false;      ///< the user's command has heard of it
     bool paused = false;         ///< and of the present pause
     std::string asked;           ///< the printer's question that the command has heard of

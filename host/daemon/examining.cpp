@@ -58,12 +58,13 @@ asio::awaitable<FoundPrinter> Daemon::examine_printer(std::string named) {
     descriptor = co_await idle_.hand_over();
   else
     co_await idle_.close();  // another printer: it is cooled
+  const bool taken_over = descriptor >= 0;
   std::string problem;
   for (const unsigned baud : rates) {
     try {
       FoundPrinter found = co_await examine_at(port, baud, descriptor);
-      if (before == port) idle_.leave_heat_to_print();
-      if (was_open) idle_.connect(profile, before);
+      if (taken_over) idle_.leave_heat_to_print();
+      if (was_open || idle_.may_be_hot()) idle_.connect(profile, before);
       co_return found;
     } catch (const PortError& error) {
       problem = error.what();
@@ -72,8 +73,8 @@ asio::awaitable<FoundPrinter> Daemon::examine_printer(std::string named) {
       problem = error.what();
     }
   }
-  if (was_open) idle_.connect(profile, before);
-  throw Refused(Why::absent, problem);
+  if (was_open || idle_.may_be_hot()) idle_.connect(profile, before);
+  throw Refused(Why::absent, "not_examined", problem);
 }
 
 /// `descriptor`: of the open port; it is used up. −1: the port is opened.

@@ -150,6 +150,7 @@ asio::awaitable<void> Daemon::connect_print(Print& print, std::optional<Leg> leg
   const unsigned baud = idle_baud_ != 0 ? idle_baud_ : profile ? profile->baud : 0;
   idle_returns_ = idle_returns_ || idle_.wanted();
   const int descriptor = co_await idle_.hand_over();
+  current_->took_over = current_->took_over || descriptor >= 0;
   if (current_->cancelled) {
     if (descriptor >= 0 && profile)
       idle_.connect(*profile, before.port, descriptor);  // somebody must look after its heat

@@ -211,7 +211,7 @@ void JobFiles::check_room(std::uint64_t bytes) const {
     ++files;
   }
   if (kept > most_uploaded || files > most_uploaded_files)
-    throw Refused(Why::no_room, "uploads_full", "there is no room for more uploads; remove some first");
+    throw Refused(Why::no_room, "uploads_full", "no room is left for more uploads; remove some first");
   if (bytes + left_on_disk > free_bytes())
     throw Refused(Why::no_room, "disk_full",
                   "the daemon's disk is almost full; make room and send the file again");

@@ -108,9 +108,10 @@ asio::awaitable<void> PastPrints::remove(std::int64_t id) {
 void PastPrints::keep(HistoryEntry entry) {
   asio::post(thread_, [kept = kept_, entry = std::move(entry)]() mutable {
     std::string trouble;
-    for (const std::string& note : keep_in_history(std::move(entry))) {
+    const KeptInHistory outcome = keep_in_history(std::move(entry));
+    for (const std::string& note : outcome.notes) {
       log_line(note);
-      trouble += (trouble.empty() ? "" : "; ") + note;
+      if (!outcome.written) trouble += (trouble.empty() ? "" : "; ") + note;
     }
     kept(trouble);
   });

@@ -298,7 +298,8 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
     return std::make_unique<Print>(std::move(spool), options);
   };
   const auto away = [] { return true; };
-  co_await elsewhere(ending_, away);  // this print may have ended a moment ago
+  co_await elsewhere(ending_, away);   // this print may have ended a moment ago
+  co_await elsewhere(looking_, away);  // a look at it holds its folder
   current_->print = co_await elsewhere(preparing_, open);
   Print& print = *current_->print;
   if (current_->cancelled) throw core::Stopped();
@@ -367,7 +368,8 @@ asio::awaitable<StreamResult> Daemon::run_session(std::uint64_t id) {
   notify_service("STATUS=printing " + core::printable(queue_.find(id)->name));
   const StreamResult result = co_await session.run();
   firmware_ = result.firmware;
-  if (result.begun && !result.lost && result.statistics.lines > 0) idle_.leave_heat_to_print();
+  if (current_->took_over && result.begun && !result.lost && result.statistics.lines > 0)
+    idle_.leave_heat_to_print();
   current_->sent = current_->sent || !result.lost;
   current_->begun = current_->begun || result.begun;
   co_return result;

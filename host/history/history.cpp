@@ -204,11 +204,16 @@ void History::set_aside() {
 bool History::let_wait(const fs::path& root, const PastPrint& print, bool goes_on) noexcept {
   try {
     const HistoryTurn turn(root, usual_patience);
-    std::ofstream file(root / waiting_name, std::ios::app);
+    const fs::path waiting = root / waiting_name;
+    const std::uintmax_t before = is_there(waiting) ? fs::file_size(waiting) : 0;
+    std::ofstream file(waiting, std::ios::app);
     const std::string line = waiting_line(print, goes_on);
     file.write(line.data(), static_cast<std::streamsize>(line.size()));
     file.flush();
-    return file.good();
+    if (file.good()) return true;
+    file.close();
+    if (is_there(waiting)) fs::resize_file(waiting, before);  // a part of a line would spoil the next one
+    return false;
   } catch (...) {
     return false;
   }

@@ -93,7 +93,7 @@ std::optional<HistoryEntry> history_entry(Spool& spool, const Production& produc
   return entry;
 }
 
-std::vector<std::string> keep_in_history(HistoryEntry entry) noexcept {
+KeptInHistory keep_in_history(HistoryEntry entry) noexcept {
   try {
     PastPrint& print = entry.print;
     try {
@@ -103,14 +103,15 @@ std::vector<std::string> keep_in_history(HistoryEntry entry) noexcept {
         if (print.seconds) *print.seconds += entry.seconds_before;
       }
       history.add(print, entry.picture, entry.goes_on);
-      return history.notes();
+      return {true, history.notes()};
     } catch (const HistoryError& error) {
       const bool waits = History::let_wait(entry.root, print, entry.goes_on);
-      return {std::string("the history of prints cannot be written: ") + error.what() +
-              (waits ? "; the print is added to it later" : "; the print is missing from it")};
+      return {false,
+              {std::string("the history of prints cannot be written: ") + error.what() +
+               (waits ? "; the print is added to it later" : "; the print is missing from it")}};
     }
   } catch (...) {
-    return {"the print could not be added to the history: out of memory"};
+    return {false, {"the print could not be added to the history: out of memory"}};
   }
 }
 
@@ -118,7 +119,7 @@ std::vector<std::string> keep_in_history(Spool& spool, const Production& product
                                          const EndedSession& ended) noexcept {
   try {
     const auto entry = history_entry(spool, production, ended);
-    return entry ? keep_in_history(*entry) : std::vector<std::string>();
+    return entry ? keep_in_history(*entry).notes : std::vector<std::string>();
   } catch (const std::exception& error) {
     return {std::string("the print could not be added to the history: ") + error.what()};
   }

@@ -35,8 +35,12 @@ struct HistoryEntry {
 /// Reads the spool. Absent: nothing of the print was sent. Throws SpoolError.
 std::optional<HistoryEntry> history_entry(Spool& spool, const Production& production,
                                           const EndedSession& ended);
-/// Waits a few seconds for other programs that use the history. Returns sentences for the user.
-std::vector<std::string> keep_in_history(HistoryEntry entry) noexcept;
+struct KeptInHistory {
+  bool written = false;            ///< the history has the print
+  std::vector<std::string> notes;  ///< sentences for the user
+};
+/// Waits a few seconds for other programs that use the history.
+KeptInHistory keep_in_history(HistoryEntry entry) noexcept;
 
 /// Both. Never fails: returns sentences for the user.
 std::vector<std::string> keep_in_history(Spool& spool, const Production& production,

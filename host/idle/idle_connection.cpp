@@ -91,9 +91,9 @@ asio::awaitable<void> IdlePrinter::State::hold() {
 bool IdlePrinter::State::note_failure(const std::string& sentence) {
   const bool open = connection == IdleStatus::Connection::open;
   const bool cut = link ? link->statistics().cut : open && !stopped;
-  if (restarted || stopped)
+  if (restarted || (stopped && !cut))  // a stop whose cable was out has not reached the printer
     may_be_hot = cools_first = false;
-  else if (open && hot())
+  else if (may_be_hot || (open && hot()))
     may_be_hot = cools_first = true;
   if (leave != Leave::no) return false;
   if (problem.empty() || !stopped)
@@ -105,7 +105,7 @@ bool IdlePrinter::State::note_failure(const std::string& sentence) {
   nozzle = bed = 0;
   view = {};
   connection = IdleStatus::Connection::closed;
-  if (!stopped && open && (cut || restarted)) look_for_it();
+  if (!stopped && (open || cools_first) && (cut || restarted)) look_for_it();
   if (returning && cools_first) problem += std::string("; ") + soon_cold;
   changed();
   return returning && !stopped;

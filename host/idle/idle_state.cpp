@@ -148,9 +148,9 @@ void IdlePrinter::connect(const Profile& profile, const std::string& port, int d
     s.wake.notify();
     return;
   }
+  if (!s.may_be_hot || port != s.port) s.same_port.clear();  // a hot printer is looked for by its own adapter
   s.profile = profile;
   s.port = port;
-  s.same_port.clear();
   s.problem.clear();
   s.descriptor = descriptor;
   s.boots = descriptor < 0;

@@ -199,7 +199,11 @@ struct Lookahead::State {
     layer.shown_to = viewer_number;
     const auto show = viewer;
     lock.unlock();
-    show(layer.result);
+    try {
+      show(layer.result);
+    } catch (...) {
+      // A layer that cannot be shown, such as for want of memory, is printed all the same.
+    }
     lock.lock();
     layer.being_shown = false;
     shown.notify_all();
@@ -350,7 +354,7 @@ void Lookahead::on_ready(std::function<void()> listener) {
 void Lookahead::on_planned(std::function<void(const PlannedLayer&)> viewer) {
   const bool nobody = !viewer;
   std::unique_lock lock(state_->mutex);
-  state_->viewer = std::move(viewer);
+  std::swap(state_->viewer, viewer);  // the former one goes away when the lock has been released
   ++state_->viewer_number;
   state_->work_available.notify_all();
   if (nobody) state_->shown.wait(lock, [this] { return state_->nothing_is_shown(); });

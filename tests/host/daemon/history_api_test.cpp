@@ -122,6 +122,7 @@ TEST_CASE("a print goes on while the disk has no room for its history, and its r
   CHECK(bench.ask("GET", "/api/log").dump().find("history of prints cannot be written") != std::string::npos);
   REQUIRE(prlimit(bench.daemon().id(), RLIMIT_FSIZE, &room, nullptr) == 0);
   print();
+  await([&] { return !bench.ask("GET", "/api/status").contains("problem"); }, bench.daemon());
   await([&] { return past_prints(bench).size() == 3; }, bench.daemon());
   CHECK(bench.ask("GET", "/api/history")["totals"]["prints"] == 3);
 }
