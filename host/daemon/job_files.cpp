@@ -244,7 +244,7 @@ std::string JobFiles::adopt(UploadDraft& draft, const std::string& file,
       fs::remove(folder, error);  // if it is empty
       throw;
     }
-    return std::string(upload_prefix) + upload + "/" + kept;
+    return std::string(upload_prefix).append(upload).append("/").append(kept);
   }
   throw Refused(Why::no_room, "uploads_full", "too many uploads have that name; remove some first");
 }
