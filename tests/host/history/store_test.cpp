@@ -1,8 +1,10 @@
 // The file of the history: two writers, damage, locks, full and foreign files.
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -171,6 +173,28 @@ TEST_CASE("A history that another program has locked is waited for, and the prin
   CHECK(prints[0].print == "b");
   CHECK(prints[0].filaments.size() == 2);
   CHECK(prints[0].seconds == 100);
+}
+
+TEST_CASE("A print for which the disk has no room takes no other print with it") {
+  const test::TempFolder folder;
+  History(folder.path(), History::For::changing);
+  REQUIRE(History::let_wait(folder.path(), past_print("a"), false));
+  const std::string waiting = test::read_text(folder / "history");
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit usual{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &usual) == 0);
+  const rlimit full{waiting.size() + 10, usual.rlim_max};  // room for a part of a line
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &full) == 0);
+  const bool kept = History::let_wait(folder.path(), past_print("b"), false);
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &usual) == 0);
+  std::signal(SIGXFSZ, former);
+  CHECK_FALSE(kept);
+  CHECK(test::read_text(folder / "history") == waiting);
+  REQUIRE(History::let_wait(folder.path(), past_print("c"), false));
+  const auto prints = all_of(folder);
+  REQUIRE(prints.size() == 2);
+  CHECK(prints[0].print == "c");
+  CHECK(prints[1].print == "a");
 }
 
 TEST_CASE("A history of a later version and a foreign database are left alone") {
