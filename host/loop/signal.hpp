@@ -18,7 +18,7 @@ class Signal {
       : executor_(std::move(executor)), clock_(std::move(clock)) {}
 
   /// Waits until `ready` holds, at the latest until `deadline`; returns whether it holds. `ready` and the
-  /// signal must live until then.
+  /// signal must live until then, or until the coroutine that waits is destroyed.
   asio::awaitable<bool> wait(TimePoint deadline, const std::function<bool()>& ready);
   /// Wakes the waiters whose condition has come true. To be called after every change that they may wait for.
   void notify();
@@ -28,10 +28,12 @@ class Signal {
     asio::steady_timer timer;
     const std::function<bool()>& ready;
   };
+  using Waiters = std::list<Waiter>;
+  class Place;
 
   asio::any_io_executor executor_;
   std::shared_ptr<Clock> clock_;
-  std::list<Waiter> waiters_;
+  std::shared_ptr<Waiters> waiters_ = std::make_shared<Waiters>();
 };
 
 }  // namespace unicursal::host
