@@ -26,13 +26,12 @@ using namespace std::chrono_literals;
 
 constexpr auto look_for_cable = 300ms;
 constexpr auto doubtful_silence = 6s;  ///< without temperatures, which come every second; then it is asked
-constexpr auto hot_patience =
-    30min;  ///< how long a hot printer is looked for; then its firmware has cooled it
+// How long a hot printer is looked for; then its firmware has cooled it.
+constexpr auto hot_patience = 30min;
 constexpr const char* soon_cold = "its heaters were on, and are switched off as soon as it is back";
 constexpr const char* perhaps_hot =
     "the printer's heaters may still be on: switch it off by its own switch, or connect it again so that "
-    "they "
-    "are switched off";
+    "they are switched off";
 
 struct OpenedPort {
   int descriptor = -1;
