@@ -152,7 +152,7 @@ void settle_from_photo(const TuneOptions& command, const ProfileText& text, cons
   const Photo photo = read_photo(file);
   const Sheet sheet(photo, sheet_plan(strip), corners, file);
   const StripCurve curve = read_curve(sheet, strip, file);
-  const CurveFit found = fit_curve(curve.points, curve.references, file);
+  const CurveFit found = fit_curve(curve.points, curve.switches, curve.references, file);
   report(found, profile.printer);
   if (command.pictures) {
     std::filesystem::create_directories(*command.pictures);

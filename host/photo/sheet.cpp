@@ -23,7 +23,8 @@ constexpr double chunk_length = 4;        ///< mm of a stroke that are looked at
 constexpr double profile_step = 0.05;     ///< mm
 constexpr double least_contrast = 0.025;  ///< between a stroke and the bed beside it, encoded values
 constexpr double off_the_line = 0.25;     ///< mm; a stroke farther away was not found
-constexpr double most_slant = 2;  ///< lengths in front ÷ lengths behind; blur and gloss then differ too much
+constexpr double most_slant =
+    2.7;  ///< lengths in front ÷ lengths behind; blur and gloss then differ too much
 constexpr double least_photo_scale = 3.5;  ///< pixels per mm
 
 constexpr const char* again =
@@ -135,7 +136,10 @@ std::optional<double> offset_of(const Photo& photo, const View& view, const Bare
     const int first = std::max(-steps, static_cast<int>(std::lround(from / profile_step)));
     const int last = std::min(steps, static_cast<int>(std::lround(to / profile_step)));
     double sum = 0;
-    for (int i = first; i <= last; ++i) sum += profile[static_cast<std::size_t>(i + steps)][channel];
+    for (int i = first; i <= last; ++i) {
+      const int place = i + steps;
+      sum += profile[static_cast<std::size_t>(place)][channel];
+    }
     return sum / std::max(1, last - first + 1);
   };
   // The line differs from both sides in the same way. A step between two fields of the bed does not.
@@ -200,19 +204,31 @@ Sheet::Sheet(const Photo& photo, const SheetPlan& plan, const std::optional<Give
 }
 
 void Sheet::check_slant(const SheetPlan& plan, const std::filesystem::path& file) const {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const Vec2& mark : plan.marks) {
-    for (const Vec2& step : view_.steps_at(mark)) {
-      least = std::min(least, step.norm());
-      most = std::max(most, step.norm());
+  double least = std::numeric_limits<double>::infinity(), most = 0, along_one_axis = 1;
+  for (const std::size_t axis : {0, 1}) {
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (const Vec2& mark : plan.marks) {
+      const double step = view_.steps_at(mark)[axis].norm();
+      shortest = std::min(shortest, step);
+      longest = std::max(longest, step);
     }
+    least = std::min(least, shortest), most = std::max(most, longest);
+    along_one_axis = std::max(along_one_axis, longest / shortest);
   }
   if (most <= most_slant * least) return;
+  // A print of other proportions is as long everywhere in one direction, and so it seems from far away.
+  if (along_one_axis <= std::sqrt(most_slant))
+    throw core::DataError(
+        file.string(), "",
+        fmt::format("shows another print, or is taken at a steep slant: a millimetre is {:.1f} times as long "
+                    "one way as the other",
+                    most / least),
+        "use the profile and the options with which it was printed, and take the photo from above");
   throw core::DataError(
       file.string(), "",
       fmt::format("is taken at a steep slant: a millimetre is {:.1f} times as long in front as behind",
                   most / least),
-      "take it again from farther above, so that it is less than 2 times as long");
+      "take it again from farther above, so that it is less than twice as long");
 }
 
 double Sheet::refine(const SheetPlan& plan, std::vector<Sighting> sightings, double reach, std::size_t lens) {

@@ -69,17 +69,16 @@ class FitPicture {
     }
     const ColourAnswer answer(curve.references);
     for (const CurvePoint& point : curve.points) {
-      if (point.passed > most_ || point.trust == 0) continue;
+      if (point.passed < 0 || point.passed > most_ || point.trust == 0) continue;
       const Vec2 place = in_graph(point.passed, answer.change(point.colour, point.fat));
       image_.stroke(place.x(), place.y(), place.x(), place.y(), 4, point_colour);
     }
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
       const CurvePoint &from = curve.points[i], &to = curve.points[i + 1];
+      if (from.passed < 0) continue;
       if (to.passed > most_) break;
-      const auto fitted = [&](const CurvePoint& point) {
-        return answer.change(fit.colour_at(point, answer), point.fat);
-      };
-      const Vec2 a = in_graph(from.passed, fitted(from)), b = in_graph(to.passed, fitted(to));
+      const Vec2 a = in_graph(from.passed, answer.change(fit.foretold[i], from.fat)),
+                 b = in_graph(to.passed, answer.change(fit.foretold[i + 1], to.fat));
       image_.stroke(a.x(), a.y(), b.x(), b.y(), 2, line_colour);
     }
   }

@@ -23,12 +23,16 @@
 #include "core/geometry/polygon.hpp"
 #include "firmware_gcode/print/printer.hpp"
 #include "host/photo/marks.hpp"
+#include "host/tune/transition_fit.hpp"
 
 namespace unicursal::host {
 
 /// The mixtures that are fed; their values are the numbers of their virtual tools.
 enum class Shade : std::size_t { from, began, half, stopped, to };
 inline constexpr std::size_t shade_count = 5;
+/// How far each has gone from the first mixture to the second.
+inline constexpr std::array<double, shade_count> shade_shares = {0, perception.began, perception.half,
+                                                                 perception.stopped, 1};
 
 struct StripMove {
   core::Vec2 to{0, 0};

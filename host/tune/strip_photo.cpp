@@ -16,7 +16,8 @@ using core::Vec2;
 using picture::Light;
 
 constexpr double least_agreement = 0.6;    ///< share of the strokes that must be where they should be
-constexpr double along_step = 0.5;         ///< mm between points along the bead
+constexpr double along_step = 0.5;         ///< mm between points along the strip
+constexpr double fill_step = 1;            ///< mm between points along the lanes that fill the nozzle
 constexpr double most_half = 0.95;         ///< change of colour at line 50, or 1 minus it
 constexpr double pure_step = 4;            ///< mm between samples of a pure line
 constexpr double core_part = 0.3;          ///< half of the bead's width that is looked at ÷ its width
@@ -192,6 +193,60 @@ void check_order(const ReferenceColours& references, const std::filesystem::path
   }
 }
 
+/// The bead in short pieces, from its beginning to its end, without those that run across the lanes: they are
+/// lit from another side.
+class Bead {
+ public:
+  struct Piece {
+    Vec2 place{0, 0}, direction{1, 0};
+    double length = 0, width = 0;
+    double passed = 0;  ///< volume since the strip's switch, mm³
+    std::size_t lane = 0;
+  };
+
+  explicit Bead(const Strip& strip) {
+    double passed = 0;
+    const std::size_t before = strip.bead.size() + 1 - strip.points.size();
+    for (std::size_t i = 0; i < before; ++i) passed -= strip.bead[i].volume;
+    Vec2 here = strip.start;
+    Shade shade = Shade::from;
+    bool across = false;
+    std::size_t lane = 0;
+    for (std::size_t i = 0; i < strip.bead.size(); ++i) {
+      const StripMove& move = strip.bead[i];
+      if (move.shade != shade) switches_.push_back({passed, share_of(move.shade) - share_of(shade)});
+      shade = move.shade;
+      const Vec2 way = move.to - here;
+      const bool turning = std::abs(way.x()) <= 0.9 * way.norm();
+      if (turning && !across) ++lane;
+      across = turning;
+      if (!turning) cut(strip, here, move, passed, lane, i < before ? fill_step : along_step);
+      passed += move.volume;
+      here = move.to;
+    }
+  }
+
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  const std::vector<MixtureSwitch>& switches() const { return switches_; }
+
+ private:
+  static double share_of(Shade shade) { return shade_shares[static_cast<std::size_t>(shade)]; }
+
+  void cut(const Strip& strip, const Vec2& from, const StripMove& move, double passed, std::size_t lane,
+           double step) {
+    const Vec2 way = move.to - from;
+    const double length = way.norm(), count = std::max(1.0, std::round(length / step));
+    for (double i = 0; i < count; ++i) {
+      const double part = (i + 0.5) / count;
+      pieces_.push_back({from + part * way, way / length, length / count,
+                         move.volume / length / strip.layer_height, passed + part * move.volume, lane});
+    }
+  }
+
+  std::vector<Piece> pieces_;
+  std::vector<MixtureSwitch> switches_;
+};
+
 }  // namespace
 
 SheetPlan sheet_plan(const Strip& strip) {
@@ -249,21 +304,16 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
   curve.references = {thin_lines.colours(), fat_lines.colours()};
   check_order(curve.references, file);
   const Seen at_lines = even.brightness((strip.references.front() + strip.references.back()) / 2);
-  std::size_t lane = 0;
-  bool turned = false;
-  for (double along = along_step / 2; along < strip.length(); along += along_step) {
-    const Strip::Point here = strip.at(along), before = strip.at(along - along_step / 2),
-                       after = strip.at(std::min(strip.length(), along + along_step / 2));
-    const Vec2 step = after.place - before.place;
-    const double width = (after.passed - before.passed) / along_step / strip.layer_height;
-    const SeenLight seen = sheet.light(here.place, step.normalized(), along_step / 2, core_part * width);
-    CurvePoint point{here.passed, {}, fatness(width), 0, minus(even.brightness(here.place), at_lines), lane};
-    const bool turning = std::abs(step.x()) <= 0.9 * along_step;
-    if (turning && !turned) ++lane;
-    turned = turning;
-    // What runs across the lanes is lit from another side.
-    if (seen.pixels > 0 && seen.clipped <= clipped_at_most && !turning) {
-      point.colour = encoded(even.evened(here.place, seen.light));
+  const Bead bead(strip);
+  curve.switches = bead.switches();
+  for (const Bead::Piece& piece : bead.pieces()) {
+    const double width = piece.width;
+    CurvePoint point{
+        piece.passed, {},         fatness(width), 0, minus(even.brightness(piece.place), at_lines),
+        piece.lane,   piece.place};
+    const SeenLight seen = sheet.light(piece.place, piece.direction, piece.length / 2, core_part * width);
+    if (seen.pixels > 0 && seen.clipped <= clipped_at_most) {
+      point.colour = encoded(even.evened(piece.place, seen.light));
       point.trust = 1;
     }
     curve.points.push_back(point);

@@ -15,7 +15,8 @@ namespace unicursal::host {
 SheetPlan sheet_plan(const Strip& strip);
 
 struct StripCurve {
-  std::vector<CurvePoint> points;  ///< along the bead from the switch
+  std::vector<CurvePoint> points;  ///< along the whole bead
+  std::vector<MixtureSwitch> switches;
   ReferenceColours references;
 };
 

@@ -18,12 +18,16 @@ namespace {
 using namespace unicursal;
 namespace fs = std::filesystem;
 
-constexpr std::size_t at_once = 2;
+constexpr unsigned usual_seed = 5;
 constexpr std::size_t quick_step = 7;  // every seventh nozzle
 
 struct Options {
   bool quick = false;
   std::optional<fs::path> keep;
+  std::optional<std::string> conditions;  ///< a part of their names; of readable photos only
+  std::size_t first = 0, end = 20;        ///< nozzles
+  unsigned seed = usual_seed;  ///< of nozzles and noise; others also pair colours and nozzles otherwise
+  std::size_t at_once = 2;
 };
 
 enum class Kind { readable, doubtful, unreadable };
@@ -77,24 +81,20 @@ class Session {
   explicit Session(const Options& options) : options_(options) {
     if (options.keep) fs::create_directories(*options.keep);
     const auto pairs = camera::filament_pairs();
-    for (std::size_t n = 0; n < nozzles_.size(); n += options.quick ? quick_step : 1) {
-      for (const camera::Conditions& conditions : camera::conditions())
-        shots_.push_back({n, pairs[n % pairs.size()], conditions, Kind::readable, {}, 0});
+    const std::size_t other = options.seed - usual_seed;
+    for (std::size_t n = options.first; n < nozzles_.size(); n += options.quick ? quick_step : 1) {
+      for (camera::Conditions conditions : camera::conditions()) {
+        if (options.conditions && conditions.name.find(*options.conditions) == std::string::npos) continue;
+        conditions.seed += static_cast<std::uint32_t>(1000 * other);
+        shots_.push_back({n, pairs[(n + other) % pairs.size()], conditions, Kind::readable, {}, 0});
+      }
     }
-    for (const camera::Conditions& conditions : camera::doubtful_conditions())
-      shots_.push_back({1, pairs[0], conditions, Kind::doubtful, {}, 0});
-    for (const camera::Conditions& conditions : camera::unreadable_conditions())
-      shots_.push_back({1, pairs[0], conditions, Kind::unreadable, {}, 0});
-    camera::Conditions easy = camera::conditions().front();
-    easy.name = "lopsided colours";
-    shots_.push_back({1, camera::lopsided_pair(), easy, Kind::doubtful, {}, 0});
-    easy.name = "similar colours";
-    shots_.push_back({1, camera::similar_pair(), easy, Kind::unreadable, {}, 0});
+    if (!options.conditions && options.seed == usual_seed) add_bad_ones(pairs[0]);
   }
 
   const std::vector<Shot>& operator()() {
     std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < at_once; ++i) threads.emplace_back([this] { work(); });
+    for (std::size_t i = 0; i < options_.at_once; ++i) threads.emplace_back([this] { work(); });
     for (std::thread& thread : threads) thread.join();
     if (failure_) std::rethrow_exception(failure_);
     return shots_;
@@ -102,6 +102,20 @@ class Session {
   const test::HiddenNozzle& nozzle(const Shot& shot) const { return nozzles_[shot.nozzle]; }
 
  private:
+  /// Photos that may or must be refused.
+  void add_bad_ones(const camera::FilamentPair& pair) {
+    const std::size_t n = std::min<std::size_t>(options_.first + 1, nozzles_.size() - 1);
+    for (const camera::Conditions& conditions : camera::doubtful_conditions())
+      shots_.push_back({n, pair, conditions, Kind::doubtful, {}, 0});
+    for (const camera::Conditions& conditions : camera::unreadable_conditions())
+      shots_.push_back({n, pair, conditions, Kind::unreadable, {}, 0});
+    camera::Conditions easy = camera::conditions().front();
+    easy.name = "lopsided colours";
+    shots_.push_back({n, camera::lopsided_pair(), easy, Kind::doubtful, {}, 0});
+    easy.name = "similar colours";
+    shots_.push_back({n, camera::similar_pair(), easy, Kind::unreadable, {}, 0});
+  }
+
   void work() {
     try {
       std::size_t printed = nozzles_.size();
@@ -136,7 +150,7 @@ class Session {
   }
 
   const Options& options_;
-  const std::vector<test::HiddenNozzle> nozzles_ = test::hidden_nozzles();
+  const std::vector<test::HiddenNozzle> nozzles_ = test::hidden_nozzles(options_.end, options_.seed);
   std::vector<Shot> shots_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex printing_;
@@ -181,7 +195,7 @@ void summarise(const Session& session, const std::vector<Shot>& shots) {
       tally.add(shot, session.nozzle(shot));
       all.add(shot, session.nozzle(shot));
     }
-    tally.print(conditions.name);
+    if (tally.count > 0) tally.print(conditions.name);
   }
   for (const camera::FilamentPair& pair : camera::filament_pairs()) {
     Tally tally;
@@ -212,8 +226,21 @@ Options options_in(int argc, char** argv) {
       options.quick = true;
     } else if (word == "--keep" && i + 1 < argc) {
       options.keep = argv[++i];
+    } else if (word == "--conditions" && i + 1 < argc) {
+      options.conditions = argv[++i];
+    } else if (word == "--nozzles" && i + 1 < argc) {
+      const std::string text = argv[++i];
+      const std::size_t colon = text.find(':');
+      options.first = std::stoul(text);
+      options.end = colon == std::string::npos ? options.first + 1 : std::stoul(text.substr(colon + 1));
+    } else if (word == "--seed" && i + 1 < argc) {
+      options.seed = static_cast<unsigned>(std::stoul(argv[++i]));
+    } else if (word == "--at-once" && i + 1 < argc) {
+      options.at_once = std::max(1UL, std::stoul(argv[++i]));
     } else {
-      throw std::runtime_error("usage: bench_photos [--quick] [--keep DIR]");
+      throw std::runtime_error(
+          "usage: bench_photos [--quick] [--keep DIR] [--conditions PART_OF_A_NAME] [--nozzles FIRST[:END]] "
+          "[--seed NUMBER, 5 or more] [--at-once PHOTOS]");
     }
   }
   return options;
@@ -223,6 +250,8 @@ Options options_in(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   const Options options = options_in(argc, argv);
+  if (options.seed < usual_seed || options.first >= options.end)
+    throw std::runtime_error("nozzles are counted from 0, and seeds from 5");
   fmt::print(
       "    conditions         colours          dead mixing  k    time    dead found  mixing found  tanks "
       "found  "

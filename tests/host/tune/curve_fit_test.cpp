@@ -58,28 +58,41 @@ class Noise {
 
 struct SeenStrip {
   std::vector<CurvePoint> points;
+  std::vector<MixtureSwitch> switches;
   ReferenceColours references;
+
+  CurveFit fit() const { return fit_curve(points, switches, references, "strip.jpg"); }
 };
 
-/// Thin up to 12 mm³, where the bed shines through, and then fat.
+/// Lanes that fill the nozzle with the mixtures of the reference lines, fat and in the end thin, and then the
+/// strip: thin up to 12 mm³, where the bed shines through, and then fat.
 SeenStrip seen_strip(const HiddenNozzle& nozzle, const Pair& pair, double noise_size, double range = 60) {
+  constexpr double filling = 72, thin_end = 2.2;
   Noise noise(noise_size);
   SeenStrip strip;
-  const auto seen = [&](double share, double fat) {
+  const std::array<double, 5> steps = {0.05, 0.45, 0.45, 0.05, -1};
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    strip.switches.push_back({filling * (static_cast<double>(i) - 5), steps[i]});
+  strip.switches.push_back({0, 1});
+  const auto add = [&](double passed, double fat, std::size_t lane) {
+    double share = 0;
+    for (const MixtureSwitch& one : strip.switches) share += one.step * arrived(nozzle, passed - one.passed);
     Seen colour = mixed(pair, share, 0.12 * (1 - fat));
     for (double& channel : colour) channel += noise();
-    return colour;
+    // Lanes of 72 mm³ and 180 mm lie 5 mm apart.
+    const double along = (passed - filling * (static_cast<double>(lane) - 5)) / filling;
+    strip.points.push_back({passed, colour, fat, 1, {}, lane, {180 * along, 5 * static_cast<double>(lane)}});
   };
-  for (double passed = 0.02; passed < range;) {
-    const double fat = passed < 12 ? 0 : 1;
-    strip.points.push_back({passed, seen(arrived(nozzle, passed), fat), fat, 1, {}, 0});
-    passed += fat > 0 ? 0.12 : 0.05;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (double passed = 0.12; passed < filling; passed += passed < filling - thin_end ? 0.24 : 0.09)
+      add(filling * (static_cast<double>(i) - 5) + passed, passed < filling - thin_end ? 1 : 0, i);
   }
-  const double shares[] = {0, 0.05, 0.5, 0.95, 1};
+  for (double passed = 0.02; passed < range; passed += passed < 12 ? 0.05 : 0.12)
+    add(passed, passed < 12 ? 0 : 1, steps.size());
   for (const double fat : {0.0, 1.0}) {
     ReferenceColours::Lines& lines = fat > 0 ? strip.references.fat : strip.references.thin;
     for (std::size_t i = 0; i < shade_count; ++i) {
-      lines.colour[i] = mixed(pair, shares[i], 0.12 * (1 - fat));
+      lines.colour[i] = mixed(pair, shade_shares[i], 0.12 * (1 - fat));
       lines.doubt[i] = 0.001;
     }
   }
@@ -95,7 +108,7 @@ TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under
     for (const Pair& pair : pairs) {
       CAPTURE(nozzle.dead, nozzle.mixing, nozzle.tanks, pair.strength);
       const SeenStrip strip = seen_strip(nozzle, pair, 0.004);
-      const CurveFit fit = fit_curve(strip.points, strip.references, "strip.jpg");
+      const CurveFit fit = strip.fit();
       const double whole = nozzle.dead + nozzle.mixing;
       const double error =
           std::max(std::abs(fit.dead.value - nozzle.dead), std::abs(fit.mixing.value - nozzle.mixing));
@@ -115,8 +128,7 @@ TEST_CASE("A curve gives the volumes of hidden nozzles within a twentieth, under
 TEST_CASE("More noise gives more uncertainty", "[optimised]") {
   const HiddenNozzle nozzle{4, 10, 3};
   const SeenStrip quiet = seen_strip(nozzle, pairs[0], 0.001), loud = seen_strip(nozzle, pairs[0], 0.02);
-  const CurveFit sure = fit_curve(quiet.points, quiet.references, "strip.jpg"),
-                 unsure = fit_curve(loud.points, loud.references, "strip.jpg");
+  const CurveFit sure = quiet.fit(), unsure = loud.fit();
   CHECK(unsure.mixing.uncertainty > 1.2 * sure.mixing.uncertainty);
   CHECK(unsure.tanks.uncertainty > sure.tanks.uncertainty);
   CHECK(std::abs(unsure.mixing.value - 10) < unsure.mixing.uncertainty);
@@ -126,25 +138,46 @@ TEST_CASE("More noise gives more uncertainty", "[optimised]") {
 TEST_CASE("Glare on a tenth of the bead does not change the result") {
   const HiddenNozzle nozzle{4, 10, 3};
   SeenStrip strip = seen_strip(nozzle, pairs[0], 0.003);
-  const CurveFit before = fit_curve(strip.points, strip.references, "strip.jpg");
-  for (std::size_t i = 90; i < 90 + strip.points.size() / 10; ++i) {
+  const CurveFit before = strip.fit();
+  for (std::size_t i = 700; i < 700 + strip.points.size() / 10; ++i) {
     for (double& channel : strip.points[i].colour) channel += 0.3;
   }
-  const CurveFit after = fit_curve(strip.points, strip.references, "strip.jpg");
+  const CurveFit after = strip.fit();
   CHECK(after.dead.value == Approx(before.dead.value).margin(0.4));
   CHECK(after.mixing.value == Approx(before.mixing.value).margin(0.8));
 }
 
+TEST_CASE(
+    "Light that rises over the bed, and lanes that are darker than others, do not falsify the volumes") {
+  const HiddenNozzle nozzle{4, 10, 3};
+  SeenStrip strip = seen_strip(nozzle, pairs[0], 0.003);
+  const double sure = strip.fit().mixing.uncertainty;
+  const std::array<double, 6> lanes = {0, 0.03, -0.03, 0, 0.03, -0.02};
+  for (CurvePoint& point : strip.points) {
+    // Along the change from tick 0 to its end, by a tenth of what the change does to the colours.
+    const double light = 1 + 0.0006 * point.place.x() + 0.002 * point.place.y() + lanes.at(point.lane);
+    for (double& channel : point.colour) channel *= std::pow(light, 1 / 2.2);
+  }
+  const CurveFit fit = strip.fit();
+  CHECK(fit.dead.value == Approx(nozzle.dead).margin(0.3));
+  CHECK(fit.mixing.value == Approx(nozzle.mixing).margin(0.5));
+  CHECK(fit.mixing.uncertainty >= sure);
+}
+
+TEST_CASE("A strip whose colours say too little about the volumes is refused") {
+  SeenStrip strip = seen_strip({0.4, 0.8, 1}, pairs[0], 0.05);
+  CHECK_THROWS_WITH(strip.fit(), Catch::Contains("uncertain"));
+}
+
 TEST_CASE("A strip that ends too early, or shows something else, is refused") {
   const SeenStrip early = seen_strip({10, 25, 1}, pairs[0], 0.002, 25);
-  CHECK_THROWS_WITH(fit_curve(early.points, early.references, "strip.jpg"),
-                    Catch::Contains("larger --range"));
+  CHECK_THROWS_WITH(early.fit(), Catch::Contains("larger --range"));
   SeenStrip other = seen_strip({4, 10, 2}, pairs[0], 0.002);
   std::mt19937 chance(1);
   for (CurvePoint& point : other.points) {
     for (double& channel : point.colour) channel = static_cast<double>(chance()) / 4294967296.0;
   }
-  CHECK_THROWS_AS(fit_curve(other.points, other.references, "strip.jpg"), core::DataError);
+  CHECK_THROWS_AS(other.fit(), core::DataError);
 }
 
 TEST_CASE("Colours of the reference lines are given back exactly, and colours between them lie between") {
@@ -152,11 +185,10 @@ TEST_CASE("Colours of the reference lines are given back exactly, and colours be
   const ColourAnswer answer(strip.references);
   for (const double fat : {0.0, 1.0}) {
     const ReferenceColours::Lines& lines = fat > 0 ? strip.references.fat : strip.references.thin;
-    const double shares[] = {0, 0.05, 0.5, 0.95, 1};
     for (std::size_t i = 0; i < shade_count; ++i) {
       // Line 95 is nearly line 100 here, so that the rule of even steps has a say.
       for (std::size_t c = 0; c < 3; ++c)
-        CHECK(answer(shares[i], fat)[c] == Approx(lines.colour[i][c]).margin(i == 3 ? 0.004 : 1e-4));
+        CHECK(answer(shade_shares[i], fat)[c] == Approx(lines.colour[i][c]).margin(i == 3 ? 0.004 : 1e-4));
     }
     CHECK(answer.change(answer(0, fat), fat) == Approx(0).margin(1e-9));
     CHECK(answer.change(answer(1, fat), fat) == Approx(1));
