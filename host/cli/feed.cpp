@@ -12,6 +12,7 @@
 #include "host/feeding/cool_when_back.hpp"
 #include "host/feeding/feeding.hpp"
 #include "host/link/find_port.hpp"
+#include "host/loop/print_signals.hpp"
 #include "host/tune/terminal_reader.hpp"
 
 namespace unicursal::host {
@@ -152,6 +153,7 @@ Exit Feed::feed(const Feeding& made, const Profile& profile) const {
   const int descriptor = open_port(port, profile.baud, settings.link);
   // The device's own name may be another one, or another printer's, when it is plugged in again.
   const std::string device = device_of(descriptor), stable_name = stable_name_of(device);
+  const NotedSignals signals;  // none kills the program while the nozzle is hot
   const StreamResult result = stream_with_progress(descriptor, source, {}, settings, look).stream;
   if (result.unfit) throw PrinterUnfit(result.reason);
   if (may_reconnect(result)) {

@@ -15,7 +15,9 @@
 #include "host/cli/typed_line.hpp"
 #include "host/engine/reconnecting.hpp"
 #include "host/engine/session_json.hpp"
+#include "host/feeding/cool_when_back.hpp"
 #include "host/history/keep.hpp"
+#include "host/loop/print_signals.hpp"
 
 namespace unicursal::host {
 
@@ -95,6 +97,22 @@ bool is_back(Print& print, StreamResult& result) {
   return false;
 }
 
+/// The user has stopped the print, and its connection was lost before the heaters were off.
+StreamResult cool_stopped(const Print& print, StreamResult result, Shown& shown) {
+  shown.notice(fmt::format("{}; the heaters are switched off when it is back, for up to {} minutes",
+                           result.reason, reconnecting_patience.count()));
+  const Cooling cooling =
+      cool_when_back(print.port_when_back(), print.job().profile.baud, print.settings().link);
+  if (cooling.ending == Cooling::Ending::cooled) {
+    result.ending = Ending::stopped;
+    result.reason.clear();
+  } else {
+    result.reason += "; it did not come back";
+    if (!cooling.reason.empty()) result.reason += ": " + cooling.reason;
+  }
+  return result;
+}
+
 }  // namespace
 
 StatusLook look_for(const Job& job) {
@@ -119,8 +137,14 @@ ForegroundResult stream_with_progress(int port, Source& source, const DisplayOpt
 ForegroundResult stream_with_progress(Print& print, const DisplayOptions& options) {
   const auto began = std::chrono::steady_clock::now();
   Shown shown(options, look_for(print.job()));
+  NotedSignals signals;
   ForegroundResult result = shown.stream(print.take_port(), print.source(), print.settings());
   while (may_reconnect(result.stream)) {
+    // The signal may have come when the session was just over.
+    if (signals.came() || result.stream.stop != StopAsked::no) {
+      result.stream = cool_stopped(print, std::move(result.stream), shown);
+      break;
+    }
     shown.notice(fmt::format("{}; the print goes on when it is back, for up to {} minutes",
                              result.stream.reason, reconnecting_patience.count()));
     if (!is_back(print, result.stream)) break;

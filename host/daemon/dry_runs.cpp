@@ -74,6 +74,7 @@ std::string bytes_of(const fs::path& file) {
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::read(descriptor.get(), bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
     if (count <= 0) throw no_such_file();
     done += static_cast<std::size_t>(count);
   }

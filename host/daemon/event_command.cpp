@@ -52,6 +52,7 @@ Descriptor file_with(const std::string& text) {
   std::size_t written = 0;
   while (file.get() >= 0 && written < line.size()) {
     const ssize_t some = ::write(file.get(), line.data() + written, line.size() - written);
+    if (some < 0 && errno == EINTR) continue;
     if (some <= 0) break;
     written += static_cast<std::size_t>(some);
   }

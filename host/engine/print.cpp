@@ -105,8 +105,7 @@ void Print::reconnect() {
   const std::shared_ptr<SerialLog> log = settings_.link.log;
   settings_.link = link_options(profile, {});
   settings_.link.log = log;
-  const std::string port = stable_name_.empty() ? port_name_ : stable_name_;
-  port_ = open_port(port, profile.baud, settings_.link);
+  port_ = open_port(port_when_back(), profile.baud, settings_.link);
   if (!awake_) awake_.emplace("printing " + job().file.stem().string());
   settings_.continuation = Continuation{std::nullopt, [] {}};  // the source is where the spool ends
 }

@@ -57,6 +57,9 @@ class Print {
   /// port is not there, and SpoolError if the print cannot go on in this process.
   void reconnect();
 
+  /// Where its printer will be when it is plugged in again: by a name of its adapter, if that has one.
+  const std::string& port_when_back() const { return stable_name_.empty() ? port_name_ : stable_name_; }
+
   /// What stream() or a Session takes, after connect(); the port's descriptor once.
   int take_port();
   Source& source() { return *source_; }

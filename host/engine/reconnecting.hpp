@@ -14,9 +14,11 @@ namespace unicursal::host {
 /// How long a print waits for its printer to come back.
 inline constexpr std::chrono::minutes reconnecting_patience{5};
 
-/// Whether a print that ended like this may go on when its printer is back.
+/// Whether a print that ended like this may go on when its printer is back. If it was stopped, only its
+/// heaters are switched off then.
 inline bool may_reconnect(const StreamResult& result) {
-  return result.ending == Ending::failed && result.statistics.cut && result.begun;
+  return result.ending == Ending::failed && result.statistics.cut && result.begun &&
+         result.stop != StopAsked::at_once;
 }
 
 /// Opens the port again as soon as it is there; the print's session must be gone. Returns false when the time

@@ -453,6 +453,7 @@ StreamResult Session::State::conclude(const std::exception_ptr& error) {
   result.firmware = link.firmware();
   result.pauses = holding.pauses();
   if (intent.stopped()) result.ending = Ending::stopped;
+  if (intent.ends()) result.stop = intent.aborted() ? StopAsked::at_once : StopAsked::park;
   if (error) result.reason = sentence(error);
   if (intent.aborted()) result.reason = announcer.reason();
   const bool at_once = intent.aborted() || link.cut_wait_short();

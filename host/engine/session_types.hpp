@@ -37,6 +37,13 @@ enum class Ending {
   failed
 };
 
+/// What the user, or the printer, has asked for before a session has ended.
+enum class StopAsked {
+  no,
+  park,    ///< the print is to end, with the printer parked and cooled
+  at_once  ///< an emergency stop
+};
+
 /// Why the printer cannot go on with the next line; nothing was sent.
 struct Lost {
   std::string why;                     ///< a clause: "it has restarted"
@@ -53,7 +60,8 @@ struct StreamResult {
   std::optional<Lost> lost;
   std::size_t pauses = 0;  ///< times that it was held
   bool unfit = false;      ///< the printer is not fit for this print; nothing was heated or moved
-  bool begun = false;      ///< lines of it may have been sent; a print that never began is not kept
+  StopAsked stop = StopAsked::no;
+  bool begun = false;  ///< lines of it may have been sent; a print that never began is not kept
 };
 
 /// A print that goes on.

@@ -26,7 +26,7 @@ asio::awaitable<bool> try_to_cool(asio::any_io_executor executor, const std::str
     const int descriptor = open_port(port, baud, options);
     Link link(executor, descriptor, options);
     co_await link.connect();
-    std::vector<std::string> lines(1, "M104 S0");
+    std::vector<std::string> lines{"M104 S0", "M140 S0"};
     co_await link.send(std::move(lines));
     co_await link.drain();
   } catch (const LinkError&) {

@@ -14,7 +14,7 @@ struct Cooling {
   std::string reason;  ///< of giving up
 };
 
-/// Opens the port as soon as it is there again, and switches the nozzle off; blocks. The time is over after
+/// Opens the port as soon as it is there again, and switches its heaters off; blocks. The time is over after
 /// five minutes. It gives up at one of the signals that end a print, and at an error that is not the link's.
 Cooling cool_when_back(const std::string& port, unsigned baud, LinkOptions options);
 

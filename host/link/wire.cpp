@@ -73,6 +73,7 @@ void LinkState::pump() {
     if (options.log && count > 0) options.log->add(SerialLog::Way::out, now(), {unsent.data(), count});
     unsent.erase(0, count);
     statistics.bytes += count;
+    if (error == asio::error::interrupted) continue;  // a signal, as of Ctrl-C, has cut the call short
     if (error == asio::error::would_block || error == asio::error::try_again)
       wait_for_port();
     else if (error) {

@@ -29,4 +29,23 @@ PrintSignals::~PrintSignals() {
   for (const auto& [signal, action] : before_) sigaction(signal, &action, nullptr);
 }
 
+// A set whose signals nobody awaits counts them until somebody does.
+NotedSignals::NotedSignals() : signals_(loop_), rules_(signals_) {}
+
+bool NotedSignals::came() {
+  bool one = false;
+  for (bool more = true; more;) {
+    more = false;
+    signals_.async_wait([&](const asio::error_code& error, int) { more = !error; });
+    loop_.restart();
+    loop_.poll();
+    one = one || more;
+    if (more) continue;
+    signals_.cancel();
+    loop_.restart();
+    loop_.poll();
+  }
+  return one;
+}
+
 }  // namespace unicursal::host

@@ -3,6 +3,7 @@
 // crash.
 #pragma once
 
+#include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
 #include <csignal>
 #include <utility>
@@ -27,6 +28,19 @@ class PrintSignals {
 
  private:
   std::vector<std::pair<int, struct sigaction>> before_;
+};
+
+/// Lets no signal get lost, and none kill the program, between sessions of one print, and while one ends.
+class NotedSignals {
+ public:
+  NotedSignals();
+  /// Whether a signal that asks for an end has come since this was asked last, seen by a session or not.
+  bool came();
+
+ private:
+  asio::io_context loop_{1};
+  asio::signal_set signals_;
+  const PrintSignals rules_;
 };
 
 }  // namespace unicursal::host

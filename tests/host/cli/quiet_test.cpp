@@ -58,8 +58,8 @@ TEST_CASE("a quiet command still warns, and says why it fails") {
 
 TEST_CASE("a quiet print shows nothing in a terminal until it ends, and what is typed is answered") {
   const int width = GENERATE(60, 80, 120);
-  PrintBench bench(100);
-  bench.folder().write("job.toml", test::replaced(test::sample_job, "height = 0.4", "height = 20.0"));
+  PrintBench bench(100, {}, test::tall_profile());
+  bench.folder().write("job.toml", test::tall_job());
   test::Terminal terminal(bench.print({"-q"}), "/nonexistent", {static_cast<unsigned short>(width)});
   PrintBench::wait_for([&] { return test::read_text(bench.path("t.txt")).find("G1 ") != std::string::npos; },
                        bench.printer());

@@ -13,13 +13,13 @@ using test::TerminalKind;
 
 namespace {
 
-/// A job of 100 layers, and a simulated printer for it.
+/// A job, and a simulated printer for it.
 class Bench {
  public:
-  explicit Bench(const char* height = "height = 20.0", const char* speed = "100") {
-    folder_.write("bench.toml", test::sample_profile);
+  explicit Bench(const std::string& job = test::tall_job(), const char* speed = "100") {
+    folder_.write("bench.toml", test::tall_profile());
     folder_.write("plate.svg", test::sample_drawing);
-    folder_.write("job.toml", test::replaced(test::sample_job, "height = 0.4", height));
+    folder_.write("job.toml", job);
     printer_ = std::make_unique<Child>(std::vector<std::string>{"simulate", "--profile", path("bench.toml"),
                                                                 "--link", path("port"), "--speed", speed});
     test::await([&] { return std::filesystem::exists(folder_ / "port"); }, *printer_);
@@ -43,7 +43,7 @@ class Bench {
 TEST_CASE("the progress of a print fits a window of 60, 80 or 120 columns", "[optimised]") {
   const auto [width, fields] =
       GENERATE(table<int, std::string>({{60, " left"}, {80, " ahead"}, {120, "nozzle "}}));
-  const Bench bench("height = 20.0", "50");
+  const Bench bench(test::tall_job(), "50");
   Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width)});
   terminal.await("heating, ");
   terminal.await(" left");  // heating is a part of it
@@ -98,7 +98,7 @@ TEST_CASE("what a person types stands on a line of its own, and every command is
 
 TEST_CASE("a print says when and after how long it was done, what had been foretold and what it used") {
   const int width = GENERATE(60, 80, 120);
-  const Bench bench("height = 0.4", "1000");
+  const Bench bench(test::sample_job, "1000");
   Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width)});
   CHECK(terminal.wait() == 0);
   const std::string done = terminal.screen().last_row("done at ");
@@ -108,7 +108,7 @@ TEST_CASE("a print says when and after how long it was done, what had been foret
 }
 
 TEST_CASE("swatches of mixtures need a terminal with colours and no NO_COLOR", "[optimised]") {
-  const Bench bench("height = 0.4", "1000");
+  const Bench bench(test::sample_job, "1000");
   using Environment = std::map<std::string, std::string>;
   const auto [width, environment, coloured] = GENERATE(
       table<int, Environment, bool>({{60, {{"COLORTERM", "truecolor"}}, true},
@@ -124,7 +124,7 @@ TEST_CASE("swatches of mixtures need a terminal with colours and no NO_COLOR", "
 
 TEST_CASE("a dumb terminal gets whole lines") {
   const int width = GENERATE(60, 80, 120);
-  const Bench bench("height = 0.4", "1000");
+  const Bench bench(test::sample_job, "1000");
   Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width), {{"TERM", "dumb"}}});
   terminal.await("printing layer");
   CHECK(terminal.wait() == 0);
@@ -133,7 +133,7 @@ TEST_CASE("a dumb terminal gets whole lines") {
 
 TEST_CASE("a dry run shows its own progress, and the print's time at the end", "[optimised]") {
   const int width = GENERATE(60, 80, 120);
-  const Bench bench("height = 8.0");
+  const Bench bench(test::replaced(test::sample_job, "height = 0.4", "height = 8.0"));
   Terminal terminal({"dry-run", bench.path("job.toml")}, "/nonexistent",
                     {static_cast<unsigned short>(width)});
   terminal.await("dry run layer");

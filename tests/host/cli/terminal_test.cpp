@@ -10,9 +10,9 @@ using test::Terminal;
 
 TEST_CASE("a print is paused, changed, resumed and stopped from its terminal") {
   const test::TempFolder folder;
-  folder.write("bench.toml", test::sample_profile);
+  folder.write("bench.toml", test::tall_profile());
   folder.write("plate.svg", test::sample_drawing);
-  folder.write("job.toml", test::replaced(test::sample_job, "height = 0.4", "height = 20.0"));
+  folder.write("job.toml", test::tall_job());
   const auto path = [&](const char* name) { return (folder / name).string(); };
   Child printer({"simulate", "--profile", path("bench.toml"), "--link", path("port"), "--speed", "100",
                  "--transcript", path("lines")});

@@ -102,17 +102,17 @@ TEST_CASE("Only the files of a dry run are shown, and only a job that a client m
 TEST_CASE("One dry run at a time, and a running one is ended with its removal and with the daemon") {
   DaemonBench bench;
   bench.serve();
-  const int id = begin(bench, "[0, 99]");
+  const int id = begin(bench, "[0, 1999]");
   CHECK(bench.status(bench.request("POST", "/api/dry-runs", "{\"job\": \"plate.toml\"}")) == 409);
   CHECK(bench.status(bench.request("DELETE", "/api/dry-runs/" + std::to_string(id))) == 200);
-  const int second = begin(bench, "[0, 99]");
+  const int second = begin(bench, "[0, 1999]");
   kill(bench.daemon().id(), SIGKILL);
   bench.daemon().wait();
   bench.serve();
   const json found = run_of(bench, second);
   CHECK(found["state"] == "failed");
   CHECK(found["reason"].get<std::string>().find("begin it again") != std::string::npos);
-  const int third = begin(bench, "[100, 100]");  // the plate has a hundred layers
+  const int third = begin(bench, "[2000, 2000]");  // the plate has two thousand layers
   await_end(bench, third);
   CHECK(run_of(bench, third)["state"] == "failed");
   CHECK(run_of(bench, third)["reason"].get<std::string>().size() > 20);

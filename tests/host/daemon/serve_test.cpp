@@ -72,7 +72,7 @@ TEST_CASE("a print is paused and steered by the daemon's commands") {
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
-  const int id = add(bench, "0:99");
+  const int id = add(bench, "0:1999");
   REQUIRE(bench.command({"start"}).code == 0);
   bench.await_print("printing");
   REQUIRE(bench.command({"pause"}).code == 0);
@@ -163,7 +163,7 @@ TEST_CASE("a daemon that is killed finds its queue again") {
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
-  const int first = add(bench, "0:99"), second = add(bench);
+  const int first = add(bench, "0:1999"), second = add(bench);
   REQUIRE(bench.command({"start"}).code == 0);
   bench.await_print("printing");
   kill(bench.daemon().id(), SIGKILL);
@@ -199,7 +199,7 @@ TEST_CASE("two daemons, and a print beside them, do not share a port") {
   DaemonBench bench, other;
   bench.start_printer("100");
   bench.serve();
-  add(bench, "0:99");
+  add(bench, "0:1999");
   other.serve_at(bench.path("port"));
   const int late = add(other);
   REQUIRE(bench.command({"start"}).code == 0);
@@ -243,8 +243,8 @@ TEST_CASE("an upload does not change under a print") {
   bench.start_printer("100");
   bench.serve();
   bench.folder().write("plate.svg", test::sample_drawing);
-  bench.folder().write("bench.toml", test::sample_profile);
-  bench.folder().write("own.toml", test::replaced(test::sample_job, "height = 0.4", "height = 20.0"));
+  bench.folder().write("bench.toml", test::tall_profile());
+  bench.folder().write("own.toml", test::tall_job());
   REQUIRE(bench.command({"queue", "--upload", bench.path("own.toml")}).code == 0);
   REQUIRE(bench.command({"start"}).code == 0);
   CHECK(bench.status(bench.request("PUT", "/api/files/own/own.toml", test::sample_job)) == 409);
@@ -258,7 +258,7 @@ TEST_CASE("SIGTERM, SIGHUP and SIGQUIT park and cool the print before the daemon
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
-  const int id = add(bench, "0:99");
+  const int id = add(bench, "0:1999");
   REQUIRE(bench.command({"start"}).code == 0);
   bench.await_laying();
   for (const int idle : {SIGUSR1, SIGUSR2, SIGTSTP, SIGALRM}) kill(bench.daemon().id(), idle);
@@ -278,7 +278,7 @@ TEST_CASE("stop is M112, and the job has failed") {
   DaemonBench bench;
   bench.start_printer("100");
   bench.serve();
-  const int id = add(bench, "0:99");
+  const int id = add(bench, "0:1999");
   REQUIRE(bench.command({"start"}).code == 0);
   bench.await_print("printing");
   REQUIRE(bench.command({"stop"}).code == 0);

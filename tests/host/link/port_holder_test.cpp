@@ -51,9 +51,9 @@ TEST_CASE("a port that has vanished while brltty runs is refused with its name")
 
 TEST_CASE("a port that another program has open is refused with the name of that program") {
   const test::TempFolder folder;
-  folder.write("bench.toml", test::sample_profile);
+  folder.write("bench.toml", test::tall_profile());
   folder.write("plate.svg", test::sample_drawing);
-  folder.write("job.toml", test::replaced(test::sample_job, "height = 0.4", "height = 20.0"));
+  folder.write("job.toml", test::tall_job());
   const auto path = [&](const char* name) { return (folder / name).string(); };
   test::Child printer({"simulate", "--profile", path("bench.toml"), "--link", path("port"), "--speed", "20",
                        "--transcript", path("lines")});

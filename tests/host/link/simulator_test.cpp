@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/link/link.hpp"
+#include "tests/host/support/temp_folder.hpp"
 
 using namespace unicursal;
 using namespace unicursal::host;
@@ -79,13 +81,7 @@ std::vector<std::string> print_job(std::size_t moves) {
   return lines;
 }
 
-}  // namespace
-
-TEST_CASE("20 000 lines to the simulated printer: none is lost or executed twice") {
-  const auto report_file =
-      std::filesystem::temp_directory_path() / fmt::format("unicursal-link-{}.json", ::getpid());
-  Simulator simulator(report_file);
-  const auto lines = print_job(20000);
+LinkStatistics send(const Simulator& simulator, const std::vector<std::string>& lines) {
   LinkStatistics statistics;
   asio::io_context loop;
   std::exception_ptr error;
@@ -104,6 +100,37 @@ TEST_CASE("20 000 lines to the simulated printer: none is lost or executed twice
       [&](std::exception_ptr thrown) { error = thrown; });
   loop.run();
   if (error) std::rethrow_exception(error);
+  return statistics;
+}
+
+/// Interrupts this process's system calls, 20 000 times a second.
+class SignalStorm {
+ public:
+  SignalStorm() {
+    struct sigaction nothing {};
+    nothing.sa_handler = [](int) {};  // without SA_RESTART, as the handlers of an event loop are
+    sigaction(SIGALRM, &nothing, &before_);
+    const itimerval often{{0, 50}, {0, 50}};
+    setitimer(ITIMER_REAL, &often, nullptr);
+  }
+  ~SignalStorm() {
+    const itimerval never{};
+    setitimer(ITIMER_REAL, &never, nullptr);
+    sigaction(SIGALRM, &before_, nullptr);
+  }
+
+ private:
+  struct sigaction before_ {};
+};
+
+}  // namespace
+
+TEST_CASE("20 000 lines to the simulated printer: none is lost or executed twice") {
+  const auto report_file =
+      std::filesystem::temp_directory_path() / fmt::format("unicursal-link-{}.json", ::getpid());
+  Simulator simulator(report_file);
+  const auto lines = print_job(20000);
+  const LinkStatistics statistics = send(simulator, lines);
   CHECK(simulator.wait() == 0);
   CHECK(statistics.acknowledged == lines.size());
   // A simulator that gets no processor for seconds is asked whether it lives, which takes a line of its own.
@@ -119,4 +146,18 @@ TEST_CASE("20 000 lines to the simulated printer: none is lost or executed twice
   if (undisturbed) CHECK(report.at("last_line") == lines.size());
   CHECK(report.at("extruded_mm").get<double>() == Approx(20000 * 0.0166).epsilon(1e-3));
   std::filesystem::remove(report_file);
+}
+
+TEST_CASE("signals that interrupt system calls are not taken for a lost printer") {
+  const test::TempFolder folder;
+  Simulator simulator(folder / "report.json");
+  const auto lines = print_job(5000);
+  LinkStatistics statistics;
+  {
+    const SignalStorm storm;
+    REQUIRE_NOTHROW(statistics = send(simulator, lines));
+  }
+  CHECK(simulator.wait() == 0);
+  CHECK(statistics.acknowledged == lines.size());
+  CHECK_FALSE(statistics.cut);
 }

@@ -120,7 +120,7 @@ TEST_CASE("a complete print is reported as such, and is listed") {
 }
 
 TEST_CASE("the progress of a resumed print goes on from its layer, and never back") {
-  Bench bench(60);
+  Bench bench(20);
   const std::size_t layers = 6;
   bench.folder().write("job.toml", test::replaced(test::sample_job, "height = 0.4", "height = 1.2"));
   {
@@ -256,6 +256,24 @@ TEST_CASE("a signal ends the waiting for a printer whose cable was pulled") {
   INFO(outcome.err);
   CHECK(outcome.code == 1);
   CHECK(outcome.err.find("unicursal resume") != std::string::npos);
+}
+
+TEST_CASE("a stopped print whose cable is pulled is cooled when it is back, and does not go on") {
+  Bench bench(100, {"--fault", "disconnect:100@command=M400"},
+              test::tall_profile() + "[gcode]\nend = \"M400\"\n");
+  bench.folder().write("job.toml", test::tall_job());
+  Child host(bench.print());
+  const auto lines = [&] { return test::read_text(bench.path("t.txt")); };
+  Bench::wait_for([&] { return lines().find("G1 X") != std::string::npos; }, host);
+  kill(host.id(), SIGINT);
+  const Outcome outcome = host.wait();
+  INFO(outcome.err);
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.find("the heaters are switched off when it is back") != std::string::npos);
+  const std::string all = lines();
+  const std::size_t back = all.find("M115", all.find("M400"));
+  CHECK(all.find("M104 S0\nM140 S0\n", back) != std::string::npos);
+  CHECK(all.find(" E.", all.find("M104 S0")) == std::string::npos);  // nothing is laid any more
 }
 
 TEST_CASE("a print whose host dies while the nozzle is aside continues at its height") {

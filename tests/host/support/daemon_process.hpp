@@ -31,10 +31,9 @@ class DaemonBench {
  public:
   DaemonBench() {
     std::filesystem::create_directory(path("jobs"));
-    folder_.write("jobs/bench.toml.profile", sample_profile);
+    folder_.write("jobs/bench.toml.profile", tall_profile());
     folder_.write("jobs/plate.svg", sample_drawing);
-    folder_.write("jobs/plate.toml", replaced(replaced(sample_job, "bench.toml", "bench.toml.profile"),
-                                              "height = 0.4", "height = 20.0"));
+    folder_.write("jobs/plate.toml", replaced(tall_job(), "bench.toml", "bench.toml.profile"));
     folder_.write("secret.toml", sample_job);
   }
 

@@ -1,6 +1,10 @@
 // A sound job and profile that tests spoil in one place each.
 #pragma once
 
+#include <string>
+
+#include "tests/host/support/temp_folder.hpp"
+
 namespace unicursal::test {
 
 inline constexpr const char* sample_profile = R"([printer]
@@ -39,6 +43,15 @@ mixture = "sun"
 sea = [0.6, 0.0, 0.2]
 sun = [0.0, 1.0, 1.0]
 )";
+
+/// A print of 2000 layers. A test that stops or kills a print takes these, since nobody sees their end: on a
+/// busy computer a print of a few seconds is over before its test has typed what stops it.
+inline std::string tall_profile() {
+  return replaced(sample_profile, "80.0]", "400.0]");
+}
+inline std::string tall_job() {
+  return replaced(sample_job, "height = 0.4", "height = 400.0");
+}
 
 /// 20 x 16 mm, the right 8 mm of it in another colour.
 inline constexpr const char* sample_drawing = R"(<svg xmlns="http://www.w3.org/2000/svg"

@@ -81,9 +81,12 @@ class Terminal {
     REQUIRE(ioctl(master_, TIOCSWINSZ, &size) == 0);
     screen_.resize(columns);
   }
-  /// Waits for the end of the program and returns its exit code.
+  /// Waits for the end of the program, two minutes at most, and returns its exit code.
   int wait() {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (read_some()) {
+      INFO(written_);
+      REQUIRE(std::chrono::steady_clock::now() < end);
     }
     int status = 0;
     waitpid(id_, &status, 0);
