@@ -199,10 +199,10 @@ TEST_CASE("The speed that a person sets outlives the one that a slicer's G-code 
   for (std::size_t at = text.find(";LAYER_CHANGE"); at != std::string::npos;
        at = text.find(";LAYER_CHANGE", at + 30))
     text.insert(at, "M220 S100\nM221 S95\n");
-  SlicedBench bench(300);
+  SlicedBench bench(150);
   bench.folder().write("block.gcode", text);
   test::Terminal terminal(bench.print());
-  terminal.await("printing layer 3");
+  terminal.await("printing layer");
   terminal.type("speed 150\n");
   terminal.await("speed is 150 % now");
   CHECK(terminal.wait() == 0);
