@@ -34,6 +34,7 @@
 #include "tests/fuzz/http_target.hpp"
 #include "tests/fuzz/kept.hpp"
 #include "tests/fuzz/models.hpp"
+#include "tests/fuzz/photos.hpp"
 #include "tests/fuzz/replies.hpp"
 #include "tests/fuzz/simulator.hpp"
 #include "tests/fuzz/sliced.hpp"
@@ -167,7 +168,8 @@ const std::map<std::string, std::function<void(const fs::path&, core::Random&)>>
     {"replies", test::read_replies},
     {"conversation", test::converse},
     {"http", test::http},
-    {"form", test::form}};
+    {"form", test::form},
+    {"photo", test::photo}};
 
 /// Returns true if the file was read, and false if it was properly refused.
 bool survives(const std::function<void(const fs::path&, core::Random&)>& target, const fs::path& folder,
@@ -211,7 +213,7 @@ int main(int count, char** words) {
         stderr,
         "usage: fuzz FOLDER "
         "drawing|mesh|package|wavefront|amf|directions|job|plan|printer|lines|faults|control|journal|"
-        "chunks|kept|replies|conversation|http|form "
+        "chunks|kept|replies|conversation|http|form|photo "
         "SECONDS [FIRST]\n");
     return 2;
   }
