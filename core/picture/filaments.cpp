@@ -1,5 +1,6 @@
 #include "core/picture/filaments.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,116 +9,89 @@
 namespace unicursal::picture {
 namespace {
 
-constexpr double darkest = 0.0015;         // no filament is perfectly black
-constexpr double darkest_strength = 0.01;  // luminance below which a filament colours no more strongly
-constexpr double strength_exponent = 0.22, loss = 0.12;
+using PerBand = Eigen::Array<double, bands, 1>;
 
-double luminance(const Light& light) {
-  return 0.2126729 * light[0] + 0.7151522 * light[1] + 0.0721750 * light[2];
+constexpr std::size_t channel_bands = bands / 3;  ///< of red, green or blue
+
+PerBand per_band(const Reflectance& of) {
+  return Eigen::Map<const PerBand>(of.data());
 }
 
-using Row = std::array<double, 3>;
-
-/// Linear sRGB to the primaries of ITU-R BT.2020, and back. Nearly all colours of plastic lie within these,
-/// so that no channel of a saturated filament is dark only because sRGB cannot show it.
-constexpr std::array<Row, 3> to_wide{
-    {{0.627404, 0.329283, 0.043313}, {0.069097, 0.919540, 0.011362}, {0.016391, 0.088013, 0.895595}}};
-constexpr std::array<Row, 3> from_wide{
-    {{1.660491, -0.587641, -0.072850}, {-0.124550, 1.132900, -0.008349}, {-0.018151, -0.100579, 1.118730}}};
-
-Light product(const std::array<Row, 3>& rows, const Light& light) {
-  Light result{};
-  for (std::size_t i = 0; i < 3; ++i)
-    result[i] = rows[i][0] * light[0] + rows[i][1] * light[1] + rows[i][2] * light[2];
-  return result;
+/// Of an opaque layer: the ratio of absorption to scattering.
+double ratio_of(double reflected) {
+  return (1 - reflected) * (1 - reflected) / (2 * reflected);
 }
 
-/// What is averaged of a negative logarithm of light; brighter than white counts as white.
-double averaged_of(double x, double power, double bend) {
-  return std::pow(bend > 0 ? std::sinh(bend * std::max(0.0, x)) / bend : std::max(0.0, x), power);
-}
-
-double logarithm_of(double averaged, double power, double bend) {
-  const double root = std::pow(averaged, 1 / power);
-  return bend > 0 ? std::asinh(bend * root) / bend : root;
+/// The bands go from blue to red.
+std::size_t channel_of(std::size_t band) {
+  return 2 - band / channel_bands;
 }
 
 }  // namespace
 
-Filaments::Filaments(std::span<const Colour> pure, const Mixing& mixing) {
-  std::vector<Colour> colours(pure.begin(), pure.end());
-  for (std::size_t f = colours.size(); f < usual_filaments.size(); ++f) colours.push_back(usual_filaments[f]);
-  std::vector<Light> lights;
-  for (const Colour& colour : colours) lights.push_back(light_of(colour));
-  *this = Filaments(std::span<const Light>(lights), mixing);
+Filaments::Filaments() {
+  static const Filaments usual{std::span<const Colour>(usual_filaments)};
+  *this = usual;
 }
 
-Filaments::Filaments(std::span<const Light> lights, const Mixing& mixing)
-    : usual_(mixing.usual()), power_(mixing.power), bend_(mixing.bend), pairs_(mixing.pairs) {
-  for (const Light& light : lights) {
-    Filament filament;
-    const Light known = usual_ ? light : product(to_wide, light);
-    for (std::size_t channel = 0; channel < light.size(); ++channel) {
-      const double logarithm = std::log(std::max(darkest, known[channel]));
-      filament.averaged[channel] = usual_ ? logarithm : averaged_of(-logarithm, power_, bend_);
-    }
-    filament.strength = usual_strength(light);
-    filament.strengths = {filament.strength, filament.strength, filament.strength};
-    if (of_.size() < mixing.strengths.size()) filament.strengths = mixing.strengths[of_.size()];
-    of_.push_back(filament);
-  }
-  for (Mixing::Pair& pair : pairs_) {
-    assert(pair.one < size() && pair.other < size());
-    for (double& loss : pair.loss) loss -= Mixing::usual_loss;
+Filaments::Filaments(std::span<const Colour> pure, const Mixing& mixing) : Filaments(mixing) {
+  for (const Colour& colour : pure) add(light_of(colour), mixing);
+  if (size() >= usual_filaments.size()) return;
+  const Filaments usual;
+  const bool same = lift_ == usual.lift_;
+  for (std::size_t f = size(); f < usual_filaments.size(); ++f) {
+    if (same && f >= mixing.strengths.size())
+      of_.push_back(usual.of_[f]);
+    else
+      add(light_of(usual_filaments[f]), mixing);
   }
 }
 
-double Filaments::usual_strength(const Light& light) {
-  return std::pow(std::max(darkest_strength, luminance(light)), -strength_exponent);
+Filaments::Filaments(std::span<const Light> lights, const Mixing& mixing) : Filaments(mixing) {
+  for (const Light& light : lights) add(light, mixing);
 }
 
-Light Filaments::mixed_as_usual(std::span<const double> shares) const {
-  Light sum{};
-  double weights = 0, squares = 0;
-  for (std::size_t f = 0; f < shares.size(); ++f) {
-    if (shares[f] <= 0) continue;
-    const double weight = shares[f] * of_[f].strength;
-    weights += weight;
-    squares += shares[f] * shares[f];
-    for (std::size_t channel = 0; channel < sum.size(); ++channel)
-      sum[channel] += weight * of_[f].averaged[channel];
-  }
-  for (double& channel : sum) channel = std::exp(channel / weights - loss * (1 - squares));
-  return sum;
-}
+Filaments::Filaments(const Mixing& mixing)
+    : lift_(mixing.lift), as_strong_(mixing.strengths.empty()), pairs_(mixing.pairs) {}
 
-Light Filaments::mixed(std::span<const double> shares) const {
-  Light sum{}, weights{}, result{};
-  double squares = 0;
-  for (std::size_t f = 0; f < shares.size(); ++f) {
-    if (shares[f] <= 0) continue;
-    squares += shares[f] * shares[f];
-    for (std::size_t channel = 0; channel < sum.size(); ++channel) {
-      const double weight = shares[f] * of_[f].strengths[channel];
-      weights[channel] += weight;
-      sum[channel] += weight * of_[f].averaged[channel];
-    }
+void Filaments::add(const Light& light, const Mixing& mixing) {
+  Filament filament;
+  Light strength{1, 1, 1};
+  if (size() < mixing.strengths.size()) strength = mixing.strengths[size()];
+  const Reflectance reflected = reflectance_of(light);
+  for (std::size_t band = 0; band < bands; ++band) {
+    filament.strength[band] = strength[channel_of(band)];
+    filament.averaged[band] = filament.strength[band] * ratio_of((reflected[band] + lift_) / (1 + lift_));
   }
-  Light lost{};
-  lost.fill(loss * (1 - squares));
-  for (const Mixing::Pair& pair : pairs_) {
-    if (pair.one >= shares.size() || pair.other >= shares.size()) continue;
-    for (std::size_t channel = 0; channel < lost.size(); ++channel)
-      lost[channel] += pair.loss[channel] * shares[pair.one] * shares[pair.other];
-  }
-  for (std::size_t channel = 0; channel < result.size(); ++channel)
-    result[channel] = std::exp(-logarithm_of(sum[channel] / weights[channel], power_, bend_) - lost[channel]);
-  return product(from_wide, result);
+  const Light seen = light_of(reflected);
+  for (std::size_t c = 0; c < light.size(); ++c) filament.beyond[c] = light[c] - seen[c];
+  of_.push_back(filament);
 }
 
 Light mixed_light(std::span<const double> shares, const Filaments& filaments) {
   assert(shares.size() <= filaments.size());
-  return filaments.usual_ ? filaments.mixed_as_usual(shares) : filaments.mixed(shares);
+  PerBand ratio = PerBand::Zero(), strength = PerBand::Zero();
+  Light light{};
+  for (std::size_t f = 0; f < shares.size(); ++f) {
+    if (shares[f] <= 0) continue;
+    const Filaments::Filament& filament = filaments.of_[f];
+    ratio += shares[f] * per_band(filament.averaged);
+    if (!filaments.as_strong_) strength += shares[f] * per_band(filament.strength);
+    for (std::size_t c = 0; c < light.size(); ++c) light[c] += shares[f] * filament.beyond[c];
+  }
+  if (!filaments.as_strong_) ratio /= strength;
+  const double lift = filaments.lift_;
+  PerBand reflected = (1 + lift) * (1 + ratio - (ratio * (ratio + 2)).sqrt()) - lift;
+  for (const Mixing::Pair& pair : filaments.pairs_) {
+    if (pair.one >= shares.size() || pair.other >= shares.size()) continue;
+    const double together = shares[pair.one] * shares[pair.other];
+    if (together <= 0) continue;
+    for (std::size_t c = 0; c < light.size(); ++c)
+      reflected.segment<channel_bands>(static_cast<Eigen::Index>((2 - c) * channel_bands)) *=
+          std::exp(-pair.loss[c] * together);
+  }
+  for (std::size_t c = 0; c < light.size(); ++c) light[c] += (per_band(seen_of_band[c]) * reflected).sum();
+  return light;
 }
 
 Colour colour_of(std::span<const double> shares, const Filaments& filaments) {

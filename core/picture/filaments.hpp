@@ -1,15 +1,16 @@
-// The colour of a mixture of filaments. Pigments do not mix like light: dark ones dominate light ones, and a
-// mixture is darker than its parts. After the law of Beer and Lambert, for red, green and blue alike, the
-// logarithm of the linear light is the mean over the parts, weighted by their shares and by how strongly they
-// colour, luminance^-0.22. A mixture then keeps e^(−0.12 (1 − Σ share²)) of its light.
+// The colour of a mixture of filaments. Pigments do not mix like light: a mixture of yellow and blue is
+// green, and dark ones dominate light ones. After Kubelka and Munk, what is averaged over the parts, weighted
+// by their shares, is (1 - r)² ÷ 2r, the ratio of absorption to scattering, in twelve bands of the spectrum,
+// which are guessed from each filament's colour (reflectance.hpp). r is its reflectance lifted by a
+// twentieth, (reflectance + 0.05) ÷ 1.05, since no plastic swallows all the light that falls on it.
 //
-// The model and its two numbers were chosen by measurement: of 218 mixtures of two and three filaments that
-// Prusa Research has printed and measured (prusa-fdm-mixer, its fitting-set.jsonl and holdout-set.jsonl), the
-// median of ΔE2000 is 7.0; without the two numbers it is 8.2, with the law of Kubelka and Munk 10.1, with the
-// mean of linear light 14.3. `tests/bench/run --colours FILE...` repeats this. Departure: the mean of cube
-// roots (Yule and Nielsen, n = 3), with numbers fitted in the same way, comes to 6.1 there, but those prints
-// alternate layers, which lie side by side like the dots of a halftone; it would draw half yellow and half
-// blue as grey, where plastic that is mixed through is green.
+// The law and its number were chosen by measurement: of 218 mixtures of two and three filaments that Prusa
+// Research has printed and measured (prusa-fdm-mixer, its fitting-set.jsonl and holdout-set.jsonl), the
+// median of ΔE2000 is 5.9; with the law of Beer and Lambert in three channels, and strengths and a loss
+// fitted to these very prints, it is 7.0, with that of Kubelka and Munk in three channels 10.1, with the mean
+// of linear light 14.3. What remains is how strongly each filament colours, which its colour does not say:
+// after a fit to other mixtures of the same filaments the median is 2.3. `tests/bench/run --colours FILE...`
+// repeats this. Departure: those prints alternate layers, while a mixing nozzle mixes.
 #pragma once
 
 #include <array>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "core/picture/lab.hpp"
+#include "core/picture/reflectance.hpp"
 
 namespace unicursal::picture {
 
@@ -32,34 +34,28 @@ inline constexpr std::array<Colour, 8> usual_filaments{{{38, 96, 196},
                                                         {196, 60, 140}}};
 
 /// How filaments mix. The values here are those of the formula above; fit_filaments.hpp finds others from
-/// printed mixtures. With x = −ln(light), what is averaged in each channel is (sinh(bend x) ÷ bend)^power,
-/// which is x itself for a power of 1 and no bend (Beer and Lambert), and for a power of 2 and a bend of ½
-/// the ratio of absorption to scattering of Kubelka and Munk. The channels of such a law are those of ITU-R
-/// BT.2020 instead of sRGB, since saturated filaments lie beyond sRGB: a channel that is dark only because
-/// sRGB cannot show the colour would say nothing of how it mixes.
+/// printed mixtures. "Red", "green" and "blue" are the light of 600 to 700, 500 to 600 and 400 to 500 nm.
 struct Mixing {
-  static constexpr double usual_loss = 0.24;
+  static constexpr double usual_lift = 0.05;
 
-  double power = 1, bend = 0;
-  /// Of the first filaments, how strongly each colours a mixture in each channel; the others have the usual
-  /// strength.
+  double lift = usual_lift;
+  /// Of the first filaments, how strongly each colours a mixture in red, green and blue; the others: 1.
   std::vector<Light> strengths;
-  /// Of each two filaments: a mixture keeps e^(−loss · share · other share) of its light. The usual one is
-  /// the same for all, as the sum over all two of 0.24 share · other share is 0.12 (1 − Σ share²).
+  /// Of each two filaments: a mixture keeps e^(−loss · share · other share) of its red, green and blue.
   struct Pair {
     std::size_t one = 0, other = 1;
-    Light loss{usual_loss, usual_loss, usual_loss};
+    Light loss{};
   };
   std::vector<Pair> pairs;
 
-  bool usual() const { return power == 1 && bend == 0 && strengths.empty() && pairs.empty(); }
+  bool usual() const { return lift == usual_lift && strengths.empty() && pairs.empty(); }
 };
 
 /// The filaments of a printer's feeders, as far as their colours are concerned.
 class Filaments {
  public:
   /// The usual ones.
-  Filaments() : Filaments(std::span<const Colour>()) {}
+  Filaments();
   /// Feeders beyond `pure` have the usual colours.
   explicit Filaments(std::span<const Colour> pure, const Mixing& mixing = {});
   /// Of exactly these, which may be darker or brighter than bytes can say.
@@ -67,23 +63,21 @@ class Filaments {
 
   /// At least eight, if they come from colours.
   std::size_t size() const { return of_.size(); }
-  /// How strongly a filament of this light colours a mixture unless something else is known.
-  static double usual_strength(const Light& light);
 
  private:
   struct Filament {
-    Light averaged{};  ///< what is averaged of it: the logarithms of its light, or the formula of Mixing
-    double strength = 1;
-    Light strengths{1, 1, 1};  ///< of a mixing that is not the usual one
+    Reflectance averaged{};  ///< what is averaged of it, times its strength
+    Reflectance strength{};
+    Light beyond{};  ///< what its colour has and its guessed reflectance does not show
   };
 
-  Light mixed(std::span<const double> shares) const;
-  Light mixed_as_usual(std::span<const double> shares) const;
+  explicit Filaments(const Mixing& mixing);
+  void add(const Light& light, const Mixing& mixing);
 
   std::vector<Filament> of_;
-  bool usual_ = true;
-  double power_ = 1, bend_ = 0;
-  std::vector<Mixing::Pair> pairs_;  ///< with the loss beyond the usual one
+  double lift_ = Mixing::usual_lift;
+  bool as_strong_ = true;  ///< all strengths are 1
+  std::vector<Mixing::Pair> pairs_;
 
   friend Light mixed_light(std::span<const double> shares, const Filaments& filaments);
 };

@@ -14,14 +14,14 @@ constexpr double together = 0.1;  ///< least shares of two filaments that show t
 constexpr double doubtful = 2.5;  ///< ΔE by which a mixture counts half
 /// How far the numbers usually lie from their usual values. Those of one filament or two are alike in all
 /// channels; how far they lie from their mean is the second number.
-constexpr double power_range = 0.4, bend_range = 0.25;
+constexpr double lift_range = 0.5;  ///< of its logarithm
 constexpr double strength_range = 0.8, strength_spread = 0.4;
 constexpr double loss_range = 0.5, loss_spread = 0.3;
 constexpr double pure_range = 0.5;
 constexpr double least_light = 0.0015;
 /// What numbers may become; beyond that the law means nothing.
-constexpr double least_power = -0.5, most_power = 1.5, most_bend = 4, most_strength = 4;  // logs; bend²
-constexpr double alike = 3;  ///< ΔE within which all mixtures look the same
+constexpr double most_lift = 1.5, most_strength = 4;  // logarithms
+constexpr double alike = 3;                           ///< ΔE within which all mixtures look the same
 
 /// Steps of lightness, chroma and hue that are alike to the eye, as for ΔE2000, about a measured colour.
 class Eye {
@@ -64,14 +64,11 @@ class Numbers {
 
   Mixing mixing(const Eigen::VectorXd& numbers) const {
     Mixing mixing;
-    mixing.power = std::exp(std::clamp(numbers[0], least_power, most_power));
-    mixing.bend = std::sqrt(std::clamp(numbers[1], 0.0, most_bend));
+    mixing.lift = Mixing::usual_lift * std::exp(std::clamp(numbers[0], -most_lift, most_lift));
     for (std::size_t f = 0; f < pure_.size(); ++f) {
       Light& strength = mixing.strengths.emplace_back();
       for (std::size_t c = 0; c < channels; ++c) {
-        const double times =
-            std::exp(std::clamp(numbers[strength_at(f) + index(c)], -most_strength, most_strength));
-        strength[c] = Filaments::usual_strength(pure_[f]) * times;
+        strength[c] = std::exp(std::clamp(numbers[strength_at(f) + index(c)], -most_strength, most_strength));
       }
     }
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -95,10 +92,9 @@ class Numbers {
 
   /// How unusual the numbers are, as residuals whose usual size is 1.
   Eigen::VectorXd unusual(const Eigen::VectorXd& numbers) const {
-    Eigen::VectorXd result(2 + 4 * ((size() - 2) / 3));
-    result[0] = numbers[0] / power_range;
-    result[1] = numbers[1] / bend_range;
-    for (Eigen::Index at = 2, to = 2; at < size(); at += 3, to += 4) {
+    Eigen::VectorXd result(1 + 4 * ((size() - 1) / 3));
+    result[0] = numbers[0] / lift_range;
+    for (Eigen::Index at = 1, to = 1; at < size(); at += 3, to += 4) {
       const bool strength = at < pair_at(0), pair = !strength && at < pure_at(0);
       const double range = strength ? strength_range : pair ? loss_range : pure_range;
       const double spread = strength ? strength_spread : pair ? loss_spread : pure_range;
@@ -111,7 +107,7 @@ class Numbers {
 
  private:
   static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-  Eigen::Index strength_at(std::size_t filament) const { return 2 + index(channels * filament); }
+  Eigen::Index strength_at(std::size_t filament) const { return 1 + index(channels * filament); }
   Eigen::Index pair_at(std::size_t pair) const { return strength_at(pure_.size()) + index(channels * pair); }
   Eigen::Index pure_at(std::size_t filament) const {
     return pair_at(pairs_.size()) + index(channels * filament);
@@ -131,7 +127,6 @@ class Fit {
 
   FittedFilaments operator()() {
     Eigen::VectorXd here = Eigen::VectorXd::Zero(numbers_.size());
-    here[1] = first_bend * first_bend;
     double damping = 1e-2;
     for (int round = 0; round < most_rounds; ++round) {
       const double before = cost_of(here);
@@ -143,7 +138,6 @@ class Fit {
  private:
   static constexpr int most_rounds = 200;
   static constexpr double settled = 1e-7, most_damping = 1e9;
-  static constexpr double first_bend = 0.15;  ///< off the border, where the bend has a slope
 
   /// Goes where the cost is less. Returns false if no step leads there.
   bool step(Eigen::VectorXd& here, double& damping) const {

@@ -1,10 +1,10 @@
 // Finds how filaments mix from mixtures of them that were printed and measured.
 //
-// Found are the two numbers of the whole law, a strength of each filament and a loss of each two filaments,
-// the last two for red, green and blue (Mixing, filaments.hpp). The sum of squares of the differences is made
-// least after Levenberg and Marquardt, together with how far each number lies from its usual value. So a
-// number about which the mixtures say little stays where it was. A mixture that no numbers explain, such as a
-// spoilt patch, counts less the farther away it is (Cauchy's weights).
+// Found are the lift, a strength of each filament and a loss of each two filaments, the last two for red,
+// green and blue (Mixing, filaments.hpp). The sum of squares of the differences is made least after Levenberg
+// and Marquardt, together with how far each number lies from its usual value. So a number about which the
+// mixtures say little stays where it was. A mixture that no numbers explain, such as a spoilt patch, counts
+// less the farther away it is (Cauchy's weights).
 #pragma once
 
 #include <optional>

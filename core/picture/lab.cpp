@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace unicursal::picture {
@@ -46,6 +47,37 @@ double chroma_part(double chroma) {
   return std::sqrt(power / (power + std::pow(25.0, 7)));
 }
 
+/// The bytes of sRGB for linear light. Pictures ask this for each pixel, so it takes no powers.
+class Bytes {
+ public:
+  Bytes() {
+    for (std::size_t byte = 0; byte + 1 < from_.size(); ++byte)
+      from_[byte] = byte == 0 ? 0 : decoded((double(byte) - 0.5) / 255);
+    from_.back() = std::numeric_limits<double>::infinity();
+    for (std::size_t step = 0; step < first_.size(); ++step)
+      first_[step] = static_cast<std::uint8_t>(searched(double(step) / steps));
+  }
+
+  /// The nearest one.
+  std::uint8_t of(double linear) const {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 255;
+    std::size_t byte = first_[static_cast<std::size_t>(linear * steps)];
+    while (linear >= from_[byte + 1]) ++byte;
+    return static_cast<std::uint8_t>(byte);
+  }
+
+ private:
+  static constexpr std::size_t steps = 4096;
+
+  std::size_t searched(double linear) const {
+    return static_cast<std::size_t>(std::upper_bound(from_.begin(), from_.end(), linear) - from_.begin()) - 1;
+  }
+
+  std::array<double, 257> from_{};           ///< the least light of each byte
+  std::array<std::uint8_t, steps> first_{};  ///< the byte of the least light of each step
+};
+
 }  // namespace
 
 double decoded(double encoded) {
@@ -61,10 +93,8 @@ Light light_of(Colour colour) {
 }
 
 Colour colour_of(const Light& light) {
-  const auto byte = [](double linear) {
-    return static_cast<std::uint8_t>(std::lround(255 * encoded(std::clamp(linear, 0.0, 1.0))));
-  };
-  return {byte(light[0]), byte(light[1]), byte(light[2])};
+  static const Bytes bytes;
+  return {bytes.of(light[0]), bytes.of(light[1]), bytes.of(light[2])};
 }
 
 Lab lab_of(const Light& light) {

@@ -142,10 +142,8 @@ picture::Mixing::Pair read_loss(const Section& section, const toml::node& node, 
 }
 
 void read_colours(const Section& section, Filaments& filaments) {
-  filaments.power =
-      section.number_or("power", filaments.power, between(0.25, 8, ""), "write for example power = 2.0");
-  filaments.bend =
-      section.number_or("bend", filaments.bend, between(0, 4, ""), "write for example bend = 0.5");
+  filaments.lift =
+      section.number_or("lift", filaments.lift, between(0.001, 1, ""), "write for example lift = 0.05");
   const toml::node* node = section.find("losses");
   if (!node) return;
   const toml::array* list = node->as_array();
@@ -184,16 +182,13 @@ void read_names(const Section& section, Filaments& filaments) {
 
 picture::Mixing Filaments::mixing() const {
   picture::Mixing mixing;
-  mixing.power = power;
-  mixing.bend = bend;
+  mixing.lift = lift;
   mixing.pairs = losses;
   const bool strong = std::any_of(of_feeders.begin(), of_feeders.end(),
                                   [](const Filament& filament) { return filament.strength.has_value(); });
   for (const Filament& filament : of_feeders) {
     if (!strong) break;
-    picture::Light usual{};
-    usual.fill(picture::Filaments::usual_strength(picture::light_of(filament.colour)));
-    mixing.strengths.push_back(filament.strength.value_or(usual));
+    mixing.strengths.push_back(filament.strength.value_or(picture::Light{1, 1, 1}));
   }
   return mixing;
 }

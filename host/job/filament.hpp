@@ -22,16 +22,16 @@ struct Filament {
   /// Thickness through which hardly any light passes any more; absent: not measured. Nothing depends on it
   /// yet.
   std::optional<double> see_through;
-  /// How strongly it colours mixtures in red, green and blue; absent: the usual strength of its colour.
+  /// How strongly it colours mixtures in red, green and blue; absent: 1.
   std::optional<picture::Light> strength;
 };
 
 struct Filaments {
-  std::vector<Filament> of_feeders;  ///< one for each feeder
-  std::string currency = "EUR";      ///< of all prices
-  bool named = false;                ///< by the profile
-  bool listed = false;               ///< by [[filament]]
-  double power = 1, bend = 0;        ///< of [colours], as of picture::Mixing
+  std::vector<Filament> of_feeders;           ///< one for each feeder
+  std::string currency = "EUR";               ///< of all prices
+  bool named = false;                         ///< by the profile
+  bool listed = false;                        ///< by [[filament]]
+  double lift = picture::Mixing::usual_lift;  ///< of [colours], as of picture::Mixing
   std::vector<picture::Mixing::Pair> losses;
 
   picture::Mixing mixing() const;

@@ -64,7 +64,7 @@ inline const Keys extruder = {
     "max_speed",        "max_acceleration",  "jerk",     "tube_length",  "purge_inlets"};
 inline const Keys filament = {"name",  "colour",   "material",    "diameter", "density",
                               "price", "currency", "see_through", "strength"};
-inline const Keys colours = {"power", "bend", "losses"};
+inline const Keys colours = {"lift", "losses"};
 inline const Keys temperature = {"nozzle", "bed", "hottest_nozzle", "hottest_bed"};
 inline const Keys transition = {"dead_volume", "mixing_volume", "tanks", "overshoot"};
 inline const Keys gcode = {"start", "end"};

@@ -60,8 +60,7 @@ ChartFit fit_chart(const Chart& chart, const Filaments& filaments, const std::ve
     result.filaments.of_feeders[f].colour = fitted->pure[f];
     result.filaments.of_feeders[f].strength = fitted->mixing.strengths[f];
   }
-  result.filaments.power = fitted->mixing.power;
-  result.filaments.bend = fitted->mixing.bend;
+  result.filaments.lift = fitted->mixing.lift;
   result.filaments.losses = fitted->mixing.pairs;
   const picture::Filaments usual = filaments.colours();
   std::vector<double> before;
@@ -99,9 +98,8 @@ std::vector<ProfileChange> colour_changes(const Filaments& before, const Filamen
   std::string losses = "[";
   for (const picture::Mixing::Pair& pair : after.losses)
     losses += fmt::format("\n  [{}, {}, {}],", pair.one + 1, pair.other + 1, numbers(pair.loss));
-  changes.push_back({"colours", {}, "power", fmt::format("{:.4f}", after.power), ""});
-  changes.push_back({"colours", {}, "bend", fmt::format("{:.4f}", after.bend), "power"});
-  changes.push_back({"colours", {}, "losses", losses + "\n]", "bend"});
+  changes.push_back({"colours", {}, "lift", fmt::format("{:.4f}", after.lift), ""});
+  changes.push_back({"colours", {}, "losses", losses + "\n]", "lift"});
   return changes;
 }
 

@@ -43,13 +43,44 @@ TEST_CASE("light makes brighter and darker, and ends at white") {
   CHECK(lit({200, 250, 10}, 9).g == 255);
 }
 
-TEST_CASE("own filaments mix by the logarithms of their light, dark ones more strongly") {
+TEST_CASE("greys mix by absorption over scattering, dark ones more strongly") {
   const Filaments own(std::vector<Colour>{{255, 255, 255}, {188, 188, 188}});
   CHECK(own.size() == usual_filaments.size());
-  // By hand: 188 is 0.5029 of the light, so it colours 0.5029^-0.22 = 1.163 times as strongly; the logarithm
-  // is 1.163 × -0.6874 / 2.163 = -0.3697, less 0.06: 0.6507, which is 211.
-  CHECK(int(colour_of(std::vector<double>{0.5, 0.5}, own).r) == 211);
+  // By hand: 188 is 0.5029 of the light, lifted 0.5266, of which the ratio is 0.2128; white has none. Half of
+  // it belongs to 0.6330, without the lift 0.6146, which is 206.
+  CHECK(int(colour_of(std::vector<double>{0.5, 0.5}, own).r) == 206);
   CHECK(colour_of(std::vector<double>{0, 0, 1}, own) == usual_filaments[2]);  // beyond them the usual ones
+}
+
+TEST_CASE("a guessed reflectance has the colour that it was guessed from, in smooth steps") {
+  const auto off = [](const Colour& colour) {
+    const Reflectance reflected = reflectance_of(light_of(colour));
+    for (const double band : reflected) CHECK((band > 0 && band < 1));
+    return difference(lab_of(light_of(reflected)), lab_of(light_of(colour)));
+  };
+  for (const Colour colour : usual_filaments) CHECK(off(colour) < 0.1);
+  for (const Colour colour : {Colour{255, 255, 255}, Colour{128, 128, 128}, Colour{20, 20, 20}})
+    CHECK(off(colour) < 0.5);
+  // Lamps have these; plastic hardly.
+  for (const Colour colour : {Colour{255, 0, 0}, Colour{0, 255, 0}, Colour{0, 0, 255}, Colour{0, 0, 0}})
+    CHECK(off(colour) < 4);
+  // Blue plastic reflects short waves, yellow plastic long ones, and a grey reflects all alike.
+  const Reflectance blue = reflectance_of(light_of(usual_filaments[0])),
+                    yellow = reflectance_of(light_of(usual_filaments[3]));
+  CHECK(blue[2] > 5 * blue[7]);
+  CHECK(yellow[9] > 5 * yellow[1]);
+  const Reflectance grey = reflectance_of({0.3, 0.3, 0.3});
+  for (const double band : grey) CHECK(band == Approx(0.3).margin(0.001));
+}
+
+TEST_CASE("a light becomes the nearest byte") {
+  for (int byte = 0; byte < 256; ++byte) {
+    const double low = decoded(std::max(0.0, (byte - 0.499) / 255)),
+                 high = decoded(std::min(1.0, (byte + 0.499) / 255));
+    const auto expected = static_cast<std::uint8_t>(byte);
+    CHECK(colour_of(Light{low, high, decoded(byte / 255.0)}) == Colour{expected, expected, expected});
+  }
+  CHECK(colour_of(Light{-1, 2, std::nan("")}) == Colour{0, 255, 0});
 }
 
 TEST_CASE("blue and yellow make green, and red and yellow orange") {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/picture/hex_colour.hpp"
+#include "core/picture/reflectance.hpp"
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
@@ -98,15 +99,23 @@ TEST_CASE("Green of yellow and blue filament is drawn green, as the optical mode
   const test::Outcome outcome = test::run({"curve", file.string(), "-o", (folder / "curve.svg").string()});
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
-  // By hand: in each channel the mean of the logarithms of the two filaments' light, weighted by
-  // luminance^-0.22, less 0.06 (core/picture/filaments.hpp). The yellow has a luminance of 0.555, the blue
-  // one of 0.0985.
-  const auto half = [](double a, double b) {
-    const double yellow = std::pow(0.555, -0.22), blue = std::pow(0.0985, -0.22);
-    const double mean = (yellow * std::log(to_light(a)) + blue * std::log(to_light(b))) / (yellow + blue);
-    return static_cast<std::uint8_t>(std::lround(from_light(std::exp(mean - 0.06))));
-  };
-  const picture::Colour green{half(0xf0, 0x20), half(0xbe, 0x50), half(0x28, 0xc0)};
+  // By hand, in each band: the mean of (1 - r)² ÷ 2r of both filaments, r being their reflectance lifted by a
+  // twentieth, and back (core/picture/filaments.hpp).
+  const picture::Light yellow{to_light(0xf0), to_light(0xbe), to_light(0x28)};
+  const picture::Light blue{to_light(0x20), to_light(0x50), to_light(0xc0)};
+  const picture::Reflectance of_yellow = picture::reflectance_of(yellow),
+                             of_blue = picture::reflectance_of(blue);
+  picture::Light light{};
+  for (std::size_t band = 0; band < picture::bands; ++band) {
+    const double y = (of_yellow[band] + 0.05) / 1.05, b = (of_blue[band] + 0.05) / 1.05;
+    const double mean = ((1 - y) * (1 - y) / (2 * y) + (1 - b) * (1 - b) / (2 * b)) / 2;
+    const double mixed = 1.05 * (1 + mean - std::sqrt(mean * mean + 2 * mean)) - 0.05;
+    const double rest = (of_yellow[band] + of_blue[band]) / 2;  // what the guessed reflectances do not show
+    for (std::size_t c = 0; c < 3; ++c) light[c] += picture::seen_of_band[c][band] * (mixed - rest);
+  }
+  for (std::size_t c = 0; c < 3; ++c) light[c] = from_light(light[c] + (yellow[c] + blue[c]) / 2);
+  const auto byte = [&](std::size_t c) { return static_cast<std::uint8_t>(std::lround(light[c])); };
+  const picture::Colour green{byte(0), byte(1), byte(2)};
   CHECK(green.g > green.r);
   CHECK(green.g > green.b);
   CHECK(test::read_text(folder / "curve.svg").find(picture::hex_of(green)) != std::string::npos);
@@ -122,12 +131,12 @@ TEST_CASE("the colours of a printer's filaments are listed, drawn, and found for
   CHECK(list.out.find("feeder 1: #f0be28 spool 1\n") != std::string::npos);
   // Three steps between each of three pairs, one even mixture of all three; each has a name.
   CHECK(std::count(list.out.begin(), list.out.end(), '\n') == 3 + 9 + 1 + 1);
-  CHECK(list.out.find("  olive\n") != std::string::npos);
+  CHECK(list.out.find("  teal\n") != std::string::npos);
   CHECK(test::read_text(drawn).starts_with("\x89PNG"));
-  const test::Outcome white = test::run({"colours", file, "#ffffff", "#ff00ff"});
-  REQUIRE(white.code == 0);
-  CHECK(white.out.find("#ffffff becomes #") != std::string::npos);
-  CHECK(white.out.find("these filaments cannot make #ff00ff") != std::string::npos);
+  const test::Outcome some = test::run({"colours", file, "#70a060", "#ff00ff"});
+  REQUIRE(some.code == 0);
+  CHECK(some.out.find("#70a060 becomes #") != std::string::npos);
+  CHECK(some.out.find("these filaments cannot make #ff00ff") != std::string::npos);
   const test::Outcome wrong = test::run({"colours", file, "#ffffff", "white"});
   CHECK(wrong.code == 2);
   CHECK(wrong.out.empty());

@@ -74,15 +74,12 @@ TEST_CASE("How filaments mix can be named, and what is left out is usual") {
   const std::string some = blue + "strength = [1.5, 2, 0.5]\n" + yellow + wood;
   const Profile usual = profile_with(blue + yellow + wood);
   CHECK(usual.filaments.mixing().usual());
-  const Profile profile =
-      profile_with(some + "[colours]\npower = 2\nbend = 0.5\nlosses = [[3, 1, 0.1, 0.2, 0.3]]\n");
+  const Profile profile = profile_with(some + "[colours]\nlift = 0.1\nlosses = [[3, 1, 0.1, 0.2, 0.3]]\n");
   const picture::Mixing mixing = profile.filaments.mixing();
-  CHECK(mixing.power == 2);
-  CHECK(mixing.bend == 0.5);
+  CHECK(mixing.lift == 0.1);
   REQUIRE(mixing.strengths.size() == 3);
   CHECK(mixing.strengths[0] == picture::Light{1.5, 2, 0.5});
-  const double other = picture::Filaments::usual_strength(picture::light_of(picture::Colour{240, 190, 40}));
-  CHECK(mixing.strengths[1] == picture::Light{other, other, other});
+  CHECK(mixing.strengths[1] == picture::Light{1, 1, 1});
   REQUIRE(mixing.pairs.size() == 1);
   CHECK((mixing.pairs[0].one == 2 && mixing.pairs[0].other == 0 && mixing.pairs[0].loss[1] == 0.2));
   // A filament that colours more strongly shows more.
@@ -131,7 +128,7 @@ TEST_CASE("A mistake in a filament is reported with file, line, key and remedy")
            {blue + sound + "see_through = 0\n", {"filament[1].see_through", "mm"}},
            {blue + sound + "strength = [1, 2]\n", {"filament[1].strength", "3", "[red, green, blue]"}},
            {blue + sound + "strength = [1, 0, 2]\n", {"filament[1].strength", "above 0"}},
-           {blue + sound + "[colours]\npower = 0\n", {"line 24", "colours.power", "0.25 to 8"}},
+           {blue + sound + "[colours]\nlift = 0\n", {"line 24", "colours.lift", "0.001 to 1"}},
            {blue + sound + "[colours]\nlosses = [1, 2, 0.2, 0.2, 0.2]\n", {"colours.losses", "five numbers"}},
            {blue + sound + "[colours]\nlosses = [[1, 2, 0.2, 0.2, \"x\"]]\n",
             {"colours.losses", "not a number", "[[1, 2, 0.3"}},

@@ -63,9 +63,9 @@ TEST_CASE("The two numbers are replaced and everything else stays, in every way 
 }
 
 TEST_CASE("A value of several lines gets the line ends of the profile") {
-  const std::vector<ProfileChange> change{{"colours", {}, "losses", "[\n  [1, 2, 3, 4, 5],\n]", "power"}};
+  const std::vector<ProfileChange> change{{"colours", {}, "losses", "[\n  [1, 2, 3, 4, 5],\n]", "lift"}};
   const std::string losses = "losses = [\r\n  [1, 2, 3, 4, 5],\r\n]\r\n";
-  for (const std::string before : {"", "[colours]\r\n", "[colours]\r\npower = 2\r\n",
+  for (const std::string before : {"", "[colours]\r\n", "[colours]\r\nlift = 2\r\n",
                                    "[colours]\r\nlosses = [\r\n  [1, 2, 0, 0, 0],\r\n]\r\n"}) {
     const std::string text = "[printer]\r\nnozzle = 0.6\r\n" + before;
     const std::string after = with_changes(text, change, "profile.toml");
@@ -79,19 +79,19 @@ TEST_CASE("Values of lists of tables and lists of several lines are changed as w
   const std::vector<ProfileChange> changes{{"filament", 0, "strength", "[1, 2, 3]", "colour"},
                                            {"filament", 1, "strength", "[4, 5, 6]", "colour"},
                                            {"filament", 1, "colour", "\"#010203\"", ""},
-                                           {"colours", {}, "power", "2.1", ""},
-                                           {"colours", {}, "losses", "[\n  [1, 2, 3, 4, 5],\n]", "power"}};
+                                           {"colours", {}, "lift", "0.1", ""},
+                                           {"colours", {}, "losses", "[\n  [1, 2, 3, 4, 5],\n]", "lift"}};
   const std::pair<const char*, const char*> cases[] = {
       {"[printer]\nname = \"a\"\n[[filament]] # one\ncolour = \"#ffffff\" # white\n[[filament]]\nname = "
        "\"x\"\n\n[extruder] # end\n",
        "[printer]\nname = \"a\"\n[[filament]] # one\ncolour = \"#ffffff\" # white\nstrength = [1, 2, "
        "3]\n[[filament]]\ncolour = \"#010203\"\nstrength = [4, 5, 6]\nname = \"x\"\n\n[extruder] # "
-       "end\n\n[colours]\npower = 2.1\nlosses = [\n  [1, 2, 3, 4, 5],\n]\n"},
-      {"filament = [{ colour = \"#ffffff\" }, {}]\n[colours]\nlosses = [\n  [1, 2, 0, 0, 0], # a\n]\npower = "
+       "end\n\n[colours]\nlift = 0.1\nlosses = [\n  [1, 2, 3, 4, 5],\n]\n"},
+      {"filament = [{ colour = \"#ffffff\" }, {}]\n[colours]\nlosses = [\n  [1, 2, 0, 0, 0], # a\n]\nlift = "
        "1 # b\n",
        "filament = [{ colour = \"#ffffff\", strength = [1, 2, 3] }, { colour = \"#010203\", strength = [4, "
        "5, "
-       "6] }]\n[colours]\nlosses = [\n  [1, 2, 3, 4, 5],\n]\npower = 2.1 # b\n"},
+       "6] }]\n[colours]\nlosses = [\n  [1, 2, 3, 4, 5],\n]\nlift = 0.1 # b\n"},
   };
   for (const auto& [before, after] : cases) {
     CAPTURE(before);

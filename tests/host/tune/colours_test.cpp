@@ -48,7 +48,7 @@ TEST_CASE("Measured charts of several sets of filaments change the profile, and 
   const std::string text = test::read_text(studio.profile);
   CHECK(text.find("name = \"Diamond\"   # an old one\n") != std::string::npos);
   CHECK(text.find("# as its maker says\nstrength = [") != std::string::npos);
-  CHECK(text.find("\n[colours]\npower = ") != std::string::npos);
+  CHECK(text.find("\n[colours]\nlift = ") != std::string::npos);
   // A second time the keys are replaced, not added.
   REQUIRE(studio.tune(studio.measured(studio.as_delivered())).code == 0);
   const std::string again = test::read_text(studio.profile);
