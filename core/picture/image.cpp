@@ -1,13 +1,8 @@
 #include "core/picture/image.hpp"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <system_error>
 
 namespace unicursal::picture {
 
@@ -53,27 +48,6 @@ void Image::stroke(double x0, double y0, double x1, double y1, double thickness,
       const double cover = thickness / 2 + 0.5 - std::hypot(px - t * dx, py - t * dy);
       if (cover > 0) blend(x, y, colour, cover);
     }
-  }
-}
-
-void write_png(const std::filesystem::path& file, const Image& image) {
-  std::vector<png_byte> bytes;
-  bytes.reserve(image.width() * image.height() * 3);
-  for (std::size_t y = 0; y < image.height(); ++y) {
-    for (std::size_t x = 0; x < image.width(); ++x) {
-      const Colour c = image.at(x, y);
-      bytes.insert(bytes.end(), {c.r, c.g, c.b});
-    }
-  }
-  png_image png;
-  std::memset(&png, 0, sizeof png);
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width());
-  png.height = static_cast<png_uint_32>(image.height());
-  png.format = PNG_FORMAT_RGB;
-  errno = 0;
-  if (png_image_write_to_file(&png, file.c_str(), 0, bytes.data(), 0, nullptr) == 0) {
-    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), file.string());
   }
 }
 

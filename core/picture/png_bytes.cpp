@@ -4,6 +4,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <system_error>
 #include <vector>
 
@@ -30,6 +32,20 @@ std::string png_bytes(const Image& image) {
     throw std::system_error(ENOMEM, std::generic_category(), "a picture");
   bytes.resize(size);
   return bytes;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  const std::string bytes = png_bytes(image);
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary);
+  const bool opened = stream.is_open();
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (stream) return;
+  const std::system_error problem(errno != 0 ? errno : EIO, std::generic_category(), file.string());
+  std::error_code ignored;
+  if (opened && std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  throw problem;
 }
 
 }  // namespace unicursal::picture

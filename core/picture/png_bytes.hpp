@@ -1,4 +1,4 @@
-// A picture as the content of a PNG file, for those who do not want it in a file.
+// A picture as the content of a PNG file, as write_png() (image.hpp) writes it.
 #pragma once
 
 #include <string>
