@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,7 +16,6 @@
 #include <asio/use_awaitable.hpp>
 #include <cerrno>
 #include <condition_variable>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -30,6 +27,7 @@
 
 #include "core/error.hpp"
 #include "core/stopping.hpp"
+#include "host/daemon/child_limits.hpp"
 #include "host/daemon/job_sketch.hpp"
 #include "host/engine/prepared_sliced.hpp"
 #include "host/files/descriptor.hpp"
@@ -57,34 +55,6 @@ std::string too_large(const CheckLimits& limits) {
 }
 
 // ---- in the child
-
-void limit(__rlimit_resource which, rlim_t soft, rlim_t hard) {
-  const rlimit limits{soft, hard};
-  ::setrlimit(which, &limits);
-}
-
-/// When memory runs out, this process goes, and not the daemon.
-void offer_first() {
-  std::ofstream("/proc/self/oom_score_adj") << 1000;
-}
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool limits_memory = false;  // the sanitizer itself reserves terabytes of addresses
-#else
-constexpr bool limits_memory = true;
-#endif
-
-void take_on(const CheckLimits& limits) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  ::setpriority(PRIO_PROCESS, 0, 19);  // the printer comes first
-  offer_first();
-  limit(RLIMIT_CORE, 0, 0);
-  if (limits.memory && limits_memory) limit(RLIMIT_AS, *limits.memory, *limits.memory);
-  if (limits.time) {
-    const auto seconds = static_cast<rlim_t>(limits.time->count());
-    limit(RLIMIT_CPU, seconds, seconds + 1);
-  }
-}
 
 /// The first curve of every island is enough: what remains is the optimiser's work, which can be stopped.
 void plan_roughly(const PreparedJob& prepared, std::size_t index) {
@@ -263,7 +233,9 @@ asio::awaitable<std::string> check_in_child(JobCheck check, std::stop_token stop
 }
 
 void check_here(const JobCheck& check) {
-  take_on(check.limits);
+  ChildLimits limits{SIGKILL, check.limits.memory, {}, 1, {}};
+  if (check.limits.time) limits.soft_seconds = static_cast<rlim_t>(check.limits.time->count());
+  take_on(limits);
   try {
     Job job = load_job_or_model(check.job, check.profile, UnnamedPrinter::refuse);
     if (job.sliced) {

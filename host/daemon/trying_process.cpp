@@ -2,36 +2,22 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
 
+#include "host/daemon/child_limits.hpp"
+
 namespace unicursal::host {
 namespace {
 
-constexpr rlim_t most_trying_memory = rlim_t(4) << 30;   ///< address space, bytes
-constexpr rlim_t most_trying_seconds = 2 * 3600;         ///< of the processor
-constexpr rlim_t largest_trying_file = rlim_t(1) << 30;  ///< bytes
-
-void restrict_to(__rlimit_resource which, rlim_t most) {
-  const rlimit limits{most, most};
-  ::setrlimit(which, &limits);
-}
+constexpr ChildLimits trying_limits{SIGTERM, std::uint64_t(4) << 30, 2 * 3600, 0, rlim_t(1) << 30};
 
 /// Between fork() and execv(), where only system calls are safe.
 [[noreturn]] void become(char* const* words, int output) {
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  ::setpriority(PRIO_PROCESS, 0, 19);
-  restrict_to(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__  // the sanitizer itself reserves terabytes of addresses
-  restrict_to(RLIMIT_AS, most_trying_memory);
-#endif
-  restrict_to(RLIMIT_CPU, most_trying_seconds);
-  restrict_to(RLIMIT_FSIZE, largest_trying_file);
+  take_on(trying_limits);
   for (int number = 1; number < NSIG; ++number) ::signal(number, SIG_DFL);
   sigset_t none;
   ::sigemptyset(&none);
@@ -41,8 +27,6 @@ void restrict_to(__rlimit_resource which, rlim_t most) {
       ::dup2(output, STDERR_FILENO) < 0)
     ::_exit(127);
   ::close_range(STDERR_FILENO + 1, ~0U, 0);
-  const int score = ::open("/proc/self/oom_score_adj", O_WRONLY);  // it goes before the daemon does
-  if (score >= 0 && ::write(score, "1000", 4) == 4) ::close(score);
   ::execv("/proc/self/exe", words);
   ::_exit(127);
 }
