@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "host/cli/arguments.hpp"
 #include "host/cli/foreground.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/dry_run/lockstep_clock.hpp"
@@ -59,6 +61,21 @@ StreamSettings in_lockstep(const SimulatorProcess& simulator, const Profile& pro
 }
 
 }  // namespace
+
+CLI::Option* TestOptions::declare(CLI::App& app, const std::string& what) {
+  constexpr auto printing = "Printing", reading = "Reading";
+  add_value(app, "PROFILE", profile, " ", "The printer's profile: see unicursal-profile(5).").required();
+  CLI::Option& ports =
+      add_value(app, "--port", port, "PORT",
+                "Print " + what + " on this serial port, or auto to search for the printer.");
+  ports.group(printing);
+  add_value(app, "-o,--output", output, "FILE", "Write " + what + " to this file, as G-code.")
+      .group(printing);
+  CLI::Option* simulated =
+      app.add_flag("--simulate", simulate, "Print " + what + " on the simulated printer.");
+  app.add_flag("--yes", yes, "Write to the profile without asking.")->group(reading);
+  return simulated->excludes(&ports)->option_text(" ")->group(printing);
+}
 
 void write_gcode(const FinishedPrint& print, const std::filesystem::path& file) {
   WholeFile whole(file);

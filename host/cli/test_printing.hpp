@@ -12,7 +12,24 @@
 #include "host/job/profile.hpp"
 #include "sim/bed/raster.hpp"
 
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
 namespace unicursal::host {
+
+/// What the commands of `tune` have in common.
+struct TestOptions {
+  std::filesystem::path profile;
+  std::optional<std::string> port;
+  std::optional<std::filesystem::path> output;  ///< G-code
+  bool simulate = false;
+  bool yes = false;
+
+  /// `what` is printed, such as "the chart". Returns --simulate.
+  CLI::Option* declare(CLI::App& app, const std::string& what);
+};
 
 /// Writes the lines of a whole print. Throws core::FileError.
 void write_gcode(const FinishedPrint& print, const std::filesystem::path& file);

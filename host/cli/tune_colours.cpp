@@ -98,7 +98,7 @@ void TuneColours::declare(CLI::App& tune) {
       "was foretold, before and now. It changes only the colours and strengths of the profile's "
       "[[filament]] and its [colours], and only after you confirm.");
   constexpr auto printing = "Printing", reading = "Reading", simulated = "Simulated printer";
-  add_value(app, "PROFILE", profile_, " ", "The printer's profile: see unicursal-profile(5).").required();
+  CLI::Option* simulate = test_.declare(app, "the chart");
   add_value(app, "--marks", marks_, "FEEDER",
             "Feeder of the marks and numbers, which should stand out from the bed. Default: the darkest.")
       .check(integer_between(1, 8))
@@ -107,13 +107,6 @@ void TuneColours::declare(CLI::App& tune) {
             "Thickness of the patches. A thin layer shows the bed. Default: 0.8.")
       .check(number_between(least_thickness, most_thickness))
       ->group(printing);
-  CLI::Option& port = add_value(app, "--port", port_, "PORT",
-                                "Print the chart on this serial port, or auto to search for the printer.");
-  port.group(printing);
-  add_value(app, "-o,--output", output_, "FILE", "Write the chart to this file, as G-code.").group(printing);
-  CLI::Option* simulate =
-      app.add_flag("--simulate", simulate_, "Print the chart on the simulated printer.")->excludes(&port);
-  simulate->option_text(" ")->group(printing);
   add_value(app, "--picture", pictures_, "DIR", "Folder for pictures of the simulated chart.")
       .needs(simulate)
       ->group(simulated);
@@ -128,7 +121,7 @@ void TuneColours::declare(CLI::App& tune) {
                                  "Read the chart from this photo, JPEG or PNG. It shows all six round marks, "
                                  "sharp and in even light.")
                            .excludes(&measured)
-                           ->excludes(&port)
+                           ->excludes(app.get_option("--port"))
                            ->excludes(simulate)
                            ->group(reading);
   add_value(app, "--corners", corners_, "NUMBERS",
@@ -136,7 +129,6 @@ void TuneColours::declare(CLI::App& tune) {
             "front right, back right and back left one, in pixels. Needs --photo.")
       .needs(photo)
       ->group(reading);
-  app.add_flag("--yes", yes_, "Write to the profile without asking.")->group(reading);
 }
 
 bool TuneColours::chosen() const {
@@ -144,10 +136,11 @@ bool TuneColours::chosen() const {
 }
 
 Exit TuneColours::run() const {
-  const Profile profile = load_profile(profile_);
-  const ProfileText text(profile_);
+  const Profile profile = load_profile(test_.profile);
+  const ProfileText text(test_.profile);
   expect_filaments(profile);
-  for (const auto& written : {output_, rasters_}) expect_other_file(written, {profile_, measured_, photo_});
+  for (const auto& written : {test_.output, rasters_})
+    expect_other_file(written, {test_.profile, measured_, photo_});
   corners_in(corners_);
   if (marks_ && *marks_ > profile.printer.feeders)
     throw core::DataError("", "--marks", fmt::format("this printer has no feeder {}", *marks_),
@@ -157,9 +150,10 @@ Exit TuneColours::run() const {
   const FinishedPrint print = gcode_of(chart.print, profile.printer);
   report(chart, print);
   try {
-    if (output_) write_gcode(print, *output_);
-    if (simulate_) simulate_test({profile_, {}, pictures_, rasters_}, profile, print, chart_name, skip_layer);
-    if (port_) print_test(*port_, profile, print, chart_name);
+    if (test_.output) write_gcode(print, *test_.output);
+    if (test_.simulate)
+      simulate_test({test_.profile, {}, pictures_, rasters_}, profile, print, chart_name, skip_layer);
+    if (test_.port) print_test(*test_.port, profile, print, chart_name);
     if (!measured_ && !photo_) {
       show(stdout,
            "Take a photo of the printed chart, or measure its patches; then run the command again with "
@@ -171,11 +165,11 @@ Exit TuneColours::run() const {
                : fit_chart(chart, profile.filaments, read_measured_colours(*measured_, chart.patches.size()),
                            picture::PureColours::fitted);
     report(chart, fit, profile.filaments);
-    const std::string question = fmt::format("Write this into {}?", profile_.string());
-    if (!yes_ && !confirmed(std::cin, std::cout, question))
+    const std::string question = fmt::format("Write this into {}?", test_.profile.string());
+    if (!test_.yes && !confirmed(std::cin, std::cout, question))
       throw TuningCancelled("the result was not accepted");
     text.set(colour_changes(profile.filaments, fit.filaments));
-    show(stdout, "written:   {}\n", profile_.string());
+    show(stdout, "written:   {}\n", test_.profile.string());
     return Exit::success;
   } catch (const TuningCancelled& cancelled) {
     show(stdout, "{}; the profile was not changed\n", cancelled.what());

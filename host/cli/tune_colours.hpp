@@ -7,10 +7,7 @@
 #include <string>
 
 #include "host/cli/exit.hpp"
-
-namespace CLI {
-class App;
-}
+#include "host/cli/test_printing.hpp"
 
 namespace unicursal::host {
 
@@ -21,16 +18,12 @@ class TuneColours {
   Exit run() const;
 
  private:
-  std::filesystem::path profile_;
-  std::optional<std::size_t> marks_;             ///< feeder, counted from 1
-  std::optional<double> thickness_;              ///< mm
-  std::optional<std::filesystem::path> output_;  ///< G-code
-  std::optional<std::string> port_;
-  bool simulate_ = false;
+  TestOptions test_;
+  std::optional<std::size_t> marks_;  ///< feeder, counted from 1
+  std::optional<double> thickness_;   ///< mm
   std::optional<std::filesystem::path> pictures_, rasters_;
   std::optional<std::filesystem::path> measured_, photo_;
   std::optional<std::string> corners_;  ///< of the photo, pixels
-  bool yes_ = false;
   const CLI::App* app_ = nullptr;
 };
 

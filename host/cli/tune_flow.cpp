@@ -97,15 +97,8 @@ void TuneFlow::declare(CLI::App& tune) {
       "lines of each feeder alone, some 100 mm of its filament. Then measure from the inlet to the mark "
       "again. With a ruler a factor is known to about 0.7 %. The command changes only "
       "extruder.flow_factors of the profile, and only after you confirm.");
-  constexpr auto printing = "Printing", reading = "Reading";
-  add_value(app, "PROFILE", profile_, " ", "The printer's profile: see unicursal-profile(5).").required();
-  CLI::Option& port = add_value(app, "--port", port_, "PORT",
-                                "Print the lines on this serial port, or auto to search for the printer.");
-  port.group(printing);
-  add_value(app, "-o,--output", output_, "FILE", "Write the lines to this file, as G-code.").group(printing);
-  CLI::Option* simulate =
-      app.add_flag("--simulate", simulate_, "Print the lines on the simulated printer.")->excludes(&port);
-  simulate->option_text(" ")->group(printing);
+  constexpr auto reading = "Reading";
+  test_.declare(app, "the lines");
   add_value(app, "--mark", mark_, "MM",
             "Distance of the marks from the inlets before the print. Default: 120.")
       .check(number_between(least_mark, farthest_mark))
@@ -113,7 +106,6 @@ void TuneFlow::declare(CLI::App& tune) {
   add_value(app, "--measured", measured_, "MM,...",
             "What is left of this distance after the print, one number for each feeder.")
       .group(reading);
-  app.add_flag("--yes", yes_, "Write to the profile without asking.")->group(reading);
 }
 
 bool TuneFlow::chosen() const {
@@ -121,9 +113,9 @@ bool TuneFlow::chosen() const {
 }
 
 Exit TuneFlow::run() const {
-  const Profile profile = load_profile(profile_);
-  const ProfileText text(profile_);
-  expect_other_file(output_, {profile_});
+  const Profile profile = load_profile(test_.profile);
+  const ProfileText text(test_.profile);
+  expect_other_file(test_.output, {test_.profile});
   const std::size_t feeders = profile.printer.feeders;
   std::optional<gcode::PerFeeder> left;
   if (measured_) left = left_in(*measured_, feeders);
@@ -138,24 +130,25 @@ Exit TuneFlow::run() const {
          "Lines of gcode.start and gcode.end that feed filament are left out, since they would be measured "
          "too.\n");
   try {
-    if (output_) write_gcode(print, *output_);
-    const bool printed = simulate_ || port_;
-    if (port_ && !measured_) {
+    if (test_.output) write_gcode(print, *test_.output);
+    const bool printed = test_.simulate || test_.port;
+    if (test_.port && !measured_) {
       const std::string question =
           fmt::format("Is there a mark on each filament, {:g} mm before its feeder?", mark_);
-      if (!yes_ && !confirmed(std::cin, std::cout, question)) throw TuningCancelled("nothing was printed");
+      if (!test_.yes && !confirmed(std::cin, std::cout, question))
+        throw TuningCancelled("nothing was printed");
     }
-    if (simulate_) {
+    if (test_.simulate) {
       Profile plain = profile;
       plain.printer = test.printer;
-      simulate_test({profile_, {}, {}, {}}, plain, print, lines_name, skip_layer);
+      simulate_test({test_.profile, {}, {}, {}}, plain, print, lines_name, skip_layer);
     }
-    if (port_) {
+    if (test_.port) {
       Profile plain = profile;
       plain.printer = test.printer;
-      print_test(*port_, plain, print, lines_name);
+      print_test(*test_.port, plain, print, lines_name);
     }
-    if (output_ && !printed && !left) {
+    if (test_.output && !printed && !left) {
       show(stdout,
            "Put a mark on each filament, {:g} mm before its feeder, and print this file. Then run the "
            "command again without -o to enter what is left of this distance.\n",
@@ -167,12 +160,12 @@ Exit TuneFlow::run() const {
     for (double& length : went_in) length = mark_ - length;
     const gcode::PerFeeder factors = flow_factors(test.asked, went_in);
     report(test, went_in, factors);
-    const std::string question = fmt::format("Write these factors into {}?", profile_.string());
-    if (!yes_ && !confirmed(std::cin, std::cout, question))
+    const std::string question = fmt::format("Write these factors into {}?", test_.profile.string());
+    if (!test_.yes && !confirmed(std::cin, std::cout, question))
       throw TuningCancelled("the result was not accepted");
     const std::vector<ProfileChange> change{{"extruder", {}, "flow_factors", list_of(factors), "feeders"}};
     text.set(change);
-    show(stdout, "written:   {}\n", profile_.string());
+    show(stdout, "written:   {}\n", test_.profile.string());
     return Exit::success;
   } catch (const TuningCancelled& cancelled) {
     show(stdout, "{}; the profile was not changed\n", cancelled.what());

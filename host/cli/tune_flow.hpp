@@ -6,10 +6,7 @@
 #include <string>
 
 #include "host/cli/exit.hpp"
-
-namespace CLI {
-class App;
-}
+#include "host/cli/test_printing.hpp"
 
 namespace unicursal::host {
 
@@ -20,13 +17,9 @@ class TuneFlow {
   Exit run() const;
 
  private:
-  std::filesystem::path profile_;
-  std::optional<std::filesystem::path> output_;  ///< G-code
-  std::optional<std::string> port_;
-  bool simulate_ = false;
+  TestOptions test_;
   double mark_ = 120;  ///< mm from a feeder's inlet to the mark on its filament, before the print
   std::optional<std::string> measured_;
-  bool yes_ = false;
   const CLI::App* app_ = nullptr;
 };
 
