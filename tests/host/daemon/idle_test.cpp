@@ -103,6 +103,23 @@ TEST_CASE("a pulled cable closes the connection with a reason, and the printer c
   });
 }
 
+TEST_CASE("an examination does not end the search for a hot printer whose cable is out", "[optimised]") {
+  IdleDaemon bench("50", {"--fault", "disconnect:40@command=M106"});
+  bench.connect();
+  REQUIRE(bench.post("heat", R"({"nozzle_c": 200, "bed_c": 60})") == 202);
+  bench.until([](const json& now) { return now["bed"].value("target_c", 0.0) == 60; });
+  REQUIRE(bench.post("fan", R"({"percent": 50})") == 202);
+  bench.until([](const json& now) { return now["connection"] == "closed"; });
+  const json refused = bench.ask("POST", "/api/doctor", "{}");
+  CHECK(refused["code"] == "not_examined");
+  bench.until([](const json& now) {
+    return now["connection"] == "open" && now["nozzle"].value("target_c", 1.0) == 0 &&
+           now["bed"].value("target_c", 1.0) == 0;
+  });
+  const std::string lines = bench.transcript();
+  CHECK(lines.rfind("M104 S0") > lines.rfind("M104 S200"));
+}
+
 TEST_CASE("a hot printer whose cable is pulled before the print begins is found again and cooled",
           "[optimised]") {
   IdleDaemon bench("50", {"--fault", "disconnect:40@command=M163"});  // the print's first question

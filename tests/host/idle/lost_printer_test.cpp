@@ -1,5 +1,6 @@
 // An idle printer that is lost while it is hot. The simulated printer runs in real time, a hundred times as
 // fast: on a virtual clock no cable is plugged in again.
+#include <fcntl.h>
 #include <poll.h>
 
 #include <asio/co_spawn.hpp>
@@ -10,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
+#include "host/files/descriptor.hpp"
 #include "host/idle/idle_printer.hpp"
 #include "tests/host/support/child_process.hpp"
 #include "tests/host/support/sample_job.hpp"
@@ -25,22 +27,22 @@ using Connection = host::IdleStatus::Connection;
 
 class LostPrinterBench {
  public:
-  /// Its cable is pulled when the fan is switched on, and plugged in again after a second.
-  LostPrinterBench()
+  /// Its cable is pulled when the fan is switched on, and plugged in again after a second, or never.
+  explicit LostPrinterBench(const std::string& fault = "disconnect:100@command=M106")
       : profile_(host::load_profile(folder_.write("bench.toml", test::sample_profile))),
         printer_({"simulate", "--profile", (folder_ / "bench.toml").string(), "--link", port(), "--speed",
-                  "100", "--transcript", (folder_ / "lines").string(), "--fault",
-                  "disconnect:100@command=M106"}) {
+                  "100", "--transcript", (folder_ / "lines").string(), "--fault", fault}) {
     look([&] { return plugged(); });
   }
 
-  void run(const std::function<asio::awaitable<void>(IdlePrinter&)>& script) {
+  /// `named`: under which it is connected; empty: its own.
+  void run(const std::function<asio::awaitable<void>(IdlePrinter&)>& script, const std::string& named = {}) {
     asio::io_context loop{1};
     asio::thread_pool opener(1);
     IdlePrinter idle(loop.get_executor(), opener.get_executor());
     std::exception_ptr failure;
     const auto all = [&]() -> asio::awaitable<void> {
-      idle.connect(profile_, port());
+      idle.connect(profile_, named.empty() ? port() : named);
       co_await until([&] { return idle.status().connection == Connection::open; });
       co_await script(idle);
       co_await idle.close();
@@ -72,8 +74,14 @@ class LostPrinterBench {
     CHECK(idle.may_be_hot());
   }
 
+  const host::Profile& profile() const { return profile_; }
   std::string port() const { return (folder_ / "port").string(); }
   bool plugged() const { return std::filesystem::exists(port()); }
+  bool was_asked() {
+    kill(printer_.id(), SIGTERM);
+    printer_.wait();
+    return test::read_text(folder_ / "lines").find("M115") != std::string::npos;
+  }
   /// Whether both heaters were switched off after they had been switched on.
   bool cooled() {
     kill(printer_.id(), SIGTERM);
@@ -113,6 +121,30 @@ TEST_CASE("a print gets no hot printer that is lost, and a cold one when it is b
     ::close(port);
   });
   CHECK(bench.cooled());
+}
+
+TEST_CASE("a hot printer that was found by a search is looked for by its own adapter, not by another search",
+          "[optimised]") {
+  LostPrinterBench bench("disconnect@command=M106"), other;
+  const test::TempFolder folder;
+  // What a search finds: a name that is not a path from the root, as "auto" is not.
+  const std::filesystem::path found = folder / "found";
+  std::filesystem::create_symlink(bench.port(), found);
+  const std::string searched = std::filesystem::relative(found).string();
+  // As long as this is open, no other terminal gets the name of the lost printer's.
+  const host::Descriptor kept(::open(bench.port().c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC));
+  const auto script = [&](IdlePrinter& idle) -> asio::awaitable<void> {
+    co_await bench.lose_hot(idle);
+    std::filesystem::remove(found);
+    std::filesystem::create_symlink(other.port(), found);
+    CHECK(co_await idle.hand_over() == -1);
+    idle.connect(bench.profile(), searched);  // as after a print that did not get it
+    CHECK(idle.wanted());
+    CHECK(co_await idle.hand_over() == -1);
+    CHECK(idle.may_be_hot());
+  };
+  bench.run(script, searched);
+  CHECK_FALSE(other.was_asked());
 }
 
 }  // namespace unicursal
