@@ -5,9 +5,11 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/command.hpp"
+#include "host/cli/daemon_feeding.hpp"
 #include "host/cli/foreground.hpp"
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
+#include "host/daemon/state_folder.hpp"
 #include "host/engine/reconnecting.hpp"
 #include "host/feeding/cool_when_back.hpp"
 #include "host/feeding/feeding.hpp"
@@ -90,22 +92,30 @@ class Feed final : public Command {
 
  private:
   std::string who() const { return feeder_ ? fmt::format("feeder {}", *feeder_) : "each feeder"; }
+  FeedingOrder order() const;
+  Feeding announced(const Profile& profile) const;
+  bool agreed() const;
   bool ready() const;
+  std::optional<Client> daemon(const std::optional<Profile>& profile) const;
   Exit feed(const Feeding& feeding, const Profile& profile) const;
+  Exit feed_by(const Client& daemon) const;
+  Exit show_end(Exit exit, double length) const;
 
   const FeedingKind kind_;
   const FeedWords& words_;
-  std::filesystem::path profile_;
+  std::optional<std::filesystem::path> profile_;
   std::optional<std::size_t> feeder_;  ///< counted from 1
   std::optional<double> length_;
   std::optional<std::string> port_;
   std::optional<std::filesystem::path> log_;
   bool yes_ = false;
+  DaemonAccess access_;
 };
 
 CLI::App& Feed::declare(CLI::App& program) {
   CLI::App& app = add_command(program, words_.name, "Print", words_.summary, words_.example);
-  add_value(app, "PROFILE", profile_, " ", "The printer's profile: see unicursal-profile(5).").required();
+  CLI::Option& profile = add_value(app, "PROFILE", profile_, " ",
+                                   "The printer's profile: see unicursal-profile(5). Default: the daemon's.");
   CLI::Option* feeder =
       add_value(app, "--feeder", feeder_, "FEEDER", words_.feeder_help).check(integer_between(1, 8));
   if (kind_ != FeedingKind::purge) feeder->required();
@@ -113,25 +123,69 @@ CLI::App& Feed::declare(CLI::App& program) {
   declare_port(app, port_, "the profile's port, or auto");
   app.add_flag("--yes", yes_, "Do not ask whether the printer is ready.");
   declare_log(app, log_);
+  access_.declare_place(app);
+  for (const char* local : {"--port", "--log"}) app.get_option(local)->needs(&profile);
+  app.get_option("--daemon")->excludes(&profile);
   add_note(app, words_.note);
   add_note(
       app,
       "The axes are homed, and the nozzle is heated to the profile's temperature above the front edge of the "
       "bed. It is switched off afterwards, also after Ctrl-C or an error. The bed stays as warm as it is.");
+  add_note(
+      app,
+      "If a daemon of yours has the printer, it moves the filament, with its own profile, unless it prints.");
   return app;
 }
 
-Exit Feed::run() {
-  check_outputs({profile_}, present({log_}));
-  const Profile profile = load_profile(profile_);
+FeedingOrder Feed::order() const {
   FeedingOrder order{kind_, {}, length_};
   if (feeder_) order.feeder = *feeder_ - 1;
-  const Feeding made = feeding(order, profile);
+  return order;
+}
+
+Feeding Feed::announced(const Profile& profile) const {
+  Feeding made = feeding(order(), profile);
   show(stdout, "heats to {:g} °C, then moves {:g} mm of filament in {}, in about {}\n",
        profile.printer.nozzle_temperature, made.length, who(), rough_duration(made.seconds));
-  if (yes_ || ready()) return feed(made, profile);
+  return made;
+}
+
+Exit Feed::run() {
+  if (profile_) check_outputs({*profile_}, present({log_}));
+  std::optional<Profile> profile;
+  if (profile_) profile = load_profile(*profile_);
+  if (const std::optional<Client> holder = daemon(profile)) return feed_by(*holder);
+  const Feeding made = announced(*profile);
+  return agreed() ? feed(made, *profile) : Exit::stopped;
+}
+
+/// Absent: the printer is this command's own.
+std::optional<Client> Feed::daemon(const std::optional<Profile>& profile) const {
+  if (!profile) {
+    if (access_.remote() || access_.token) return access_.connect();
+    if (auto own = own_daemon(access_)) return own;
+    throw DaemonError("", "PROFILE", "is missing, and no daemon of yours runs that would have one",
+                      "name the printer's profile, or start a daemon with `unicursal serve`");
+  }
+  std::optional<Client> client =
+      daemon_with_port(access_, port_.value_or(profile->port), profile->printer.name);
+  if (client && log_)
+    throw DaemonError("", "--log", "is not possible, since a daemon has the printer",
+                      "leave it out, or end the daemon");
+  return client;
+}
+
+Exit Feed::feed_by(const Client& daemon) const {
+  const Profile profile = profile_of(daemon);
+  show(stdout, "the daemon moves the filament\n");
+  const Feeding made = announced(profile);
+  return agreed() ? show_end(feed_by_daemon(daemon, order()), made.length) : Exit::stopped;
+}
+
+bool Feed::agreed() const {
+  if (yes_ || ready()) return true;
   show(stdout, "nothing has moved or heated\n");
-  return Exit::stopped;
+  return false;
 }
 
 bool Feed::ready() const {
@@ -164,12 +218,15 @@ Exit Feed::feed(const Feeding& made, const Profile& profile) const {
         outcome_of(cool_when_back(stable_name.empty() ? known : stable_name, profile.baud, settings.link)));
   }
   if (result.ending == Ending::failed) throw PrintError(result.reason);
-  if (result.ending == Ending::stopped) {
+  return show_end(result.ending == Ending::stopped ? Exit::stopped : Exit::success, made.length);
+}
+
+Exit Feed::show_end(Exit exit, double length) const {
+  if (exit == Exit::stopped)
     show(stdout, "stopped; the nozzle cools\n");
-    return Exit::stopped;
-  }
-  show(stdout, "{}; the nozzle cools\n", fmt::format(fmt::runtime(words_.done), who(), made.length));
-  return Exit::success;
+  else
+    show(stdout, "{}; the nozzle cools\n", fmt::format(fmt::runtime(words_.done), who(), length));
+  return exit;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "host/daemon/log.hpp"
 #include "host/daemon/refused.hpp"
 #include "host/engine/session.hpp"
+#include "host/engine/session_json.hpp"
 #include "host/files/descriptor.hpp"
 #include "host/job/usual_profile.hpp"
 #include "host/link/find_port.hpp"
@@ -245,6 +246,7 @@ void Daemon::add_idle(json& printer) const {
   if (!now.problem.empty()) printer["problem"] = now.problem;
   if (now.problem.empty() && !idle_note_.empty()) printer["problem"] = idle_note_;
   if (!now.doing.empty()) printer["doing"] = now.doing;
+  if (now.fed) printer["fed"] = name(*now.fed);
   if (!now.firmware.empty()) printer["firmware"] = core::printable(now.firmware);
   if (now.connection == Connection::closed) return;
   printer["port"] = now.port;

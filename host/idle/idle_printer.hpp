@@ -26,6 +26,7 @@
 #include <string>
 
 #include "firmware_gcode/reply/reply.hpp"
+#include "host/engine/session_types.hpp"
 #include "host/feeding/feeding.hpp"
 #include "host/job/profile.hpp"
 #include "host/loop/clock.hpp"
@@ -64,6 +65,7 @@ struct IdleStatus {
   std::string doing;               ///< the same, a sentence; empty: nothing
   std::optional<double> cools_in;  ///< s until it is switched off by itself; absent: it is off
   std::string problem;             ///< a sentence; empty: none
+  std::optional<Ending> fed;       ///< how the last order to move filament ended; absent while it goes on
 };
 
 const char* name(IdleStatus::Connection connection);

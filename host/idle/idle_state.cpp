@@ -271,6 +271,7 @@ void IdlePrinter::feed(const FeedingOrder& order) {
       State::Step::Kind::feed, {}, {}, feeding_in_words(verb_of(order.kind), order, made.length), {}};
   step.feeding = std::move(made);
   s.accept(std::move(step));
+  s.fed.reset();
 }
 
 void IdlePrinter::extrude(double length) {
@@ -290,6 +291,7 @@ void IdlePrinter::extrude(double length) {
 void IdlePrinter::cancel() {
   State& s = *state_;
   s.check_open();
+  if (s.feeds() && !s.session) s.fed = Ending::stopped;
   s.steps.clear();
   s.last_command = s.clock->now();
   s.problem.clear();
@@ -342,6 +344,7 @@ IdleStatus IdlePrinter::status() const {
   status.firmware = s.firmware;
   status.problem = s.problem;
   status.doing = s.doing();
+  status.fed = s.fed;
   if (s.connection != IdleStatus::Connection::open) return status;
   status.temperatures = s.view.temperatures;
   status.homed = s.homed();

@@ -101,8 +101,9 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   std::uint64_t turn = 0;          ///< counts the links
   std::optional<std::string> failure;
   std::string problem, firmware;
-  bool restarted = false;  ///< the board has said so during this conversation
-  bool stopped = false;    ///< by stop_at_once(), or by the firmware itself
+  std::optional<Ending> fed;  ///< as IdleStatus::fed
+  bool restarted = false;     ///< the board has said so during this conversation
+  bool stopped = false;       ///< by stop_at_once(), or by the firmware itself
 
   std::deque<Step> steps;
   std::optional<Step> current;

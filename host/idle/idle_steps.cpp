@@ -103,6 +103,7 @@ void IdlePrinter::State::note_feeding(const StreamResult& result) {
   known_axes = {};
   place.reset();
   nozzle = 0;
+  fed = result.ending;
   last_command = clock->now();
   if (result.ending == Ending::failed) {
     problem = result.reason;

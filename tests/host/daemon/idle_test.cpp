@@ -294,3 +294,44 @@ TEST_CASE("OctoPrint's clients connect, heat, home and move an idle printer") {
   CHECK(octo("/api/printer/tool", R"({"command": "extrude", "amount": 6})") == 204);
   CHECK(octo("/api/connection", R"({"command": "disconnect"})") == 204);
 }
+
+TEST_CASE("load, purge and unload go through the daemon that has the printer, and leave it as it was",
+          "[optimised]") {
+  IdleDaemon bench("1000");
+  const auto by_command = [&](std::vector<std::string> words) { return bench.command(std::move(words)); };
+  const std::string profile = bench.path("jobs/bench.toml.profile");
+  const test::Outcome loaded =
+      by_command({"load", profile, "--port", bench.path("port"), "--feeder", "2", "--length", "5", "--yes"});
+  INFO(loaded.err);
+  CHECK(loaded.code == 0);
+  CHECK(loaded.out.find("the daemon moves the filament\n") == 0);
+  CHECK(loaded.out.find("feeder 2 has fed 5 mm; the nozzle cools\n") != std::string::npos);
+  bench.until([](const json& now) { return now["connection"] == "closed"; });
+  // One that a client has connected stays connected; a remote daemon needs no profile here.
+  bench.connect();
+  const test::Outcome pulled = test::run({"unload", "--feeder", "1", "--length", "6", "--yes", "--daemon",
+                                          "http://" + bench.host(), "--token", bench.token()});
+  CHECK(pulled.out.find("feeder 1 has pulled 6 mm back; the nozzle cools\n") != std::string::npos);
+  CHECK(bench.printer()["connection"] == "open");
+  CHECK(bench.printer()["fed"] == "completed");
+  const test::Outcome too_far = by_command({"purge", "--feeder", "4", "--yes"});
+  CHECK(too_far.code == 2);
+  CHECK(too_far.err.find("feeder 4") != std::string::npos);
+  // Ctrl-C ends it.
+  test::Child purge({"purge", "--length", "2000", "--yes", "--state", bench.path("state")});
+  bench.until([](const json& now) { return now.value("action", "") == "feeding"; });
+  kill(purge.id(), SIGINT);
+  const test::Outcome ended = purge.wait();
+  CHECK(ended.code == 3);
+  CHECK(ended.out.find("stopped; the nozzle cools\n") != std::string::npos);
+  CHECK(ended.err.find("each feeder purges 2000 mm") != std::string::npos);
+  CHECK(bench.printer()["nozzle"].value("target_c", 1.0) == 0);
+  // A print has the printer for itself.
+  REQUIRE(bench.command({"queue", "--add", "plate.toml"}).code == 0);
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_print("printing");
+  const test::Outcome refused = by_command({"purge", "--yes"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("a print is going on") != std::string::npos);
+  CHECK(bench.print_state() == "printing");
+}
