@@ -13,64 +13,71 @@ HalfEdgeIndex twin(HalfEdgeIndex h) {
   return PlanarGraph::twin(h);
 }
 
-NodeIndex after(NodeIndex n) {
+NodeIndex after_node(NodeIndex n) {
   return ++n;
 }
 
 }  // namespace
 
-EditableTour::EditableTour(Tour tour) : tour_(std::move(tour)), order_(tour_) {
+EditableTour::EditableTour(Tour tour) : tour_(std::move(tour)), order_(tour_), movable_(tour_.free) {
   const RefinedGraph& graph = tour_.graph;
   const std::size_t halves = graph.half_edges.size();
-  next_.resize(halves);
-  previous_.resize(halves);
+  corners_.reserve(halves);
   for (const HalfEdgeIndex h : graph.half_edges.indices()) {
+    Corner corner{graph.origin(h), {}, {}};
     const HalfEdgeIndex n = graph.next(h), p = graph.next(n);
-    if (graph.face(h) == outside || graph.next(p) != h || p == n) continue;
-    next_[h] = n;
-    previous_[h] = p;
+    if (graph.face(h) != outside && graph.next(p) == h && p != n) corner.next = n, corner.previous = p;
+    corners_.push_back(corner);
   }
   first_spoke_.assign(graph.node_count() + 1, 0);
-  for (const HalfEdge& h : graph.half_edges) ++first_spoke_[after(h.origin)];
-  for (const NodeIndex n : graph.position.indices()) first_spoke_[after(n)] += first_spoke_[n];
+  for (const HalfEdge& h : graph.half_edges) ++first_spoke_[after_node(h.origin)];
+  for (const NodeIndex n : graph.position.indices()) first_spoke_[after_node(n)] += first_spoke_[n];
   spokes_.resize(halves);
   Per<NodeIndex, std::uint32_t> filled = first_spoke_;
   for (const HalfEdgeIndex h : graph.half_edges.indices()) spokes_[filled[graph.origin(h)]++] = h;
-  for (const NodeIndex n : graph.position.indices()) {
-    if (free(stop_at(n))) free_stops_.push_back(stop_at(n));
+}
+
+std::vector<TourWindow> EditableTour::divide(double side, const Vec2& corner) {
+  TourWindows cut = cut_into_windows(tour_, side, corner);
+  window_of_ = std::move(cut.window_of);
+  movable_.assign(tour_.stop_count(), 0);
+  for (const TourWindow& window : cut.windows) {
+    order_.label(window.sequence);
+    for (const StopIndex s : window.movable) movable_[s] = 1;
   }
+  return std::move(cut.windows);
 }
 
 HalfEdgeIndex EditableTour::step(HalfEdgeIndex h, Side side) const {
-  if (side == left) return next_[h];
-  const HalfEdgeIndex back = previous_[twin(h)];
+  if (side == left) return after(h);
+  const HalfEdgeIndex back = corners_[twin(h)].previous;
   return back.valid() ? twin(back) : back;
 }
 
 bool EditableTour::used(HalfEdgeIndex h) const {
-  return leave(origin(h)) == h || leave(target(h)) == twin(h);
+  return leave(start(h)) == h || leave(target(h)) == twin(h);
 }
 
-HalfEdgeIndex EditableTour::random_spoke(StopIndex s, Random& random) const {
+HalfEdgeIndex EditableTour::random_spoke(StopIndex s, Dice& dice) const {
   const NodeIndex node(s.number());
   const std::uint32_t first = first_spoke_[node];
-  return spokes_[first + random.below(first_spoke_[after(node)] - first)];
+  return spokes_[first + dice.below(first_spoke_[after_node(node)] - first)];
 }
 
-std::optional<LocalChange> EditableTour::look(StopIndex at, Random& random) const {
-  return look(1 + static_cast<int>(random.below(4)), at, random);
+std::optional<LocalChange> EditableTour::look(StopIndex at, Dice& dice) const {
+  return look(1 + static_cast<int>(dice.below(4)), at, dice);
 }
 
-std::optional<LocalChange> EditableTour::look(int operation, StopIndex at, Random& random) const {
+std::optional<LocalChange> EditableTour::look(int operation, StopIndex at, Dice& dice) const {
   switch (operation) {
     case 1:
-      return relocate_one(at, random);
+      return relocate_one(at, dice);
     case 2:
       return swap_two(at);
     case 3:
       return relocate_two(at);
     default:
-      return flip_two_rhombuses(at, random);
+      return flip_two_rhombuses(at, dice);
   }
 }
 
@@ -83,9 +90,9 @@ std::optional<LocalChange> EditableTour::look(int operation, StopIndex at, Rando
 ///     .   * .   *          *   . *   .
 ///     . *     . *          * .     * .
 ///     c         p          c         p
-std::optional<LocalChange> EditableTour::relocate_one(StopIndex x, Random& random) const {
+std::optional<LocalChange> EditableTour::relocate_one(StopIndex x, Dice& dice) const {
   const StopIndex b = tour_.before[x], c = tour_.next[x];
-  if (!free(b) || !free(c) || b == c) return std::nullopt;
+  if (!movable(b) || !movable(c) || b == c) return std::nullopt;
   Side side = left;
   if (step(leave(b), left) != leave(x)) {
     side = right;
@@ -93,12 +100,12 @@ std::optional<LocalChange> EditableTour::relocate_one(StopIndex x, Random& rando
   }
   const HalfEdgeIndex closing = step(leave(x), side);  // c → b
 
-  const HalfEdgeIndex spoke = random_spoke(x, random);  // x → p, the triangle on its left
-  const HalfEdgeIndex across = step(spoke, left);       // p → q
+  const HalfEdgeIndex spoke = random_spoke(x, dice);  // x → p, the triangle on its left
+  const HalfEdgeIndex across = step(spoke, left);     // p → q
   if (!across.valid()) return std::nullopt;
   const HalfEdgeIndex home = step(across, left);  // q → x
-  const StopIndex p = target(spoke), q = origin(home);
-  if (!free(p) || !free(q) || used(spoke) || used(home)) return std::nullopt;
+  const StopIndex p = target(spoke), q = start(home);
+  if (!movable(p) || !movable(q) || used(spoke) || used(home)) return std::nullopt;
   if (side == left && leave(q) == twin(across)) {
     return LocalChange{1, {{{b, twin(closing)}, {q, home}, {x, spoke}, {}}}, 3};
   }
@@ -119,9 +126,9 @@ std::optional<LocalChange> EditableTour::relocate_one(StopIndex x, Random& rando
 ///           y                    y
 std::optional<LocalChange> EditableTour::swap_two(StopIndex x) const {
   const StopIndex a = tour_.before[x], y = tour_.next[x];
-  if (!free(a) || !free(y)) return std::nullopt;
+  if (!movable(a) || !movable(y)) return std::nullopt;
   const StopIndex b = tour_.next[y];
-  if (!free(b) || a == b || a == y) return std::nullopt;
+  if (!movable(b) || a == b || a == y) return std::nullopt;
   const HalfEdgeIndex h = leave(x);
   for (const Side side : {left, right}) {
     const Side other = side == left ? right : left;
@@ -143,9 +150,9 @@ std::optional<LocalChange> EditableTour::swap_two(StopIndex x) const {
 ///     b * * * y . . . z          b . . . y * * * z
 std::optional<LocalChange> EditableTour::relocate_two(StopIndex x) const {
   const StopIndex a = tour_.before[x], y = tour_.next[x];
-  if (!free(a) || !free(y)) return std::nullopt;
+  if (!movable(a) || !movable(y)) return std::nullopt;
   const StopIndex b = tour_.next[y];
-  if (!free(b) || a == b || a == y) return std::nullopt;
+  if (!movable(b) || a == b || a == y) return std::nullopt;
   const HalfEdgeIndex h = leave(x);
   for (const Side side : {left, right}) {
     const HalfEdgeIndex turn = step(h, side);
@@ -166,11 +173,11 @@ std::optional<LocalChange> EditableTour::relocate_two(StopIndex x) const {
     const HalfEdgeIndex z_x = step(y_z, other);
     if (used(z_x)) continue;
     const StopIndex z = target(y_z);
-    if (!free(z)) continue;
+    if (!movable(z)) continue;
     const HalfEdgeIndex z_w = step(twin(z_x), other);  // the diagonal is z x: rhombus x y z w
     if (z_w.valid() && leave(z) == z_w && target(z_w) != y) {
       const HalfEdgeIndex w_x = step(z_w, other);
-      if (free(target(z_w)) && !used(w_x)) {
+      if (movable(target(z_w)) && !used(w_x)) {
         return LocalChange{3, {{{a, twin(closing)}, {z, twin(y_z)}, {y, twin(h)}, {x, twin(w_x)}}}, 4};
       }
     }
@@ -178,7 +185,7 @@ std::optional<LocalChange> EditableTour::relocate_two(StopIndex x) const {
     if (y_w.valid() && !used(y_w) && target(y_w) != x) {
       const HalfEdgeIndex w_z = step(y_w, other);
       const StopIndex w = target(y_w);
-      if (free(w) && leave(w) == w_z) {
+      if (movable(w) && leave(w) == w_z) {
         return LocalChange{3, {{{a, twin(closing)}, {w, twin(y_w)}, {y, twin(h)}, {x, twin(z_x)}}}, 4};
       }
     }
@@ -187,15 +194,15 @@ std::optional<LocalChange> EditableTour::relocate_two(StopIndex x) const {
 }
 
 std::optional<EditableTour::Rhombus> EditableTour::rhombus_about(HalfEdgeIndex diagonal) const {
-  const HalfEdgeIndex l1 = next_[diagonal], r1 = next_[twin(diagonal)];
+  const HalfEdgeIndex l1 = after(diagonal), r1 = after(twin(diagonal));
   if (!l1.valid() || !r1.valid() || used(diagonal)) return std::nullopt;
-  std::array<HalfEdgeIndex, 4> side{l1, next_[l1], r1, next_[r1]};
+  std::array<HalfEdgeIndex, 4> side{l1, after(l1), r1, after(r1)};
   for (const HalfEdgeIndex s : side) {
-    if (!free(origin(s))) return std::nullopt;
+    if (!movable(start(s))) return std::nullopt;
   }
   if (!used(side[0])) std::rotate(side.begin(), side.begin() + 1, side.end());
   if (!used(side[0]) || used(side[1]) || !used(side[2]) || used(side[3])) return std::nullopt;
-  return Rhombus{side, leave(origin(side[0])) == side[0]};
+  return Rhombus{side, leave(start(side[0])) == side[0]};
 }
 
 /// Operation 4: the rhombus a b c d lies inside, the rhombus p q r s outside, and they share a corner, here c
@@ -207,9 +214,9 @@ std::optional<EditableTour::Rhombus> EditableTour::rhombus_about(HalfEdgeIndex d
 ///     d * * * c * * * q    →     d . . . c . . . q
 ///     .       .                  *       *
 ///     a * * * b                  a . . . b
-std::optional<LocalChange> EditableTour::flip_two_rhombuses(StopIndex x, Random& random) const {
-  const HalfEdgeIndex one = random_spoke(x, random), two = random_spoke(x, random);
-  const auto diagonal = [&](HalfEdgeIndex spoke) { return random.below(2) == 0 ? spoke : next_[spoke]; };
+std::optional<LocalChange> EditableTour::flip_two_rhombuses(StopIndex x, Dice& dice) const {
+  const HalfEdgeIndex one = random_spoke(x, dice), two = random_spoke(x, dice);
+  const auto diagonal = [&](HalfEdgeIndex spoke) { return dice.below(2) == 0 ? spoke : after(spoke); };
   const HalfEdgeIndex d1 = diagonal(one), d2 = diagonal(two);
   if (!d1.valid() || !d2.valid()) return std::nullopt;
   const std::optional<Rhombus> first = rhombus_about(d1);
@@ -223,24 +230,46 @@ std::optional<LocalChange> EditableTour::flip_two_rhombuses(StopIndex x, Random&
       if (in[i] == twin(out[o])) return std::nullopt;
     }
   }
-  const StopIndex b = origin(in[1]), c = target(in[1]);
-  const StopIndex q = origin(out[1]), s = origin(out[3]);
+  const StopIndex b = start(in[1]), c = target(in[1]);
+  const StopIndex q = start(out[1]), s = start(out[3]);
   if (order_.within(b, q, c) == order_.within(b, s, c)) return std::nullopt;
   return LocalChange{4, {{{c, twin(in[1])}, {target(in[3]), twin(in[3])}, {q, out[1]}, {s, out[3]}}}, 4};
 }
 
-void EditableTour::apply(const LocalChange& change) {
-  const auto next = [&](StopIndex s) { return tour_.next[s]; };
-  struct Block {
-    StopIndex first, last;
-  };
-  std::array<Block, 4> blocks{};  // operation 4: the four stretches that keep their inner order, in new order
+EditableTour::Blocks EditableTour::blocks_of(const LocalChange& change) const {
   const auto& d = change.departures;
+  const StopIndex c = d[0].stop, a = d[1].stop, b = tour_.next[a];
+  StopIndex q = d[2].stop, s = d[3].stop;
+  if (!order_.within(b, q, c)) std::swap(q, s);
+  return {{{b, q}, {tour_.next[s], a}, {tour_.next[c], s}, {tour_.next[q], c}}};
+}
+
+EditableTour::Marks EditableTour::leaving(const Blocks& blocks, const TourWindow& window) const {
+  Marks marks{};
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    // No block begins at an entry, since the links that are cut do not cross the window's border.
+    marks[k] = std::any_of(window.entries.begin(), window.entries.end(), [&](StopIndex entry) {
+      return order_.within(blocks[k].first, entry, blocks[k].last);
+    });
+  }
+  return marks;
+}
+
+bool EditableTour::keeps_ends(const LocalChange& change, const TourWindow& window) const {
+  if (change.operation != 4 || window.entries.empty()) return true;
+  // The blocks' new order is the reverse of the old one, up to where it begins. Two keep their neighbours in
+  // it.
+  const Marks marks = leaving(blocks_of(change), window);
+  return std::count(marks.begin(), marks.end(), true) <= 2;
+}
+
+void EditableTour::apply(const LocalChange& change, TourWindow& window) {
+  const auto& d = change.departures;
+  Blocks blocks{};
+  Marks marks{};
   if (change.operation == 4) {
-    const StopIndex c = d[0].stop, a = d[1].stop, b = next(a);
-    StopIndex q = d[2].stop, s = d[3].stop;
-    if (!order_.within(b, q, c)) std::swap(q, s);
-    blocks = {{{b, q}, {next(s), a}, {next(c), s}, {next(q), c}}};
+    blocks = blocks_of(change);
+    marks = leaving(blocks, window);
   }
   for (std::size_t k = 0; k < change.count; ++k) {
     const Departure& departure = d[k];
@@ -251,36 +280,63 @@ void EditableTour::apply(const LocalChange& change) {
   }
   switch (change.operation) {
     case 1:
-      order_.fit(tour_, d[2].stop, d[2].stop);
-      return;
+      return fit(d[2].stop, d[2].stop, window);
     case 2:
-      order_.swap(d[1].stop, d[2].stop);
-      return;
+      return order_.swap(d[1].stop, d[2].stop);
     case 3:
-      order_.fit(tour_, d[2].stop, d[3].stop);
-      return;
+      return fit(d[2].stop, d[3].stop, window);
     default:
-      break;
+      return relabel(blocks, marks, window);
   }
-  // Only the two shortest of the four stretches are relabelled: the two that stay are in order in any case.
+}
+
+/// Only two of the four blocks are relabelled, the shortest of those that stay in the window: the two others
+/// are in order in any case.
+void EditableTour::relabel(const Blocks& blocks, const Marks& leaving, TourWindow& window) {
   std::array<StopIndex, 4> walker{};
   for (std::size_t k = 0; k < 4; ++k) walker[k] = blocks[k].first;
-  std::array<bool, 4> moves{};
+  Marks moves{};
   for (int found = 0; found < 2;) {
     for (std::size_t k = 0; k < 4 && found < 2; ++k) {
-      if (moves[k]) continue;
+      if (moves[k] || leaving[k]) continue;
       if (walker[k] == blocks[k].last) {
         moves[k] = true;
         ++found;
       }
-      walker[k] = next(walker[k]);
+      walker[k] = tour_.next[walker[k]];
     }
   }
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t after = (k + 1) % 4, before = (k + 3) % 4;
     if (!moves[k] || moves[before]) continue;
-    order_.fit(tour_, blocks[k].first, moves[after] ? blocks[after].last : blocks[k].last);
+    fit(blocks[k].first, moves[after] ? blocks[after].last : blocks[k].last, window);
   }
+}
+
+void EditableTour::fit(StopIndex first, StopIndex last, TourWindow& window) {
+  const std::uint64_t labelled = order_.fit(tour_, first, last);
+  window.labelled += labelled;
+  if (labelled == 0) label_all(window);
+}
+
+void EditableTour::label_all(TourWindow& window) {
+  if (window.entries.empty()) {
+    const StopIndex start = window.sequence.front();
+    window.sequence.clear();
+    StopIndex stop = start;
+    do {
+      window.sequence.push_back(stop);
+      stop = tour_.next[stop];
+    } while (stop != start);
+  } else {
+    window.sequence.clear();
+    for (const StopIndex entry : window.entries) {
+      for (StopIndex s = entry; window_of_[s] == window_of_[entry]; s = tour_.next[s])
+        window.sequence.push_back(s);
+    }
+  }
+  order_.label(window.sequence);
+  window.labelled += window.sequence.size();
 }
 
 bool EditableTour::consistent() const {
@@ -294,8 +350,8 @@ bool EditableTour::consistent() const {
     const StopIndex to = tour_.next[stop];
     if (tour_.before[to] != stop) return false;
     if (stop != last && (!order_.within(first, stop, to) || !order_.within(stop, to, last))) return false;
-    if (free(stop) && origin(leave(stop)) != stop) return false;
-    if (free(to) && target(leave(stop)) != to) return false;
+    if (movable(stop) && start(leave(stop)) != stop) return false;
+    if (movable(to) && target(leave(stop)) != to) return false;
     stop = to;
   } while (stop != first && ++seen <= visited);
   return seen + 1 == visited;

@@ -19,7 +19,8 @@
 
 #include "core/cycle/tour.hpp"
 #include "core/cycle/tour_order.hpp"
-#include "core/numeric/random.hpp"
+#include "core/cycle/tour_windows.hpp"
+#include "core/numeric/dice.hpp"
 
 namespace unicursal::core {
 
@@ -36,7 +37,8 @@ struct LocalChange {
   std::size_t count = 0;
 };
 
-/// A tour, its order, and the tables that make the search for operations cheap.
+/// A tour, its order, and the tables that make the search for operations cheap. At first the whole tour is
+/// one window.
 class EditableTour {
  public:
   explicit EditableTour(Tour tour);
@@ -44,43 +46,59 @@ class EditableTour {
   const Tour& tour() const { return tour_; }
   Tour release() && { return std::move(tour_); }
 
+  /// Cuts the tour into windows. From then on only movable stops of a window are moved, and changes of
+  /// different windows may be looked for and carried out at the same time.
+  std::vector<TourWindow> divide(double side, const Vec2& corner);
+
   /// Looks for a random operation at a random place around a stop. Returns nullopt if none fits there, which
   /// is the usual case. Every possible operation is found with a probability above zero. Takes about 30 ns.
-  std::optional<LocalChange> look(StopIndex at, Random& random) const;
-  /// Looks for the given operation (1 to 4) at the given free stop.
-  std::optional<LocalChange> look(int operation, StopIndex at, Random& random) const;
-  /// Precondition: there is a free stop.
-  StopIndex random_stop(Random& random) const { return free_stops_[random.below(free_stops_.size())]; }
+  std::optional<LocalChange> look(StopIndex at, Dice& dice) const;
+  /// Looks for the given operation (1 to 4) at the given movable stop.
+  std::optional<LocalChange> look(int operation, StopIndex at, Dice& dice) const;
 
   /// The stop that a half-edge of a change leads to.
-  StopIndex target(HalfEdgeIndex h) const { return stop_at(tour_.graph.target(h)); }
+  StopIndex target(HalfEdgeIndex h) const { return stop_at(origin(PlanarGraph::twin(h))); }
 
-  /// Precondition: the change was found in the tour as it is now.
-  void apply(const LocalChange& change);
-
-  /// How many stops were given a new label in the order so far.
-  std::uint64_t labelled() const { return order_.labelled(); }
+  /// Whether the stretches of the tour that pass through the window keep their ends. Only then may the change
+  /// be carried out.
+  bool keeps_ends(const LocalChange& change, const TourWindow& window) const;
+  /// Preconditions: the change was found in the window as it is now, and keeps its ends.
+  void apply(const LocalChange& change, TourWindow& window);
 
   /// Whether the order along the tour agrees with the links, and the links of each stop with one another.
+  /// Precondition: the tour is not divided.
   bool consistent() const;
 
  private:
   enum Side { left, right };
+  /// A half-edge, with its neighbours in its triangle; these are invalid in other faces.
+  struct Corner {
+    NodeIndex origin;
+    HalfEdgeIndex next, previous;
+  };
+  /// A stretch of the tour that operation 4 moves as a whole.
+  struct Block {
+    StopIndex first, last;
+  };
+  using Blocks = std::array<Block, 4>;
+  using Marks = std::array<bool, 4>;
 
-  std::optional<LocalChange> relocate_one(StopIndex x, Random& random) const;
+  std::optional<LocalChange> relocate_one(StopIndex x, Dice& dice) const;
   std::optional<LocalChange> swap_two(StopIndex x) const;
   std::optional<LocalChange> relocate_two(StopIndex x) const;
-  std::optional<LocalChange> flip_two_rhombuses(StopIndex x, Random& random) const;
+  std::optional<LocalChange> flip_two_rhombuses(StopIndex x, Dice& dice) const;
 
-  StopIndex origin(HalfEdgeIndex h) const { return stop_at(tour_.graph.origin(h)); }
+  NodeIndex origin(HalfEdgeIndex h) const { return corners_[h].origin; }
+  StopIndex start(HalfEdgeIndex h) const { return stop_at(origin(h)); }
+  HalfEdgeIndex after(HalfEdgeIndex h) const { return corners_[h].next; }
   /// The side after `h` of the triangle on the left or right of it; invalid if that face is not a triangle.
   /// The sides of a triangle on the right are taken clockwise, so that they follow each other there too.
   HalfEdgeIndex step(HalfEdgeIndex h, Side side) const;
   /// Whether the tour runs along this edge, in either direction.
   bool used(HalfEdgeIndex h) const;
-  bool free(StopIndex s) const { return tour_.free[s] != 0; }
+  bool movable(StopIndex s) const { return movable_[s] != 0; }
   HalfEdgeIndex leave(StopIndex s) const { return tour_.leave[s]; }
-  HalfEdgeIndex random_spoke(StopIndex s, Random& random) const;
+  HalfEdgeIndex random_spoke(StopIndex s, Dice& dice) const;
   /// Two triangles with a common free edge.
   struct Rhombus {
     std::array<HalfEdgeIndex, 4> side{};  ///< counter-clockwise; the first and the third are used
@@ -88,12 +106,21 @@ class EditableTour {
   };
   std::optional<Rhombus> rhombus_about(HalfEdgeIndex diagonal) const;
 
+  /// The stretches between the links that operation 4 cuts, in their new order.
+  Blocks blocks_of(const LocalChange& change) const;
+  /// Which of the stretches the tour leaves the window in.
+  Marks leaving(const Blocks& blocks, const TourWindow& window) const;
+  void relabel(const Blocks& blocks, const Marks& leaving, TourWindow& window);
+  void fit(StopIndex first, StopIndex last, TourWindow& window);
+  void label_all(TourWindow& window);
+
   Tour tour_;
   TourOrder order_;
-  Per<HalfEdgeIndex, HalfEdgeIndex> next_, previous_;  ///< within a triangle; invalid in other faces
-  std::vector<HalfEdgeIndex> spokes_;                  ///< all half-edges, sorted by origin
+  Per<HalfEdgeIndex, Corner> corners_;
+  std::vector<HalfEdgeIndex> spokes_;          ///< all half-edges, sorted by origin
   Per<NodeIndex, std::uint32_t> first_spoke_;  ///< where a node's spokes begin; one more entry at the end
-  std::vector<StopIndex> free_stops_;
+  Per<StopIndex, char> movable_;
+  Per<StopIndex, std::int32_t> window_of_;  ///< empty as long as the tour is not divided
 };
 
 }  // namespace unicursal::core

@@ -21,10 +21,11 @@ struct ShuffleOptions {
   // The population of the paper: `champions` (K) different cycles are kept, and each is evolved `candidates`
   // (C) times in each of `generations` (I) rounds.
   int champions = 1, candidates = 1, generations = 1;
-  Workers* workers = nullptr;  ///< share the population's runs; the result does not depend on them
+  Workers* workers =
+      nullptr;  ///< share a tour's windows, or a population's runs; the result does not depend on them
 
   ObjectiveWeights weights;
-  MayContinue may_continue;  ///< asked before each sweep; with a population, before each generation
+  MayContinue may_continue;  ///< asked before every eighth sweep; with a population, before each generation
 };
 
 struct ShuffleReport {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "core/curve/curve.hpp"
 #include "core/graph/refined_graph.hpp"
@@ -37,6 +38,8 @@ struct Tour {
     return next.first_with([](StopIndex s) { return s.valid(); });
   }
   std::size_t visited_count() const;
+  /// All visited stops in the order of the tour.
+  std::vector<StopIndex> sequence() const;
 };
 
 /// The cost of a straight run from one point to another; it may be negative. An empty function means that all
