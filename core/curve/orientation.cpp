@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -15,6 +16,26 @@ constexpr double pi = std::numbers::pi;
 double modulo_pi(double angle) {
   const double wrapped = angle - pi * std::floor(angle / pi);
   return wrapped < pi ? wrapped : 0.0;
+}
+
+/// Sorts pairs of an angle in [0, π) and a number. Angles of a curve are spread so evenly that few of them
+/// share one of as many drawers as there are angles: it takes a few steps for each, instead of as many as the
+/// logarithm of all.
+void sort_by_angle(std::vector<std::pair<double, std::size_t>>& order) {
+  const std::size_t n = order.size();
+  const auto drawer = [&](double angle) {
+    return std::min(static_cast<std::size_t>(angle / pi * static_cast<double>(n)), n - 1);
+  };
+  std::vector<std::uint32_t> begin(n + 1, 0);
+  for (const auto& [angle, i] : order) ++begin[drawer(angle) + 1];
+  for (std::size_t k = 0; k < n; ++k) begin[k + 1] += begin[k];
+  std::vector<std::pair<double, std::size_t>> sorted(n);
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (const auto& one : order) sorted[next[drawer(one.first)]++] = one;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (begin[k + 1] - begin[k] > 1) std::sort(sorted.begin() + begin[k], sorted.begin() + begin[k + 1]);
+  }
+  order.swap(sorted);
 }
 
 /// The strokes in order of angle, and the map from their directions to the uniform distribution (Figure 30).
@@ -62,7 +83,7 @@ double isotropy_with_gradient(const Curve& curve, const std::vector<char>& count
     const Vec2 u = curve.vertices[curve.after(i)] - curve.vertices[i];
     if (u.norm() > 0) order.emplace_back(modulo_pi(std::atan2(u.y(), u.x())), i);
   }
-  std::sort(order.begin(), order.end());
+  sort_by_angle(order);
   std::vector<Stroke> sorted;
   sorted.reserve(order.size());
   for (const auto& [angle, i] : order)

@@ -136,7 +136,6 @@ class ListMaker {
     }
     arrays_.pad();
     distance2_.resize(arrays_.ax.size() + Lattice::lanes * (runs_.size() + 1));
-    candidate_.resize(distance2_.size());
   }
 
   void add(std::int32_t segment) {
@@ -159,26 +158,30 @@ class ListMaker {
     if (first_long_ < lists_.segments.size()) ranges_.emplace_back(first_long_, lists_.segments.size());
   }
 
+  /// A range of distances takes up whole vectors, whose last lanes are infinite.
+  static std::size_t padded(std::size_t count) {
+    return (count + Lattice::lanes - 1) / Lattice::lanes * Lattice::lanes;
+  }
+
   /// Lists what may be nearest within the circle, and of that what may be nearest to a sample.
   double list_for(const Circle& circle, const Lattice::Block& block) {
     std::size_t count = 0;
     float nearest2 = infinite;
     for (const auto& [begin, end] : ranges_) {
-      distances_from(circle.x, circle.y, &arrays_.ax[begin], &arrays_.ay[begin], &arrays_.ux[begin],
-                     &arrays_.uy[begin], &arrays_.inverse[begin], end - begin, &distance2_[count]);
-      for (std::size_t k = begin; k < end; ++k, ++count) {
-        candidate_[count] = static_cast<std::int32_t>(k);
-        nearest2 = std::min(nearest2, distance2_[count]);
-      }
+      nearest2 = std::min(nearest2, distances_from(circle.x, circle.y, &arrays_.ax[begin], &arrays_.ay[begin],
+                                                   &arrays_.ux[begin], &arrays_.uy[begin],
+                                                   &arrays_.inverse[begin], end - begin, &distance2_[count]));
+      count += padded(end - begin);
     }
     const float limit = (std::sqrt(nearest2) + 2 * circle.radius + slack_) * (1 + rounding);
-    // Without branches: they would be unpredictable.
     const std::size_t before = entries_.size();
     std::size_t kept = before;
-    entries_.resize(kept + count + 1);
-    for (std::size_t k = 0; k < count; ++k) {
-      entries_[kept] = candidate_[k];
-      kept += distance2_[k] <= limit * limit ? 1 : 0;
+    entries_.resize(kept + count + Lattice::lanes);
+    count = 0;
+    for (const auto& [begin, end] : ranges_) {
+      kept += numbers_within(&distance2_[count], end - begin, limit * limit, static_cast<std::int32_t>(begin),
+                             entries_.data() + kept);
+      count += padded(end - begin);
     }
     const Lattice::BorderBlock* border =
         block.border < 0 ? nullptr : &lattice_.borders[static_cast<std::size_t>(block.border)];
@@ -204,7 +207,7 @@ class ListMaker {
   std::vector<float> scratch_;
   std::vector<std::pair<std::size_t, std::size_t>> ranges_;
   std::vector<float> distance2_;
-  std::vector<std::int32_t> candidate_, entries_;
+  std::vector<std::int32_t> entries_;
 };
 
 }  // namespace

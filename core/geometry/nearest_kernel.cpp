@@ -22,6 +22,7 @@ using Doubles = double __attribute__((vector_size(32)));
 static_assert(Lattice::block_columns == 4 && Lattice::block_rows == 2);
 constexpr Floats square_x{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
 constexpr Floats square_y{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
+constexpr Ints lane_numbers{0, 1, 2, 3, 4, 5, 6, 7};
 constexpr float same_direction = 0.5F;  ///< cosine above which two nearest points lie in the same direction
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float list_rounding = 1e-5F;  ///< relative; added to the limit that decides which segments are kept
@@ -189,24 +190,52 @@ std::size_t keep_near(const Lattice::Block& block, const Lattice::BorderBlock* b
 }
 
 UNICURSAL_VECTORISED
-void distances_from(float x, float y, const float* ax, const float* ay, const float* ux, const float* uy,
-                    const float* inverse, std::size_t count, float* distance2) {
-  for (std::size_t k = 0; k < count; k += 8) {
+float distances_from(float x, float y, const float* ax, const float* ay, const float* ux, const float* uy,
+                     const float* inverse, std::size_t count, float* distance2) {
+  const Floats zero{}, one = zero + 1.0F;
+  Floats nearest = zero + infinite;
+  for (std::size_t k = 0; k < count; k += Lattice::lanes) {
     Floats sx, sy, vx, vy, vi;
     std::memcpy(&sx, ax + k, sizeof sx);
     std::memcpy(&sy, ay + k, sizeof sy);
     std::memcpy(&vx, ux + k, sizeof vx);
     std::memcpy(&vy, uy + k, sizeof vy);
     std::memcpy(&vi, inverse + k, sizeof vi);
-    const Floats zero{}, one = zero + 1.0F;
     const Floats px = x - sx, py = y - sy;
     Floats t = (px * vx + py * vy) * vi;
     t = t < zero ? zero : t;
     t = t > one ? one : t;
     const Floats qx = t * vx - px, qy = t * vy - py;
-    const Floats d = qx * qx + qy * qy;
+    Floats d = qx * qx + qy * qy;
+    // What follows the end of the array does not count.
+    const auto left = static_cast<std::int32_t>(count - k);
+    d = lane_numbers < left ? d : zero + infinite;
     std::memcpy(distance2 + k, &d, sizeof d);
+    nearest = d < nearest ? d : nearest;
   }
+  float least = infinite;
+  for (std::size_t k = 0; k < Lattice::lanes; ++k) least = nearest[k] < least ? nearest[k] : least;
+  return least;
+}
+
+UNICURSAL_VECTORISED
+std::size_t numbers_within(const float* distance2, std::size_t count, float limit2, std::int32_t first,
+                           std::int32_t* numbers) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count; k += Lattice::lanes) {
+    Floats d;
+    std::memcpy(&d, distance2 + k, sizeof d);
+    const Ints within = d <= limit2;
+    Longs pairs;
+    std::memcpy(&pairs, &within, sizeof pairs);
+    if (((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) == 0) continue;
+    // Without branches: they would be unpredictable.
+    for (std::size_t lane = 0; lane < Lattice::lanes; ++lane) {
+      numbers[kept] = first + static_cast<std::int32_t>(k + lane);
+      kept += within[lane] != 0 ? 1 : 0;
+    }
+  }
+  return kept;
 }
 
 UNICURSAL_VECTORISED

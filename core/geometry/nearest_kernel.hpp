@@ -44,9 +44,14 @@ std::size_t keep_near(const Lattice::Block& block, const Lattice::BorderBlock* b
                       std::vector<float>& scratch);
 
 /// Squared distances from (x, y) to segments, given as one array for each member of TileSegment. Works on
-/// eight at a time, and so reads and writes up to seven entries past `count`.
-void distances_from(float x, float y, const float* ax, const float* ay, const float* ux, const float* uy,
-                    const float* inverse, std::size_t count, float* distance2);
+/// eight at a time, and so reads and writes up to seven entries past `count`. Returns the least.
+float distances_from(float x, float y, const float* ax, const float* ay, const float* ux, const float* uy,
+                     const float* inverse, std::size_t count, float* distance2);
+
+/// Writes the numbers first, first + 1, … of those distances that are within a limit. Reads and writes up to
+/// eight entries past the end. Returns how many there are.
+std::size_t numbers_within(const float* distance2, std::size_t count, float limit2, std::int32_t first,
+                           std::int32_t* numbers);
 
 /// Points and segments as one array per number; those of segments are as in TileSegment.
 struct PointArrays {
