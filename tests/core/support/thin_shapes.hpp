@@ -1,6 +1,9 @@
 // Shapes of thin walls: frames, crosses, ladders, combs, tubes, wedges. mm.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "core/geometry/region.hpp"
 #include "tests/core/support/shapes.hpp"
 
@@ -38,6 +41,17 @@ inline Polygon tube(double radius, double wall) {
 /// Its tip is at the origin.
 inline Polygon wedge(double end) {
   return {{{40, -end / 2}, {40, end / 2}, {0, 0}}, {}};
+}
+
+/// The polygon turned about the origin.
+inline Polygon turned(Polygon polygon, double degrees) {
+  const double turn = degrees / 180 * std::numbers::pi, c = std::cos(turn), s = std::sin(turn);
+  const auto turn_ring = [&](Ring& ring) {
+    for (Vec2& v : ring) v = Vec2(c * v.x() - s * v.y(), s * v.x() + c * v.y());
+  };
+  turn_ring(polygon.outer);
+  for (Ring& hole : polygon.holes) turn_ring(hole);
+  return polygon;
 }
 
 }  // namespace unicursal::core::test
