@@ -18,10 +18,10 @@ namespace unicursal::core {
 namespace {
 
 // In bead widths, or their squares.
-constexpr double most_of_two = 1.2;  ///< half the width of a place that two strands fill; wider ones get four
+constexpr double widest_of_two = 1.8;  ///< half the width of places in which two strands can still do
 constexpr double shortest_four = 3.5;  ///< length of a place of four strands
 constexpr double shortest_inner = 2;   ///< length of what is left of it between cuts
-constexpr double apart = 0.02;         ///< distance of two strands on an axis from it
+constexpr double apart = 0.0075;       ///< distance of two strands on an axis from it
 constexpr double growth = 0.003;       ///< by which the whole is grown and shrunk again
 constexpr double growth_tolerance = 0.0005;
 constexpr double speck = 1e-3;         ///< a smaller piece of the whole is left out
@@ -62,6 +62,22 @@ class Strands {
         ring_(axis_.nodes.size()),
         four_(axis_.nodes.size()) {}
 
+  /// Whether four strands have room wherever two would be too wide.
+  bool have_room() {
+    find_places_for_four();
+    for (std::size_t n = 0; n < axis_.nodes.size(); ++n) {
+      if (axis_.used[n] && !four_[n] && axis_.nodes[n].radius > widest_of_two * w_) return false;
+    }
+    for (const AxisChain& chain : chains(axis_, breaks_)) {
+      const double radius = axis_.nodes[chain[chain.size() / 2]].radius;
+      const double halves = 2 * (shortest_inner * w_ + radius - inner_half * radius);
+      if (radius > widest_of_two * w_ && !is_end(chain.front()) && !is_end(chain.back()) &&
+          length(line(chain)) < halves)
+        return false;
+    }
+    return true;
+  }
+
   std::optional<ThinCurve> lay() {
     for (const Curve& curve : thick_) added_.push_back(counter_clockwise(curve.vertices));
     close_rings();
@@ -84,6 +100,7 @@ class Strands {
     return ring;
   }
 
+  bool is_end(std::size_t n) const { return axis_.degree(n) == 1 && !axis_.mouth[n]; }
   bool one_way(double radius) const { return radius < widths_.least; }
   /// Half the distance of the outermost strands.
   double half_band(const BandPoint& p) const {
@@ -146,7 +163,7 @@ class Strands {
 
   /// Finds the places for four strands: long stretches, not junctions of narrower ones.
   void find_places_for_four() {
-    const double least = std::max(most_of_two * w_, 2 * widths_.least);
+    const double least = std::max(widths_.most_of_two, 2 * widths_.least);
     for (const AxisChain& chain : chains(axis_, breaks_)) {
       for (std::size_t k = 0; k < chain.size();) {
         AxisChain run;
@@ -280,16 +297,32 @@ class Strands {
     // It would close a ring: two bands end at a place far from its corners.
     const std::size_t cut = place_of_cut(way);
     const double radius = axis_.nodes[way[cut]].radius;
-    const double short_of = one_way(radius) ? one_way_cut_end * radius : radius - half_band(point(way[cut]));
     const double inner_short_of = radius - inner_half * radius;
     std::vector<BandPoint> before(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(cut) + 1);
     std::vector<BandPoint> behind(points.rbegin(), points.rend() - static_cast<std::ptrdiff_t>(cut));
-    for (const std::vector<BandPoint>& part : {before, behind}) {
-      add_band(shortened(part, length(part) - short_of), BandEnds::round_front);
-      add_inner(shortened(part, length(part) - inner_short_of), BandEnds::round_front);
+    for (std::vector<BandPoint>* part : {&before, &behind}) {
+      keep_two_where_short(*part, inner_short_of);
+      const double short_of = one_way(radius) ? one_way_cut_end * radius : radius - half_band(part->back());
+      add_band(shortened(*part, length(*part) - short_of), BandEnds::round_front);
+      add_inner(shortened(*part, length(*part) - inner_short_of), BandEnds::round_front);
     }
     for (std::size_t k = 1; k + 1 < way.size(); ++k) {
       if (is_corner(way[k]) && k != cut) add_cap(way[k]);
+    }
+  }
+
+  /// Gives up four strands where a cut leaves too little room for the inner two: the outer two alone would
+  /// leave the middle bare.
+  void keep_two_where_short(std::vector<BandPoint>& line, double inner_short_of) {
+    for (std::size_t k = 0; k < line.size();) {
+      std::vector<BandPoint> run;
+      const std::size_t first = k;
+      for (; k < line.size() && line[k].four; ++k) run.push_back(line[k]);
+      const bool cut = k == line.size() && k > first;
+      if (length(run) - (cut ? inner_short_of : 0) <= shortest_inner * w_) {
+        for (std::size_t p = first; p < k; ++p) line[p].four = false;
+      }
+      while (k < line.size() && !line[k].four) ++k;
     }
   }
 
@@ -452,6 +485,10 @@ struct OnAxis {
 std::optional<ThinCurve> lay_strands(const Polygon& region, const ThinPlaces& places,
                                      const std::vector<Curve>& thick_curves, const StrandWidths& widths) {
   return Strands(region, places, thick_curves, widths).lay();
+}
+
+bool have_room(const Polygon& region, const ThinPlaces& places, const StrandWidths& widths) {
+  return Strands(region, places, {}, widths).have_room();
 }
 
 void empty_ways_back(const Curve& curve, const std::vector<OneWay>& one_way, std::vector<double>& areas) {

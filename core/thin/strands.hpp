@@ -35,7 +35,12 @@ struct StrandWidths {
   double bead = 0;         ///< as asked for
   double least = 0;        ///< of a strand; a place that is narrower gets none
   double most_single = 0;  ///< of a ring that gets a single strand
+  double most_of_two = 0;  ///< of each of two strands there and back; a wider place gets four
 };
+
+/// Whether four strands have room in all thin places in which two would be too wide. Else the places are to
+/// be looked for with a smaller width.
+bool have_room(const Polygon& region, const ThinPlaces& places, const StrandWidths& widths);
 
 /// Returns nullopt if the curves cannot be joined, or if all thin places are too narrow. `thick_curves` are
 /// simple and fill `places.thick`. The caller checks the result.

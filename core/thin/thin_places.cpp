@@ -12,13 +12,13 @@ namespace unicursal::core {
 namespace {
 
 // A smaller thick piece, in areas of the disc that just fits into a thin place, belongs to its neighbours.
-constexpr double least_thick = 1.4;
+constexpr double least_thick = 2.5;
 // In bead widths.
 constexpr double arc_tolerance = 0.005;  ///< of rounded offsets
 constexpr double hair = 0.02;            ///< half the width of differences that are rounding
 constexpr double depth_step = 0.5;       ///< between the points of its border that are looked at
-constexpr double least_depth = 1.0;  ///< a thin place that reaches less far out of a thick one is a corner
-constexpr double thick_reach = 0.5;  ///< by how much a larger disc must fit into a small thick piece
+constexpr double least_depth = 1.0;   ///< a thin place that reaches less far out of a thick one is a corner
+constexpr double thick_reach = 0.65;  ///< by how much a larger disc must fit into a small thick piece
 
 /// The part of a region that a disc reaches, without the hairs along edges that rounding leaves.
 Region disc_reach(const Region& region, double radius, double w) {
