@@ -10,11 +10,7 @@
 #include "host/cli/preparation.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/daemon/state_folder.hpp"
-#include "host/engine/reconnecting.hpp"
-#include "host/feeding/cool_when_back.hpp"
 #include "host/feeding/feeding.hpp"
-#include "host/link/find_port.hpp"
-#include "host/loop/print_signals.hpp"
 #include "host/tune/terminal_reader.hpp"
 
 namespace unicursal::host {
@@ -64,19 +60,6 @@ constexpr FeedWords unload_words{
     "next print.",
     "May {} let its filament go? The axes home, and the nozzle drips: is the bed clear?",
     "{} has pulled {:g} mm back"};
-
-/// What a user reads whose cable was pulled.
-std::string outcome_of(const Cooling& cooling) {
-  switch (cooling.ending) {
-    case Cooling::Ending::cooled:
-      return "the printer is back, and its nozzle cools; begin again";
-    case Cooling::Ending::time_over:
-      return "the printer did not come back: switch it off by its own switch";
-    case Cooling::Ending::gave_up:
-      break;
-  }
-  return cooling.reason + "; the nozzle may still be hot: switch the printer off by its own switch";
-}
 
 const FeedWords& words_for(FeedingKind kind) {
   if (kind == FeedingKind::load) return load_words;
@@ -203,22 +186,8 @@ Exit Feed::feed(const Feeding& made, const Profile& profile) const {
   settings.link = link_options(profile, log_);
   StatusLook look;
   look.feeds = true;
-  const std::string port = port_.value_or(profile.port);
-  const int descriptor = open_port(port, profile.baud, settings.link);
-  // The device's own name may be another one, or another printer's, when it is plugged in again.
-  const std::string device = device_of(descriptor), stable_name = stable_name_of(device);
-  const NotedSignals signals;  // none kills the program while the nozzle is hot
-  const StreamResult result = stream_with_progress(descriptor, source, {}, settings, look).stream;
-  if (result.unfit) throw PrinterUnfit(result.reason);
-  if (may_reconnect(result)) {
-    show(stderr, "{}; plug it in again within {} minutes, and its nozzle is switched off\n", result.reason,
-         reconnecting_patience.count());
-    const std::string known = port == "auto" ? device : port;
-    throw PrintError(
-        outcome_of(cool_when_back(stable_name.empty() ? known : stable_name, profile.baud, settings.link)));
-  }
-  if (result.ending == Ending::failed) throw PrintError(result.reason);
-  return show_end(result.ending == Ending::stopped ? Exit::stopped : Exit::success, made.length);
+  const bool stopped = stream_or_cool(port_.value_or(profile.port), profile, source, settings, look);
+  return show_end(stopped ? Exit::stopped : Exit::success, made.length);
 }
 
 Exit Feed::show_end(Exit exit, double length) const {

@@ -17,6 +17,7 @@
 #include "host/engine/session_json.hpp"
 #include "host/feeding/cool_when_back.hpp"
 #include "host/history/keep.hpp"
+#include "host/link/find_port.hpp"
 #include "host/loop/print_signals.hpp"
 
 namespace unicursal::host {
@@ -113,6 +114,19 @@ StreamResult cool_stopped(const Print& print, StreamResult result, Shown& shown)
   return result;
 }
 
+/// What a user reads whose cable was pulled.
+std::string outcome_of(const Cooling& cooling) {
+  switch (cooling.ending) {
+    case Cooling::Ending::cooled:
+      return "the printer is back, and it cools; begin again";
+    case Cooling::Ending::time_over:
+      return "the printer did not come back: switch it off by its own switch";
+    case Cooling::Ending::gave_up:
+      break;
+  }
+  return cooling.reason + "; it may still be hot: switch the printer off by its own switch";
+}
+
 }  // namespace
 
 StatusLook look_for(const Job& job) {
@@ -156,6 +170,25 @@ ForegroundResult stream_with_progress(Print& print, const DisplayOptions& option
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return result;
+}
+
+bool stream_or_cool(const std::string& port, const Profile& profile, Source& source, StreamSettings settings,
+                    StatusLook look) {
+  const int descriptor = open_port(port, profile.baud, settings.link);
+  // The device's own name may be another one, or another printer's, when it is plugged in again.
+  const std::string device = device_of(descriptor), stable_name = stable_name_of(device);
+  const NotedSignals signals;  // none kills the program while the printer is hot
+  const StreamResult result = stream_with_progress(descriptor, source, {}, settings, std::move(look)).stream;
+  if (result.unfit) throw PrinterUnfit(result.reason);
+  if (may_reconnect(result)) {
+    show(stderr, "{}; plug it in again within {} minutes, and its heaters are switched off\n", result.reason,
+         reconnecting_patience.count());
+    const std::string known = port == "auto" ? device : port;
+    throw PrintError(
+        outcome_of(cool_when_back(stable_name.empty() ? known : stable_name, profile.baud, settings.link)));
+  }
+  if (result.ending == Ending::failed) throw PrintError(result.reason);
+  return result.ending == Ending::stopped;
 }
 
 void note_in_history(Print& print, const ForegroundResult& result) {

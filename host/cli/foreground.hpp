@@ -31,6 +31,12 @@ ForegroundResult stream_with_progress(int port, Source& source, const DisplayOpt
                                       const StreamSettings& settings = {}, StatusLook look = {});
 ForegroundResult stream_with_progress(Print& print, const DisplayOptions& options);
 
+/// For what is not resumed: feeding, and prints for tuning. Opens the port. When the connection is lost,
+/// waits until the printer is back, and switches its heaters off. Returns whether the user has stopped it.
+/// Throws PortError, PrinterUnfit, PrintError.
+bool stream_or_cool(const std::string& port, const Profile& profile, Source& source, StreamSettings settings,
+                    StatusLook look = {});
+
 /// The colours of a job's mixtures, for its progress line.
 StatusLook look_for(const Job& job);
 

@@ -22,11 +22,8 @@
 namespace unicursal::host {
 namespace {
 
-void expect_whole(const StreamResult& result, const std::string& name) {
-  if (result.unfit) throw PrinterUnfit(result.reason);
-  if (result.ending == Ending::failed) throw PrintError(result.reason);
-  if (result.ending == Ending::stopped)
-    throw TuningCancelled(fmt::format("{} was not printed to its end", name));
+void expect_whole(bool stopped, const std::string& name) {
+  if (stopped) throw TuningCancelled(fmt::format("{} was not printed to its end", name));
 }
 
 std::vector<std::string> simulator_arguments(const SimulatedTest& simulated, const Profile& profile) {
@@ -105,8 +102,7 @@ void print_test(const std::string& port, const Profile& profile, const FinishedP
   StreamSettings settings;
   settings.profile = profile.file;
   settings.link = link_options(profile, {});
-  const int open = open_port(port, profile.baud, settings.link);
-  expect_whole(stream_with_progress(open, source, {}, settings).stream, name);
+  expect_whole(stream_or_cool(port, profile, source, std::move(settings)), name);
 }
 
 void simulate_test(const SimulatedTest& simulated, const Profile& profile, const FinishedPrint& print,
@@ -121,10 +117,11 @@ void simulate_test(const SimulatedTest& simulated, const Profile& profile, const
     while (const auto frame = reader.next()) take(*frame, reader);
   });
   FinishedSource source(print, profile.printer);
-  expect_whole(stream_with_progress(open_port(simulator.port(), profile.baud), source, {},
-                                    in_lockstep(simulator, profile))
-                   .stream,
-               name);
+  const StreamResult result = stream_with_progress(open_port(simulator.port(), profile.baud), source, {},
+                                                   in_lockstep(simulator, profile))
+                                  .stream;
+  throw_if_failed(result);
+  expect_whole(result.ending == Ending::stopped, name);
   simulator.finish();
   watching.get();
   if (simulated.pictures)

@@ -198,8 +198,7 @@ TEST_CASE("a nozzle whose cable was pulled is switched off when the printer is b
   const Outcome outcome = test::run(shop.words("load", {"--feeder", "1", "--length", "200"}));
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 1);
-  CHECK_THAT(outcome.err,
-             Contains("plug it in again") && Contains("the printer is back, and its nozzle cools"));
+  CHECK_THAT(outcome.err, Contains("plug it in again") && Contains("the printer is back, and it cools"));
   check_left_safe(shop);
   CHECK(shop.turned(0) < 150);
 }
@@ -215,8 +214,8 @@ TEST_CASE("who ends the waiting for a printer whose cable was pulled reads that 
   const Outcome outcome = child.wait();
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 1);
-  CHECK_THAT(outcome.err, Contains("within 5 minutes, and its nozzle is switched off\n") &&
-                              Contains("the waiting was stopped; the nozzle may still be hot") &&
+  CHECK_THAT(outcome.err, Contains("within 5 minutes, and its heaters are switched off\n") &&
+                              Contains("the waiting was stopped; it may still be hot") &&
                               !Contains("did not come back"));
 }
 

@@ -179,6 +179,29 @@ TEST_CASE("Cancelled at any point, the profile is untouched", "[tuning]") {
   }
 }
 
+TEST_CASE("A printer whose cable is pulled while the strip is printed is cooled when it is back",
+          "[tuning]") {
+  const Workshop shop;
+  Child printer({"simulate", "--speed", "200", "--link", shop.path("printer"), "--transcript",
+                 shop.path("lines"), "--fault", "disconnect:100@line=60"});
+  while (!std::filesystem::exists(shop.path("printer"))) {
+    REQUIRE(printer.running());
+    poll(nullptr, 0, 5);
+  }
+  const Outcome outcome =
+      run(shop.tune({"--port", shop.path("printer"), "--began", "31", "--stopped", "73", "--yes"}));
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("plug it in again within 5 minutes, and its heaters are switched off") !=
+        std::string::npos);
+  CHECK(outcome.err.find("the printer is back, and it cools; begin again") != std::string::npos);
+  const std::string lines = test::read_text(shop.folder / "lines");
+  const std::size_t cooled = lines.rfind("M104 S0\nM140 S0\n");
+  REQUIRE(cooled != std::string::npos);
+  CHECK(lines.find(" E", cooled) == std::string::npos);
+  CHECK(shop.untouched());
+}
+
 TEST_CASE("Errors also leave the profile unchanged", "[tuning]") {
   const Workshop shop;
   const std::vector<std::vector<std::string>> wrong = {
