@@ -31,11 +31,9 @@ constexpr double coldest_push = 170;             ///< °C, Marlin's EXTRUDE_MINT
 constexpr double longest_push = 200;             ///< mm
 constexpr std::array axis_names{'X', 'Y', 'Z'};
 
-void check_heat(const char* what, std::optional<double> wanted, double most) {
+void check_heat(const char* sentence, std::optional<double> wanted, double most) {
   if (!wanted || (*wanted >= 0 && *wanted <= most)) return;
-  throw IdleRefused(
-      Cause::limit, nullptr,
-      fmt::format("{} of {:g} °C is beyond the profile's limits: choose 0 to {:g} °C", what, *wanted, most));
+  throw IdleRefused(Cause::limit, nullptr, fmt::format(fmt::runtime(sentence), *wanted, most));
 }
 
 std::string feeding_in_words(const std::string& verb, const FeedingOrder& order, double length) {
@@ -186,8 +184,10 @@ void IdlePrinter::disconnect() {
 
 void IdlePrinter::heat(std::optional<double> nozzle, std::optional<double> bed) {
   State& s = *state_;
-  check_heat("a nozzle", nozzle, s.profile.hottest_nozzle);
-  check_heat("a bed", bed, s.profile.hottest_bed);
+  check_heat("a nozzle of {:g} °C is beyond the profile's limits: choose 0 to {:g} °C", nozzle,
+             s.profile.hottest_nozzle);
+  check_heat("a bed of {:g} °C is beyond the profile's limits: choose 0 to {:g} °C", bed,
+             s.profile.hottest_bed);
   s.check_open();
   State::Step step;
   step.lines = gcode::choose_extruder(gcode::dialect_named(s.profile.printer.firmware));

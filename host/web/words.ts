@@ -4,6 +4,7 @@ import * as formats from './formats';
 let texts: Record<string, string> = {};
 let fallback: Record<string, string> = {};
 let chosen = 'en';
+let sentences: [RegExp, string][] = [];  ///< of the daemon, with values, and their translations
 let locale = 'en';  ///< with the region of the browser, as far as it speaks the language
 
 export const languages = ['en', 'de'];
@@ -23,6 +24,7 @@ export async function speak(language: string): Promise<void> {
   if (!Object.keys(fallback).length) fallback = await load('en');
   texts = language === 'en' ? fallback : await load(language);
   chosen = language;
+  sentences = texts === fallback ? [] : Object.entries(texts).filter(([key]) => /^said\..*\{\}/.test(key)).map(sentence);
   locale = navigator.languages.find((tag) => tag.toLowerCase().split('-')[0] === language) ?? language;
   document.documentElement.lang = language;
 }
@@ -49,9 +51,22 @@ export function translated(key: string): string|undefined {
   return texts === fallback ? undefined : texts[key];
 }
 
+/** The pattern of "said.x would be {} mm": the values are one word each. */
+function sentence([key, text]: [string, string]): [RegExp, string] {
+  const parts = key.slice('said.'.length).split('{}').map((part) => part.replace(/[.*+?^$()|[\]\\]/g, '\\$&'));
+  return [new RegExp(`^${parts.join('(\\S+)')}$`), text];
+}
+
 /** A sentence of the daemon in the person's language, if it is one that the page knows. */
 export function said(sentence: string|undefined): string {
-  return translated(`said.${sentence}`) ?? sentence ?? '';
+  const whole = translated(`said.${sentence}`);
+  if (whole !== undefined || !sentence) return whole ?? '';
+  for (const [pattern, text] of sentences) {
+    const values = pattern.exec(sentence)?.slice(1);
+    const shown = values?.map((value) => (/^-?\d+(\.\d+)?$/.test(value) ? number(+value, 4) : value));
+    if (shown) return text.replace(/\{(\d)\}/g, (all, place) => shown[+place - 1] ?? all);
+  }
+  return sentence;
 }
 
 /** "1 job", "3 jobs": the keys are `key.one` and `key.other`. */

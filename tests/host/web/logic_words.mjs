@@ -4,7 +4,7 @@ import {readdirSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 
-import {sources, web} from './bundled.mjs';
+import {bundled, sources, web} from './bundled.mjs';
 
 const languages = ['en', 'de'].map((name) => JSON.parse(readFileSync(join(web, `${name}.json`), 'utf8')));
 const [english, german] = languages;
@@ -47,7 +47,23 @@ test('every sentence that is translated is one that the daemon says', () => {
   const folder = join(web, '..'), rooms = ['engine', 'daemon', 'idle'];
   const files = rooms.flatMap((room) => readdirSync(join(folder, room)).map((name) => join(folder, room, name)));
   const texts = files.filter((name) => /\.[ch]pp$/.test(name)).map((name) => readFileSync(name, 'utf8'));
-  const all = texts.join('\n').replace(/"\s*\n\s*"/g, '');
+  const all = texts.join('\n').replace(/"\s*\n\s*"/g, '').replace(/\{[^{}\s]*\}/g, '{}');
   for (const key of Object.keys(german).filter((one) => one.startsWith('said.')))
     assert.ok(all.includes(`"${key.slice(5)}"`), key);
+});
+
+test('a sentence with values is said in German, with the values of the daemon', async () => {
+  globalThis.fetch = async (path) => ({json: async () => (path.includes('de.json') ? german : english)});
+  globalThis.document = {documentElement: {}};
+  Object.defineProperty(globalThis, 'navigator', {value: {languages: ['de-CH', 'en']}, configurable: true});
+  const {said, speak} = await bundled('words');
+  const heat = "a nozzle of 300.5 °C is beyond the profile's limits: choose 0 to 260 °C";
+  await speak('en');
+  assert.equal(said(heat), heat);
+  await speak('de');
+  assert.match(said(heat), /^300[.,]5 °C an der Düse .* 0 bis 260 °C$/);
+  assert.equal(said('x would be -12 mm, beyond 0 to 200 mm of the bed'), 'x wäre -12 mm, außerhalb der 0 bis 200 mm des Betts');
+  assert.equal(said('it is paused already'), 'er ist schon angehalten');
+  for (const other of ['x would be', 'x would be 1 mm, beyond 0 to 2 mm of the bed, or so', '', '{} would be']) assert.equal(said(other), other);
+  assert.equal(said(undefined), '');
 });
