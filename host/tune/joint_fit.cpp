@@ -14,12 +14,13 @@ constexpr double fewest_tanks = 1, largest_tanks = 6;
 constexpr double least_mixing_volume = 0.05;  ///< mm³
 constexpr double profile_share = 0.95;        ///< where the profile's mixing volume ends
 /// Standard deviations of what is fitted besides the nozzle; natural logarithms of light.
-constexpr double usual_bend = 0.15, end_usual = 0.3, lane_usual = 0.015, light_usual = 0.04;
+constexpr double usual_bend = 0.15, end_usual = 0.3, lane_usual = 0.03, light_usual = 0.2;
 constexpr double node_distance = 25;  ///< mm
 /// Neighbouring points err alike, so that nine of them say about as much as one.
 constexpr double err_alike = 9;
 constexpr double far_from_curve = 2;  ///< scatters beyond which a point pulls no more strongly
 constexpr std::size_t block_points = 30;
+constexpr double brightest = 1;  ///< logarithm; what is brighter is a step of the fit that goes too far
 
 /// The numbers of a channel: both laws, the bend of the camera, lanes, nodes of the light.
 constexpr Eigen::Index law_numbers = 2 + static_cast<Eigen::Index>(ColourLaw::coefficients);
@@ -171,40 +172,46 @@ void JointFit::make_priors(std::size_t channel) {
 }
 
 JointFit::Row JointFit::row(const State& state, std::size_t channel, std::size_t index, double share) const {
-  const CurvePoint& point = points_[index];
   const Vector& numbers = state.channels[channel];
   // A bead is thin or fat, or treated as the one that it is nearer to.
-  const Eigen::Index law_at = point.fat < 0.5 ? 0 : fat_law;
+  const Eigen::Index law_at = points_[index].fat < 0.5 ? 0 : fat_law;
   const ColourLaw law = law_in(numbers, law_at);
   const double gone = law.gone(share), way = law.to - law.from;
   Row row;
   row.add(law_at, 1 - gone);
   row.add(law_at + 1, gone);
-  double by_share = 0;
   if (share > 0 && share < 1) {
     const auto [first, weights] = ColourLaw::weights_at(share);
     const double steep = way * gone * (1 - gone);
     for (std::size_t i = 0; i < weights.size(); ++i)
       row.add(law_at + 2 + static_cast<Eigen::Index>(first + i), steep * weights[i]);
   }
+  const double light = law.from + gone * way + disturbed(numbers, channel, index, share, row);
+  row.colour = picture::encoded(std::exp(std::min(light, brightest)));
+  const double slope = slope_of_encoding(row.colour);
+  for (std::size_t i = 0; i < row.count; ++i) row.slope[i] *= slope;
   constexpr double by = 1e-4;
-  by_share = way * (law.gone(std::min(1.0, share + by)) - law.gone(std::max(0.0, share - by))) /
-             (std::min(1.0, share + by) - std::max(0.0, share - by));
-  const double brightness = point.brightness[channel];
-  row.add(bend_number, share * brightness);
-  row.add(first_lane + static_cast<Eigen::Index>(point.lane), 1);
+  const double below = std::max(0.0, share - by), above = std::min(1.0, share + by);
+  row.by_share = slope * (way * (law.gone(above) - law.gone(below)) / (above - below) +
+                          numbers(bend_number) * points_[index].brightness[channel]);
+  return row;
+}
+
+/// The logarithm of the light that a camera, a lane and the place of a point add.
+double JointFit::disturbed(const Vector& numbers, std::size_t channel, std::size_t index, double share,
+                           Row& row) const {
+  const CurvePoint& point = points_[index];
+  const Eigen::Index lane = first_lane + static_cast<Eigen::Index>(point.lane);
+  const double bent = share * point.brightness[channel];
+  row.add(bend_number, bent);
+  row.add(lane, 1);
+  double light = numbers(bend_number) * bent + numbers(lane);
   const Nearby& nearby = nearby_[index];
-  double light = law.from + gone * way + numbers(bend_number) * share * brightness +
-                 numbers(first_lane + static_cast<Eigen::Index>(point.lane));
   for (std::size_t i = 0; i < nearby.node.size(); ++i) {
     row.add(nearby.node[i], nearby.weight[i]);
     light += nearby.weight[i] * numbers(nearby.node[i]);
   }
-  row.colour = picture::encoded(std::exp(std::min(light, 1.0)));
-  const double slope = slope_of_encoding(row.colour);
-  for (std::size_t i = 0; i < row.count; ++i) row.slope[i] *= slope;
-  row.by_share = slope * (by_share + numbers(bend_number) * brightness);
-  return row;
+  return light;
 }
 
 std::vector<JointFit::Shares> JointFit::shares(const State& state, bool slopes) const {
@@ -226,9 +233,16 @@ std::vector<JointFit::Shares> JointFit::shares(const State& state, bool slopes) 
   return all;
 }
 
-double JointFit::weight(double rest) const {
-  const double far = std::abs(rest) / scatter_;
-  return (far <= far_from_curve ? 1 : far_from_curve / far) / (err_alike * scatter_ * scatter_);
+JointFit::Pull JointFit::pull(const State& state, std::size_t channel, std::size_t index,
+                              const Shares& arrived) const {
+  Pull one;
+  one.row = row(state, channel, index, arrived.share);
+  one.rest = points_[index].colour[channel] - one.row.colour;
+  const double far = std::abs(one.rest) / scatter_;
+  one.weight = points_[index].trust * (far <= far_from_curve ? 1 : far_from_curve / far) /
+               (err_alike * scatter_ * scatter_);
+  one.nozzle = one.row.by_share * Eigen::Map<const Eigen::Vector3d>(arrived.slopes.data());
+  return one;
 }
 
 double JointFit::cost_of(const State& state) const {
@@ -240,12 +254,11 @@ double JointFit::cost_of(const State& state) const {
       if (points_[i].trust == 0) continue;
       const double far =
           std::abs(row(state, c, i, arrived[i].share).colour - points_[i].colour[c]) / scatter_;
-      sum += points_[i].trust *
-             (far <= far_from_curve ? far * far : far_from_curve * (2 * far - far_from_curve)) / err_alike;
+      const double pulled = far <= far_from_curve ? far * far : far_from_curve * (2 * far - far_from_curve);
+      sum += points_[i].trust * pulled / err_alike;
     }
     for (const Prior& prior : priors_[c]) {
-      double rest = -prior.wanted;
-      for (std::size_t i = 0; i < prior.count; ++i) rest += prior.slope[i] * state.channels[c](prior.at[i]);
+      const double rest = prior.rest(state.channels[c]);
       sum += rest * rest;
     }
   }
@@ -262,32 +275,32 @@ JointFit::Normal JointFit::normal_at(const State& state) const {
     equations.mixed = Matrix::Zero(numbers_, 3);
     equations.own_right = Vector::Zero(numbers_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (points_[i].trust == 0) continue;
-      const Row seen = row(state, c, i, arrived[i].share);
-      const double rest = points_[i].colour[c] - seen.colour, w = points_[i].trust * weight(rest);
-      Eigen::Vector3d nozzle;
-      for (Eigen::Index j = 0; j < 3; ++j)
-        nozzle(j) = seen.by_share * arrived[i].slopes[static_cast<std::size_t>(j)];
-      normal.nozzle += w * nozzle * nozzle.transpose();
-      normal.nozzle_right += w * rest * nozzle;
-      for (std::size_t a = 0; a < seen.count; ++a) {
-        equations.own_right(seen.at[a]) += w * rest * seen.slope[a];
-        for (std::size_t b = 0; b < seen.count; ++b)
-          equations.own(seen.at[a], seen.at[b]) += w * seen.slope[a] * seen.slope[b];
-        equations.mixed.row(seen.at[a]) += w * seen.slope[a] * nozzle.transpose();
-      }
+      if (points_[i].trust > 0) add_point(pull(state, c, i, arrived[i]), equations, normal);
     }
-    for (const Prior& prior : priors_[c]) {
-      double rest = prior.wanted;
-      for (std::size_t i = 0; i < prior.count; ++i) rest -= prior.slope[i] * state.channels[c](prior.at[i]);
-      for (std::size_t a = 0; a < prior.count; ++a) {
-        equations.own_right(prior.at[a]) += rest * prior.slope[a];
-        for (std::size_t b = 0; b < prior.count; ++b)
-          equations.own(prior.at[a], prior.at[b]) += prior.slope[a] * prior.slope[b];
-      }
-    }
+    for (const Prior& prior : priors_[c]) add_prior(prior, state.channels[c], equations);
   }
   return normal;
+}
+
+void JointFit::add_point(const Pull& one, Equations& equations, Normal& normal) {
+  const Row& row = one.row;
+  normal.nozzle += one.weight * one.nozzle * one.nozzle.transpose();
+  normal.nozzle_right += one.weight * one.rest * one.nozzle;
+  for (std::size_t a = 0; a < row.count; ++a) {
+    const double slope = one.weight * row.slope[a];
+    equations.own_right(row.at[a]) += slope * one.rest;
+    for (std::size_t b = 0; b < row.count; ++b) equations.own(row.at[a], row.at[b]) += slope * row.slope[b];
+    equations.mixed.row(row.at[a]) += slope * one.nozzle.transpose();
+  }
+}
+
+void JointFit::add_prior(const Prior& prior, const Vector& numbers, Equations& equations) {
+  const double rest = prior.rest(numbers);
+  for (std::size_t a = 0; a < prior.count; ++a) {
+    equations.own_right(prior.at[a]) += rest * prior.slope[a];
+    for (std::size_t b = 0; b < prior.count; ++b)
+      equations.own(prior.at[a], prior.at[b]) += prior.slope[a] * prior.slope[b];
+  }
 }
 
 JointFit::State JointFit::moved(const State& state, const Normal& normal, double damping) {
@@ -369,29 +382,25 @@ FittedNozzle JointFit::doubts() const {
   for (std::size_t c = 0; c < 3; ++c) {
     const Equations& one = normal.channels[c];
     if (one.own.size() == 0) continue;
+    // What a pull on a number of this channel does to the nozzle.
     const Matrix solved = one.own.ldlt().solve(one.mixed);
     left -= one.mixed.transpose() * solved;
+    const auto through = [&](const auto& row) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (std::size_t a = 0; a < row.count; ++a) sum += row.slope[a] * solved.row(row.at[a]).transpose();
+      return sum;
+    };
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (points_[i].trust == 0) continue;
-      const Row seen = row(state_, c, i, arrived[i].share);
-      const double rest = points_[i].colour[c] - seen.colour, w = points_[i].trust * weight(rest);
-      Eigen::Vector3d pull;
-      for (Eigen::Index j = 0; j < 3; ++j)
-        pull(j) = seen.by_share * arrived[i].slopes[static_cast<std::size_t>(j)];
-      for (std::size_t a = 0; a < seen.count; ++a) pull -= seen.slope[a] * solved.row(seen.at[a]).transpose();
-      blocks[i / block_points] += w * rest * pull;
+      const Pull point = pull(state_, c, i, arrived[i]);
+      blocks[i / block_points] += point.weight * point.rest * (point.nozzle - through(point.row));
     }
-    for (const Prior& prior : priors_[c]) {
-      Eigen::Vector3d pull = Eigen::Vector3d::Zero();
-      for (std::size_t a = 0; a < prior.count; ++a)
-        pull -= prior.slope[a] * solved.row(prior.at[a]).transpose();
-      pulls += pull * pull.transpose();
-    }
+    for (const Prior& prior : priors_[c]) pulls += through(prior) * through(prior).transpose();
   }
   for (const Eigen::Vector3d& block : blocks) pulls += block * block.transpose();
-  const Eigen::Matrix3d inverse = left.inverse(), covariance = inverse * pulls * inverse;
-  return {std::sqrt(std::max(0.0, covariance(0, 0))), std::sqrt(std::max(0.0, covariance(1, 1))),
-          std::sqrt(std::max(0.0, covariance(2, 2)))};
+  const Eigen::Matrix3d inverse = left.inverse();
+  const Eigen::Vector3d variances = (inverse * pulls * inverse).diagonal().cwiseMax(0);
+  return {std::sqrt(variances(0)), std::sqrt(variances(1)), std::sqrt(variances(2))};
 }
 
 }  // namespace unicursal::host

@@ -61,6 +61,12 @@ class JointFit {
       slope[count++] = value;
     }
   };
+  /// How a point pulls on the numbers.
+  struct Pull {
+    Row row;
+    double rest = 0, weight = 0;  ///< seen − foretold, encoded
+    Eigen::Vector3d nozzle;       ///< slopes over dead, mixing, tanks
+  };
   struct Shares {
     double share = 0;
     std::array<double, 3> slopes{};  ///< over dead, mixing, tanks
@@ -75,11 +81,18 @@ class JointFit {
     Eigen::Matrix3d nozzle = Eigen::Matrix3d::Zero();
     Eigen::Vector3d nozzle_right = Eigen::Vector3d::Zero();
   };
+  /// A sum of numbers is known to be `wanted`, all in standard deviations.
   struct Prior {
     std::array<Eigen::Index, 8> at{};
     std::array<double, 8> slope{};
     std::size_t count = 0;
     double wanted = 0;
+
+    double rest(const Vector& numbers) const {
+      double sum = wanted;
+      for (std::size_t i = 0; i < count; ++i) sum -= slope[i] * numbers(at[i]);
+      return sum;
+    }
   };
 
   void find_nearby();
@@ -87,8 +100,12 @@ class JointFit {
   Row row(const State& state, std::size_t channel, std::size_t point, double share) const;
   std::vector<Shares> shares(const State& state, bool slopes) const;
   double cost_of(const State& state) const;
-  double weight(double rest) const;
+  Pull pull(const State& state, std::size_t channel, std::size_t point, const Shares& arrived) const;
+  double disturbed(const Vector& numbers, std::size_t channel, std::size_t point, double share,
+                   Row& row) const;
   Normal normal_at(const State& state) const;
+  static void add_point(const Pull& one, Equations& equations, Normal& normal);
+  static void add_prior(const Prior& prior, const Vector& numbers, Equations& equations);
   static State moved(const State& state, const Normal& normal, double damping);
 
   const std::vector<CurvePoint>& points_;
