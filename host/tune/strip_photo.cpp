@@ -151,23 +151,36 @@ void check_all_seen(const ReferenceLines& lines, const std::filesystem::path& fi
   }
 }
 
-void check_pure_colours(const ReferenceLines& lines, const std::filesystem::path& file) {
-  const PureColour &from = lines.pure(Shade::from), &to = lines.pure(Shade::to);
-  if (std::max(from.clipped, to.clipped) > clipped_at_most)
-    throw core::DataError(file.string(), "",
-                          "is too bright: a pure colour is as light as the camera can show",
-                          "take it again with less light, or with a darker exposure");
+void check_brightness(const ReferenceLines& lines, const std::filesystem::path& file) {
+  if (std::max(lines.pure(Shade::from).clipped, lines.pure(Shade::to).clipped) <= clipped_at_most) return;
+  throw core::DataError(file.string(), "", "is too bright: a pure colour is as light as the camera can show",
+                        "take it again with less light, or with a darker exposure");
+}
+
+/// ΔE2000 between both pure colours, or less if the channels differ too little to be measured.
+double contrast(const ReferenceLines& lines) {
+  const Seen &from = lines.pure(Shade::from).colour, &to = lines.pure(Shade::to).colour;
   const auto lab = [](const Seen& seen) {
     return picture::lab_of(
         Light{picture::decoded(seen[0]), picture::decoded(seen[1]), picture::decoded(seen[2])});
   };
-  const double difference = picture::difference(lab(from.colour), lab(to.colour));
-  const Seen way = minus(to.colour, from.colour);
-  if (difference >= least_difference && dot(way, way) >= least_colour_step * least_colour_step) return;
+  const Seen way = minus(to, from);
+  const double step = std::sqrt(dot(way, way)) / least_colour_step;
+  return std::min(picture::difference(lab(from), lab(to)), step * least_difference);
+}
+
+void check_contrast(const ReferenceLines& thin, const ReferenceLines& fat,
+                    const std::filesystem::path& file) {
+  const double of_thin = contrast(thin), of_fat = contrast(fat);
+  if (std::min(of_thin, of_fat) >= least_difference) return;
+  // Filaments that are alike are so in lines of both widths.
+  if (std::max(of_thin, of_fat) >= 2 * least_difference)
+    throw core::DataError(file.string(), "", "hides a reference line, as a reflection does",
+                          "take it again from another side, without reflections on the lines");
   throw core::DataError(
       file.string(), "",
       fmt::format("shows two colours that are too alike to read a change from (ΔE2000 is {:.1f})",
-                  difference),
+                  std::min(of_thin, of_fat)),
       "print the strip with two strong colours, for example --from 1 --to 3, or take the photo in more "
       "light");
 }
@@ -298,8 +311,9 @@ StripCurve read_curve(const Sheet& sheet, const Strip& strip, const std::filesys
   const ReferenceLines thin_lines(places, even, false), fat_lines(places, even, two_widths);
   check_all_seen(thin_lines, file);
   check_all_seen(fat_lines, file);
-  check_pure_colours(thin_lines, file);
-  check_pure_colours(fat_lines, file);
+  check_brightness(thin_lines, file);
+  check_brightness(fat_lines, file);
+  check_contrast(thin_lines, fat_lines, file);
   StripCurve curve;
   curve.references = {thin_lines.colours(), fat_lines.colours()};
   check_order(curve.references, file);

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
+#include "host/job/profile.hpp"
+#include "host/tune/strip.hpp"
 #include "tests/host/support/photo_bench.hpp"
 
 namespace unicursal {
@@ -91,6 +93,26 @@ TEST_CASE("Photos that cannot be read are refused with a remedy", "[tuning][phot
   CAPTURE("similar colours");
   expect_refusal(test::photographed(strip, camera::similar_pair(),
                                     smaller(conditions_named("from above"), 1400), folder / "photo.jpg"));
+}
+
+TEST_CASE("A reflection on a reference line is named as the reason", "[tuning][photo][optimised]") {
+  const test::TempFolder folder;
+  const camera::PrintedLayer strip = test::printed_strip({3, 8, 2});
+  const host::Profile profile = host::load_profile(folder.write("profile.toml", test::unmeasured_profile()));
+  const auto lanes = host::make_strip(profile.printer, {}).straight;
+  const auto line = std::find_if(lanes.rbegin(), lanes.rend(), [](const host::Strip::Lane& lane) {
+    return lane.pure && lane.shade == host::Shade::to;
+  });
+  REQUIRE(line != lanes.rend());
+  const core::Vec2 place = (line->from + line->to) / 2;
+  const camera::Rectangle printed = strip.printed();
+  camera::Conditions conditions = smaller(conditions_named("from above"), 1400);
+  conditions.light.exposure = 0.5;
+  conditions.light.glares = {
+      {(place.x() - printed.left) / printed.width(), (place.y() - printed.bottom) / printed.height(), 9, 1}};
+  const PhotoReading reading = test::photographed(strip, {"white", "blue"}, conditions, folder / "photo.jpg");
+  expect_refusal(reading);
+  CHECK(reading.outcome.err.find("hides a reference line") != std::string::npos);
 }
 
 TEST_CASE("Files that are not whole photos are refused with a remedy", "[tuning][photo]") {
