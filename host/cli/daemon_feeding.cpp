@@ -1,48 +1,29 @@
 #include "host/cli/daemon_feeding.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <ctime>
+#include <thread>
 
 #include "host/cli/terminal_look.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/daemon/state_folder.hpp"
 #include "host/engine/session_types.hpp"
+#include "host/loop/print_signals.hpp"
 
 namespace unicursal::host {
 namespace {
 
 using nlohmann::json;
 
-constexpr timespec look_again{0, 250'000'000};  // s, ns
+constexpr auto look_again = std::chrono::milliseconds(250);
 constexpr auto any_port = "auto";
 
 bool same_device(const std::string& one, const std::string& other) {
   std::error_code error;
   return one == other || std::filesystem::equivalent(one, other, error);
 }
-
-/// Signals that end the command wait meanwhile, and are asked for by pause().
-class EndingSignals {
- public:
-  EndingSignals() {
-    sigemptyset(&ending_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&ending_, signal);
-    sigprocmask(SIG_BLOCK, &ending_, &before_);
-  }
-  ~EndingSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
-  EndingSignals(const EndingSignals&) = delete;
-  EndingSignals& operator=(const EndingSignals&) = delete;
-
-  /// Waits a moment. Returns whether somebody wants the command to end.
-  bool pause() const { return sigtimedwait(&ending_, nullptr, &look_again) > 0; }
-
- private:
-  sigset_t ending_{}, before_{};
-};
 
 /// On a terminal one line that is rewritten; elsewhere a line for each new activity.
 class FeedingLine {
@@ -76,6 +57,12 @@ class FeedingLine {
   std::string shown_;
 };
 
+/// After a moment.
+bool asked_to_end(NotedSignals& signals) {
+  std::this_thread::sleep_for(look_again);
+  return signals.came();
+}
+
 json printer_of(const Client& client) {
   return accepted(client.ask("GET", "/api/printer"));
 }
@@ -100,19 +87,19 @@ json words_for(const FeedingOrder& order) {
 }
 
 /// Returns false if somebody wants to end it before.
-bool connect(const Client& client, const EndingSignals& signals) {
+bool connect(const Client& client, NotedSignals& signals) {
   order(client, "connect");
   for (;;) {
     const json printer = printer_of(client);
     const std::string connection = printer.value("connection", "");
     if (connection == "open") return true;
     if (connection != "connecting") fail(printer);
-    if (signals.pause()) return false;
+    if (asked_to_end(signals)) return false;
   }
 }
 
 /// Returns how it ended, as the daemon says it.
-std::string feed_to_end(const Client& client, const EndingSignals& signals) {
+std::string feed_to_end(const Client& client, NotedSignals& signals) {
   FeedingLine line;
   for (;;) {
     const json printer = printer_of(client);
@@ -122,7 +109,7 @@ std::string feed_to_end(const Client& client, const EndingSignals& signals) {
     }
     if (printer.value("connection", "") != "open") fail(printer);
     line.update(printer);
-    if (signals.pause()) order(client, "cancel");
+    if (asked_to_end(signals)) order(client, "cancel");
   }
 }
 
@@ -155,7 +142,7 @@ Profile profile_of(const Client& client) {
 }
 
 Exit feed_by_daemon(const Client& client, const FeedingOrder& wanted) {
-  const EndingSignals signals;
+  NotedSignals signals;
   const bool connected = printer_of(client).value("connection", "") != "closed";
   if (!connected && !connect(client, signals)) {
     order(client, "disconnect");
