@@ -18,7 +18,7 @@ struct Settings {
       10;               ///< factor on the sweeps of islands with one direction, which take longer to order
   bool stripes = true;  ///< where directions are asked for everywhere, strands are laid along them first
   // Weights of (33) and (53) in the fairing of such strands, square bead widths, as in FairingOptions.
-  double stripe_alignment = 0.3, stripe_fine_alignment = 0.059, stripe_likeness = 0.04;
+  double stripe_alignment = 0.15, stripe_fine_alignment = 0.058, stripe_likeness = 0.04;
   int stripe_coarse_iterations = 20;  ///< such strands are nearly where they belong from the start
 };
 
