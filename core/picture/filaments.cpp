@@ -27,6 +27,20 @@ std::size_t channel_of(std::size_t band) {
   return 2 - band / channel_bands;
 }
 
+Eigen::Index first_band_of(std::size_t channel) {
+  return static_cast<Eigen::Index>((2 - channel) * channel_bands);
+}
+
+Light lost_between(std::span<const double> shares, const std::vector<Mixing::Pair>& pairs) {
+  Light lost{};
+  for (const Mixing::Pair& pair : pairs) {
+    if (pair.one >= shares.size() || pair.other >= shares.size()) continue;
+    const double together = shares[pair.one] * shares[pair.other];
+    for (std::size_t c = 0; c < lost.size(); ++c) lost[c] += pair.loss[c] * together;
+  }
+  return lost;
+}
+
 }  // namespace
 
 Filaments::Filaments() {
@@ -82,13 +96,10 @@ Light mixed_light(std::span<const double> shares, const Filaments& filaments) {
   if (!filaments.as_strong_) ratio /= strength;
   const double lift = filaments.lift_;
   PerBand reflected = (1 + lift) * (1 + ratio - (ratio * (ratio + 2)).sqrt()) - lift;
-  for (const Mixing::Pair& pair : filaments.pairs_) {
-    if (pair.one >= shares.size() || pair.other >= shares.size()) continue;
-    const double together = shares[pair.one] * shares[pair.other];
-    if (together <= 0) continue;
-    for (std::size_t c = 0; c < light.size(); ++c)
-      reflected.segment<channel_bands>(static_cast<Eigen::Index>((2 - c) * channel_bands)) *=
-          std::exp(-pair.loss[c] * together);
+  if (!filaments.pairs_.empty()) {
+    const Light lost = lost_between(shares, filaments.pairs_);
+    for (std::size_t c = 0; c < lost.size(); ++c)
+      reflected.segment<channel_bands>(first_band_of(c)) *= std::exp(-lost[c]);
   }
   for (std::size_t c = 0; c < light.size(); ++c) light[c] += (per_band(seen_of_band[c]) * reflected).sum();
   return light;
