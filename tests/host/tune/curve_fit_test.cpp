@@ -147,8 +147,8 @@ TEST_CASE("Glare on a tenth of the bead does not change the result") {
   CHECK(after.mixing.value == Approx(before.mixing.value).margin(0.8));
 }
 
-TEST_CASE(
-    "Light that rises over the bed, and lanes that are darker than others, do not falsify the volumes") {
+TEST_CASE("Light that rises over the bed, and lanes that are darker than others, do not falsify the volumes",
+          "[optimised]") {
   const HiddenNozzle nozzle{4, 10, 3};
   SeenStrip strip = seen_strip(nozzle, pairs[0], 0.003);
   const double sure = strip.fit().mixing.uncertainty;
@@ -164,7 +164,7 @@ TEST_CASE(
   CHECK(fit.mixing.uncertainty >= sure);
 }
 
-TEST_CASE("A strip whose colours say too little about the volumes is refused") {
+TEST_CASE("A strip whose colours say too little about the volumes is refused", "[optimised]") {
   SeenStrip strip = seen_strip({0.4, 0.8, 1}, pairs[0], 0.05);
   CHECK_THROWS_WITH(strip.fit(), Catch::Contains("uncertain"));
 }
