@@ -2,7 +2,6 @@
 // here waits for real minutes.
 #include <poll.h>
 
-#include <asio/co_spawn.hpp>
 #include <asio/io_context.hpp>
 #include <asio/thread_pool.hpp>
 #include <catch2/catch.hpp>
@@ -11,9 +10,9 @@
 #include <sstream>
 
 #include "host/dry_run/lockstep_clock.hpp"
-#include "host/idle/idle_printer.hpp"
 #include "host/loop/signal.hpp"
 #include "tests/host/support/child_process.hpp"
+#include "tests/host/support/idle_session.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
 
@@ -42,10 +41,8 @@ class IdleBench {
     }
   }
 
-  using Script = std::function<asio::awaitable<void>(IdlePrinter&)>;
-
   /// Connects, runs the script, and closes the connection.
-  void run(const Script& script) {
+  void run(const test::IdleScript& script) {
     clock_ = std::make_shared<host::LockstepClock>(folder_ / "clock");
     {
       asio::io_context loop{1};
@@ -53,19 +50,7 @@ class IdleBench {
       IdlePrinter idle(loop.get_executor(), opener.get_executor(), clock_);
       signal_ = std::make_unique<host::Signal>(loop.get_executor(), clock_);
       idle.on_change([this] { signal_->notify(); });
-      std::exception_ptr failure;
-      const auto all = [&]() -> asio::awaitable<void> {
-        idle.connect(profile_, port());
-        co_await until([&] { return idle.status().connection == Connection::open; });
-        co_await script(idle);
-        co_await idle.close();
-      };
-      asio::co_spawn(loop, all, [&](const std::exception_ptr& error) {
-        failure = error;
-        loop.stop();
-      });
-      clock_->run(loop);
-      if (failure) std::rethrow_exception(failure);
+      test::with_idle_printer(loop, idle, {profile_, port()}, *this, script, [&] { clock_->run(loop); });
       opener.join();
       idle.on_change(nullptr);
       signal_.reset();

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 
-#include <asio/co_spawn.hpp>
 #include <asio/io_context.hpp>
 #include <asio/steady_timer.hpp>
 #include <asio/thread_pool.hpp>
@@ -12,8 +11,8 @@
 #include <functional>
 
 #include "host/files/descriptor.hpp"
-#include "host/idle/idle_printer.hpp"
 #include "tests/host/support/child_process.hpp"
+#include "tests/host/support/idle_session.hpp"
 #include "tests/host/support/sample_job.hpp"
 #include "tests/host/support/temp_folder.hpp"
 
@@ -36,24 +35,13 @@ class LostPrinterBench {
   }
 
   /// `named`: under which it is connected; empty: its own.
-  void run(const std::function<asio::awaitable<void>(IdlePrinter&)>& script, const std::string& named = {}) {
+  void run(const test::IdleScript& script, const std::string& named = {}) {
     asio::io_context loop{1};
     asio::thread_pool opener(1);
     IdlePrinter idle(loop.get_executor(), opener.get_executor());
-    std::exception_ptr failure;
-    const auto all = [&]() -> asio::awaitable<void> {
-      idle.connect(profile_, named.empty() ? port() : named);
-      co_await until([&] { return idle.status().connection == Connection::open; });
-      co_await script(idle);
-      co_await idle.close();
-    };
-    asio::co_spawn(loop, all, [&](const std::exception_ptr& error) {
-      failure = error;
-      loop.stop();
-    });
-    loop.run();
+    const test::IdlePort place{profile_, named.empty() ? port() : named};
+    test::with_idle_printer(loop, idle, place, *this, script, [&] { loop.run(); });
     opener.join();
-    if (failure) std::rethrow_exception(failure);
   }
 
   asio::awaitable<void> until(std::function<bool()> so) {
