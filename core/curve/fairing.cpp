@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/curve/alignment.hpp"
@@ -24,9 +25,9 @@ using Field = std::vector<Vec2>;  ///< one vector per vertex
 constexpr double irrational_turn = 0.5535743589;  ///< angle between the lattice and the island's axes, rad
 constexpr double sufficient_decrease = 1e-4;      ///< Armijo
 constexpr int most_halvings = 8;
-constexpr double slack_in_widths = 0.1;  ///< lists of near segments stay valid for such moves
-constexpr double vertex_spacing = 0.75;  ///< bead widths, on the coarse curve
-constexpr double final_spacing = 0.4;    ///< bead widths; of vertices nearer than half of it, one is removed
+constexpr double slack_in_widths = 0.15;  ///< lists of near segments stay valid for such moves
+constexpr double vertex_spacing = 0.75;   ///< bead widths, on the coarse curve
+constexpr double final_spacing = 0.4;     ///< bead widths; of vertices nearer than half of it, one is removed
 constexpr double length_stiffness = 0.01;  ///< relative length error at which the penalty balances coverage
 constexpr double finest_wave = 4;  ///< bead widths; the shortest common move of vertices (long_waves.hpp)
 constexpr double wave_strength = 0.04;
@@ -55,13 +56,10 @@ class Fairer {
         island_(turned(island, irrational_turn)),
         area_(area(island)),
         border_(island_, options.bead_width),
-        lattice_(sample(island_, pitch(options))),
-        coverage_(lattice_, slack_in_widths * options.bead_width, options.workers),
         leash_(border_, options.bead_width, options.workers),
         newton_(options.workers) {
     alignment_weight_ = options.alignment;
-    if (options.field != nullptr && !options.alignment_by_length)
-      alignment_ = Alignment(lattice_, *options.field, irrational_turn);
+    lay_lattice(options.coarse_samples_per_width);
     const double w = options.bead_width;
     multiplier_ = w * w * w / 6;  // −∂E_CVT/∂L of evenly spaced folds, E = A³ ÷ (12 L²)
     if (options.hold_length) stiffness_ = multiplier_ / (2 * length_stiffness * options.target_length);
@@ -78,6 +76,7 @@ class Fairer {
     if (options_.fine_iterations > 0) {
       curve = subdivided(spread(curve, vertex_spacing));
       alignment_weight_ = options_.fine_alignment;
+      lay_lattice(options_.samples_per_width);
       curve = descend(std::move(curve), options_.fine_iterations / 2);
       curve = spread(curve, vertex_spacing / 2);
       curve = descend(std::move(curve), options_.fine_iterations - options_.fine_iterations / 2);
@@ -90,8 +89,13 @@ class Fairer {
   int iterations() const { return iterations_; }
 
  private:
-  static double pitch(const FairingOptions& options) {
-    return options.bead_width / options.samples_per_width;
+  void lay_lattice(double samples_per_width) {
+    const double pitch = options_.bead_width / samples_per_width;
+    if (coverage_ && pitch == lattice_.pitch) return;
+    lattice_ = sample(island_, pitch);
+    coverage_.emplace(lattice_, slack_in_widths * options_.bead_width, options_.workers);
+    if (options_.field != nullptr && !options_.alignment_by_length)
+      alignment_ = Alignment(lattice_, *options_.field, irrational_turn);
   }
 
   Curve spread(const Curve& curve, double spacing) const {
@@ -102,13 +106,13 @@ class Fairer {
   Curve without_crowding(const Curve& curve) {
     if (ended_ || !options_.may_retract) return curve;  // a curve that is not smooth yet only seems crowded
     Field unused(curve.size(), Vec2(0, 0));
-    coverage_.evaluate(curve, 1, unused);
-    return retracted(curve, coverage_.areas(), border_, options_.bead_width).curve;
+    coverage_->evaluate(curve, 1, unused);
+    return retracted(curve, coverage_->areas(), border_, options_.bead_width).curve;
   }
 
   double evaluate(const Curve& curve, Field& gradient) {
     gradient.assign(curve.size(), Vec2(0, 0));
-    double value = coverage_.evaluate(curve, 1, gradient);
+    double value = coverage_->evaluate(curve, 1, gradient);
     // A vertex of the subdivided curve stands for half the length: this scale keeps the cost of bending the
     // same.
     const double per_vertex = area_ / static_cast<double>(curve.size());
@@ -117,7 +121,7 @@ class Fairer {
     const double smooth = options_.smoothness * per_vertex * finer * finer * finer;
     value += smooth * smoothness_with_gradient(curve, smooth, gradient);
     if (!alignment_.empty())
-      value += field_weight() * alignment_.evaluate(curve, coverage_.owners(), field_weight(), gradient);
+      value += field_weight() * alignment_.evaluate(curve, coverage_->owners(), field_weight(), gradient);
     value += along_field(curve, field_weight(), gradient);
     value += orientation(curve, gradient);
     const double excess = curve.length() - options_.target_length;
@@ -156,7 +160,7 @@ class Fairer {
       const double w = options_.bead_width;
       const double weight =
           (options_.zones[z].even ? options_.evenness : -options_.likeness) * length * w * w * w;
-      value += weight * isotropy_with_gradient(curve, members_[z], weight, gradient);
+      value += weight * isotropy_with_gradient(curve, members_[z], weight, gradient, options_.workers);
     }
     return value;
   }
@@ -237,7 +241,7 @@ class Fairer {
   double area_;
   BorderIndex border_;
   Lattice lattice_;
-  Coverage coverage_;
+  std::optional<Coverage> coverage_;
   Alignment alignment_;
   Field asked_;  ///< per segment, if alignment is by length
   Leash leash_;

@@ -33,12 +33,13 @@ struct OrientationZone {
 };
 
 struct FairingOptions {
-  double target_length = 0;      ///< mm
-  bool hold_length = true;       ///< false: coverage alone decides on the length, as thin islands need
-  double bead_width = 0;         ///< mm, area ÷ target length: the unit of the weights below
-  int coarse_iterations = 34;    ///< on the given curve
-  int fine_iterations = 34;      ///< on the subdivided curve
-  double samples_per_width = 5;  ///< lattice squares per bead width
+  double target_length = 0;             ///< mm
+  bool hold_length = true;              ///< false: coverage alone decides on the length, as thin islands need
+  double bead_width = 0;                ///< mm, area ÷ target length: the unit of the weights below
+  int coarse_iterations = 34;           ///< on the given curve
+  int fine_iterations = 34;             ///< on the subdivided curve
+  double coarse_samples_per_width = 5;  ///< lattice squares per bead width, while the curve is coarse
+  double samples_per_width = 5;         ///< lattice squares per bead width
   const DirectionField* field = nullptr;  ///< the directions to follow; null if there are none
   // Weight of (33) on the given curve, square bead widths; compare γ_Obj (54).
   double alignment = 0.05;

@@ -5,12 +5,12 @@
 namespace unicursal::core {
 namespace {
 
-constexpr double freedom_in_widths = 1.0;  ///< greatest clearance that is measured, bead widths
+constexpr double freedom_in_widths = 0.5;  ///< greatest clearance that is measured, bead widths
 constexpr double border_margin = 0.02;  ///< bead widths; a curve this close to the border counts as touching
 constexpr double self_margin = 0.005;   ///< bead widths; strands this close count as touching
-constexpr double tight = 0.5;  ///< a vertex that has used this share of its freedom counts as held back
-constexpr double many = 0.01;  ///< share of vertices held back above which clearances are measured again
-constexpr int some_steps = 5;  ///< steps after which a single vertex held back suffices
+constexpr double tight = 0.5;   ///< a vertex that has used this share of its freedom counts as held back
+constexpr double many = 0.01;   ///< share of vertices held back above which clearances are measured again
+constexpr int some_steps = 10;  ///< steps after which a single vertex held back suffices
 
 }  // namespace
 

@@ -11,6 +11,7 @@ namespace unicursal::core {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::size_t strokes_at_once = 4096;  ///< in one piece of work
 
 /// The same angle modulo π, in [0, π).
 double modulo_pi(double angle) {
@@ -65,6 +66,11 @@ struct Transport {
   }
 };
 
+/// The derivatives of E_iso by the angle and by the length of a stroke.
+struct Slope {
+  double turn = 0, stretch = 0;
+};
+
 }  // namespace
 
 double isotropy_distance(std::vector<Stroke> strokes) {
@@ -76,47 +82,63 @@ double isotropy_distance(std::vector<Stroke> strokes) {
 }
 
 double isotropy_with_gradient(const Curve& curve, const std::vector<char>& counts, double weight,
-                              std::vector<Vec2>& gradient) {
+                              std::vector<Vec2>& gradient, Workers* workers) {
+  Workers serial(1);
+  Workers& all = workers != nullptr ? *workers : serial;
+  std::vector<Stroke> strokes(curve.size());  // per segment; of length 0 if it does not count
+  all.ranges(curve.size(), strokes_at_once, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (!counts[i]) continue;
+      const Vec2 u = curve.vertices[curve.after(i)] - curve.vertices[i];
+      strokes[i] = {modulo_pi(std::atan2(u.y(), u.x())), u.norm()};
+    }
+  });
   std::vector<std::pair<double, std::size_t>> order;  // angle and segment
+  order.reserve(curve.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    if (!counts[i]) continue;
-    const Vec2 u = curve.vertices[curve.after(i)] - curve.vertices[i];
-    if (u.norm() > 0) order.emplace_back(modulo_pi(std::atan2(u.y(), u.x())), i);
+    if (strokes[i].length > 0) order.emplace_back(strokes[i].angle, i);
   }
   sort_by_angle(order);
   std::vector<Stroke> sorted;
   sorted.reserve(order.size());
-  for (const auto& [angle, i] : order)
-    sorted.push_back({angle, (curve.vertices[curve.after(i)] - curve.vertices[i]).norm()});
+  for (const auto& [angle, i] : order) sorted.push_back(strokes[i]);
   const Transport transport(std::move(sorted));
   if (!(transport.length > 0)) return 0;
 
   // ∂E/∂θ depends on each stroke's own share, ∂E/∂l on the ends T (46) of all shares after it.
   const std::size_t n = order.size();
-  std::vector<double> turn(n), first(n), last(n);
+  std::vector<Slope> slopes(curve.size());
+  std::vector<double> jump(n, 0.0);
+  double before = 0;
   const double value = transport.walk([&](std::size_t k, double from, double to) {
-    turn[k] = -(to * to - from * from) / pi;
-    first[k] = from;
-    last[k] = to;
+    slopes[order[k].second].turn = -(to * to - from * from) / pi;
+    if (k > 0) jump[k - 1] = before * before - from * from;
+    before = to;
   });
   double weighted = 0, done = 0;
-  std::vector<double> jump(n, 0.0);
   for (std::size_t k = 0; k + 1 < n; ++k) {
     done += transport.sorted[k].length;
-    jump[k] = last[k] * last[k] - first[k + 1] * first[k + 1];
     weighted += jump[k] * done / transport.length;
   }
   double after = 0;
   for (std::size_t k = n; k-- > 0;) {
     after += jump[k];
-    const double stretch = (after - weighted) / transport.length;
-    const std::size_t i = order[k].second, j = curve.after(i);
-    const Vec2 u = curve.vertices[j] - curve.vertices[i];
-    const double l = transport.sorted[k].length;
-    const Vec2 pull = weight * (turn[k] / (l * l) * perpendicular(u) + stretch / l * u);
-    gradient[i] -= pull;
-    gradient[j] += pull;
+    slopes[order[k].second].stretch = (after - weighted) / transport.length;
   }
+  const auto pull = [&](std::size_t i) -> Vec2 {
+    const double l = strokes[i].length;
+    if (!(l > 0)) return {0, 0};
+    const Vec2 u = curve.vertices[curve.after(i)] - curve.vertices[i];
+    return weight * (slopes[i].turn / (l * l) * perpendicular(u) + slopes[i].stretch / l * u);
+  };
+  all.ranges(curve.size(), strokes_at_once, [&](std::size_t from, std::size_t to) {
+    Vec2 arriving = pull(curve.before(from));
+    for (std::size_t i = from; i < to; ++i) {
+      const Vec2 leaving = pull(i);
+      gradient[i] += arriving - leaving;
+      arriving = leaving;
+    }
+  });
   return value;
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/curve/curve.hpp"
 #include "core/geometry/polygon.hpp"
+#include "core/numeric/parallel.hpp"
 
 namespace unicursal::core {
 
@@ -26,8 +27,8 @@ struct Stroke {
 double isotropy_distance(std::vector<Stroke> strokes);
 
 /// Returns E_iso of the segments whose entry in `counts` is true (segment i leaves vertex i), rad², and adds
-/// `weight` times its gradient to `gradient`.
+/// `weight` times its gradient to `gradient`. `workers` share the work; the result does not depend on them.
 double isotropy_with_gradient(const Curve& curve, const std::vector<char>& counts, double weight,
-                              std::vector<Vec2>& gradient);
+                              std::vector<Vec2>& gradient, Workers* workers = nullptr);
 
 }  // namespace unicursal::core

@@ -143,6 +143,8 @@ FairingOptions fairing_options(const FillableRegion& part, bool of_stripes, Isla
     // Strands of stripes do not crowd, and the fingers that reach the ends of thin places are to stay.
     fairing.may_retract = false;
     fairing.coarse_iterations = work.settings.stripe_coarse_iterations;
+    fairing.fine_iterations = work.settings.stripe_fine_iterations;
+    fairing.coarse_samples_per_width = fairing.samples_per_width;
     fairing.alignment = work.settings.stripe_alignment;
     fairing.fine_alignment = work.settings.stripe_fine_alignment;
     fairing.likeness = work.settings.stripe_likeness;

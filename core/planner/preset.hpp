@@ -20,6 +20,7 @@ struct Settings {
   // Weights of (33) and (53) in the fairing of such strands, square bead widths, as in FairingOptions.
   double stripe_alignment = 0.15, stripe_fine_alignment = 0.058, stripe_likeness = 0.04;
   int stripe_coarse_iterations = 20;  ///< such strands are nearly where they belong from the start
+  int stripe_fine_iterations = 34;
 };
 
 /// `quality` scales how long the optimisers run; 1 is the default, more is better and slower.
