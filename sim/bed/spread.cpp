@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace unicursal::sim {
 
 namespace {
 
-constexpr double most_pixels = 16e6;    // pixels of the whole bed
+constexpr double most_pixels = 20e6;    // pixels of the whole bed
 constexpr double margin = 10;           // mm around the bed that the raster covers, too
 constexpr double widest_radius = 3;     // mm; a wider bead piles up within this radius
 constexpr double steps_per_width = 8;   // steps per bead width along a bead
@@ -79,19 +80,26 @@ Spread::Spread(const BedSize& bed, double finest_pixel, std::size_t feeders) : f
   grid_.tiles.resize(static_cast<std::size_t>(grid_.across) * static_cast<std::size_t>(grid_.down));
   grid_.clear();
   const int farthest = static_cast<int>(std::ceil(widest_radius * reach / grid_.pixel));
-  for (int y = -farthest; y <= farthest; ++y) {
-    for (int x = -farthest; x <= farthest; ++x) {
-      const double distance = std::hypot(x, y);
-      if (distance <= farthest) offsets_.push_back({x, y, distance});
-    }
-  }
   const auto scatter = [](const Offset& o) {
     return std::fmod(golden_angle * (37 * o.x + 101 * o.y + 9999), 1);
   };
-  std::sort(offsets_.begin(), offsets_.end(), [&](const Offset& a, const Offset& b) {
-    const auto square = [](const Offset& o) { return o.x * o.x + o.y * o.y; };
-    return square(a) != square(b) ? square(a) < square(b) : scatter(a) < scatter(b);
-  });
+  for (int a = 0; a <= 2; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      std::vector<Offset>& offsets = offsets_[a][b];
+      for (int y = -farthest; y <= farthest; ++y) {
+        for (int x = -farthest; x <= farthest; ++x) {
+          const double distance = std::hypot(x - 0.25 * a, y - 0.25 * b);
+          if (distance <= farthest) offsets.push_back({x, y, distance});
+        }
+      }
+      std::sort(offsets.begin(), offsets.end(), [&](const Offset& l, const Offset& r) {
+        const auto square = [&](const Offset& o) {
+          return (4 * o.x - a) * (4 * o.x - a) + (4 * o.y - b) * (4 * o.y - b);
+        };
+        return square(l) != square(r) ? square(l) < square(r) : scatter(l) < scatter(r);
+      });
+    }
+  }
 }
 
 void Spread::begin(double z, double height) {
@@ -113,20 +121,38 @@ void Spread::lay(const Bead& bead, double width) {
   }
 }
 
+Spread::Centre Spread::centre(double x, double y) const {
+  const double column = (x + margin) / grid_.pixel, row = (y + margin) / grid_.pixel;
+  Centre at{static_cast<int>(std::floor(column)), static_cast<int>(std::floor(row)), 1, 1, false, nullptr};
+  const double aside = column - std::floor(column) - 0.5, above = row - std::floor(row) - 0.5;
+  at.right = aside < 0 ? -1 : 1;
+  at.up = above < 0 ? -1 : 1;
+  int a = static_cast<int>(std::lround(4 * std::abs(aside))),
+      b = static_cast<int>(std::lround(4 * std::abs(above)));
+  at.swapped = b > a;
+  if (at.swapped) std::swap(a, b);
+  at.offsets = &offsets_[a][b];
+  return at;
+}
+
+RasterPixel* Spread::Centre::pixel(Grid& grid, const Offset& offset) const {
+  const auto [along_x, along_y] = swapped ? std::pair(offset.y, offset.x) : std::pair(offset.x, offset.y);
+  return grid.at(x + right * along_x, y + up * along_y);
+}
+
 /// `amount` is the number of pixels that it fills to the layer's height.
 void Spread::drop(double x, double y, double amount, double radius, std::span<const double> shares) {
-  const auto cell = [this](double mm) { return static_cast<int>(std::floor((mm + margin) / grid_.pixel)); };
-  const int cx = cell(x), cy = cell(y);
+  const Centre at = centre(x, y);
   const double pixels = radius / grid_.pixel;
-  const double left = fill_room(cx, cy, amount, std::max(1.0, pixels * reach), shares);
-  if (left > 0) heap(cx, cy, left, std::max(0.5, pixels), shares);
+  const double left = fill_room(at, amount, std::max(1.0, pixels * reach), shares);
+  if (left > 0) heap(at, left, std::max(0.5, pixels), shares);
 }
 
 /// Returns the amount that did not fit.
-double Spread::fill_room(int cx, int cy, double amount, double within, std::span<const double> shares) {
-  for (const Offset& offset : offsets_) {
+double Spread::fill_room(const Centre& at, double amount, double within, std::span<const double> shares) {
+  for (const Offset& offset : *at.offsets) {
     if (offset.distance > within || amount <= 0) break;
-    RasterPixel* pixel = grid_.at(cx + offset.x, cy + offset.y);
+    RasterPixel* pixel = at.pixel(grid_, offset);
     if (pixel == nullptr || pixel->fill >= full) continue;
     const double put = std::min(amount, 1.0 - pixel->fill);
     pixel->add(put, shares);
@@ -135,12 +161,14 @@ double Spread::fill_room(int cx, int cy, double amount, double within, std::span
   return amount;
 }
 
-void Spread::heap(int cx, int cy, double amount, double within, std::span<const double> shares) {
-  const auto end = std::find_if(offsets_.begin(), offsets_.end(),
+void Spread::heap(const Centre& at, double amount, double within, std::span<const double> shares) {
+  const auto end = std::find_if(at.offsets->begin(), at.offsets->end(),
                                 [within](const Offset& offset) { return offset.distance > within; });
-  const double each = amount / static_cast<double>(end - offsets_.begin());
-  for (auto offset = offsets_.begin(); offset != end; ++offset) {
-    if (RasterPixel* pixel = grid_.at(cx + offset->x, cy + offset->y))
+  // At least the pixel in which the place lies.
+  const auto last = std::max(end, at.offsets->begin() + 1);
+  const double each = amount / static_cast<double>(last - at.offsets->begin());
+  for (auto offset = at.offsets->begin(); offset != last; ++offset) {
+    if (RasterPixel* pixel = at.pixel(grid_, *offset))
       pixel->add(each, shares);
     else
       lost_ += each * grid_.height * grid_.pixel * grid_.pixel;

@@ -9,7 +9,7 @@
 // layer below counts as flat.
 //
 // Memory holds one layer, in tiles that exist where plastic lies. A pixel has the size asked for, or is
-// coarser so that the whole bed stays within 16 million pixels. mm, mm³.
+// coarser so that the whole bed stays within 20 million pixels. mm, mm³.
 #pragma once
 
 #include <cstdint>
@@ -68,13 +68,26 @@ class Spread {
     void read_row(std::uint64_t row, std::span<RasterPixel> pixels) const override;
   };
 
+  /// A place to within an eighth of a pixel.
+  struct Centre {
+    int x, y;       ///< Pixel.
+    int right, up;  ///< 1 or −1: to which side of the pixel's middle the place lies.
+    bool swapped;   ///< Whether y lies farther from the middle than x.
+    const std::vector<Offset>* offsets;
+
+    RasterPixel* pixel(Grid& grid, const Offset& offset) const;
+  };
+
   void drop(double x, double y, double amount, double radius, std::span<const double> shares);
-  double fill_room(int x, int y, double amount, double within, std::span<const double> shares);
-  void heap(int x, int y, double amount, double within, std::span<const double> shares);
+  Centre centre(double x, double y) const;
+  double fill_room(const Centre& at, double amount, double within, std::span<const double> shares);
+  void heap(const Centre& at, double amount, double within, std::span<const double> shares);
 
   Grid grid_;
   std::size_t feeders_;
-  std::vector<Offset> offsets_;  ///< Sorted by distance.
+  /// Pixels by their distance from a centre that lies `a` and `b` quarters of a pixel beside the middle of
+  /// the pixel (0, 0), for 2 ≥ a ≥ b ≥ 0. Sorted by distance.
+  std::vector<Offset> offsets_[3][3];
   double lost_ = 0;
 };
 

@@ -145,10 +145,27 @@ TEST_CASE("a new layer begins empty") {
   CHECK(sums(spread.raster()).volume == Approx(10 * 0.5 * height));
 }
 
+TEST_CASE("a bead between two rows of pixels lies between them") {
+  const double aside = GENERATE(-0.5, -0.4, 0.4, 0.49) * pixel;
+  const bool upright = GENERATE(false, true);
+  CAPTURE(aside / pixel, upright);
+  // The middle of a pixel, and nearly half a pixel beside it.
+  const double middle = 10 + pixel / 2, at = middle + aside;
+  Spread spread({60, 60}, pixel, 3);
+  spread.begin(height, height);
+  spread.lay(upright ? bead(at, 10, at, 20, 0.4) : bead(10, at, 20, at, 0.4), 0.4);
+  const auto before = [&](double line) {
+    return upright ? sums(spread.raster(), -1e9, 12, line, 18) : sums(spread.raster(), 12, -1e9, 18, line);
+  };
+  // Half of it lies before its middle, with pixels counted by their middles.
+  const double half = before(1e9).volume / 2, edge = middle - pixel / 2;
+  CHECK(before(edge).volume + (at - edge) * 6 * height == Approx(half).margin(0.15 * pixel * 6 * height));
+}
+
 TEST_CASE("the pixels of a big bed are coarser, so that a layer's memory stays bounded") {
-  CHECK(Spread({150, 150}, 0.05, 3).pixel() == 0.05);
+  CHECK(Spread({200, 200}, 0.05, 3).pixel() == 0.05);
   const double coarse = Spread({1000, 1000}, 0.05, 3).pixel();
-  CHECK(1020 * 1020 / (coarse * coarse) <= 16.1e6);
+  CHECK(1020 * 1020 / (coarse * coarse) <= 20.1e6);
 }
 
 TEST_CASE("layers are read from the stream as they were written") {
