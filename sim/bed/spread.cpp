@@ -79,27 +79,27 @@ Spread::Spread(const BedSize& bed, double finest_pixel, std::size_t feeders) : f
   grid_.down = tiles_for(bed.y, grid_.pixel, Tile::side);
   grid_.tiles.resize(static_cast<std::size_t>(grid_.across) * static_cast<std::size_t>(grid_.down));
   grid_.clear();
+}
+
+std::vector<Spread::Offset> Spread::around(int a, int b) const {
   const int farthest = static_cast<int>(std::ceil(widest_radius * reach / grid_.pixel));
+  std::vector<Offset> offsets;
+  for (int y = -farthest; y <= farthest; ++y) {
+    for (int x = -farthest; x <= farthest; ++x) {
+      const double distance = std::hypot(x - 0.25 * a, y - 0.25 * b);
+      if (distance <= farthest) offsets.push_back({x, y, distance});
+    }
+  }
   const auto scatter = [](const Offset& o) {
     return std::fmod(golden_angle * (37 * o.x + 101 * o.y + 9999), 1);
   };
-  for (int a = 0; a <= 2; ++a) {
-    for (int b = 0; b <= a; ++b) {
-      std::vector<Offset>& offsets = offsets_[a][b];
-      for (int y = -farthest; y <= farthest; ++y) {
-        for (int x = -farthest; x <= farthest; ++x) {
-          const double distance = std::hypot(x - 0.25 * a, y - 0.25 * b);
-          if (distance <= farthest) offsets.push_back({x, y, distance});
-        }
-      }
-      std::sort(offsets.begin(), offsets.end(), [&](const Offset& l, const Offset& r) {
-        const auto square = [&](const Offset& o) {
-          return (4 * o.x - a) * (4 * o.x - a) + (4 * o.y - b) * (4 * o.y - b);
-        };
-        return square(l) != square(r) ? square(l) < square(r) : scatter(l) < scatter(r);
-      });
-    }
-  }
+  std::sort(offsets.begin(), offsets.end(), [&](const Offset& l, const Offset& r) {
+    const auto square = [&](const Offset& o) {
+      return (4 * o.x - a) * (4 * o.x - a) + (4 * o.y - b) * (4 * o.y - b);
+    };
+    return square(l) != square(r) ? square(l) < square(r) : scatter(l) < scatter(r);
+  });
+  return offsets;
 }
 
 void Spread::begin(double z, double height) {
@@ -121,7 +121,7 @@ void Spread::lay(const Bead& bead, double width) {
   }
 }
 
-Spread::Centre Spread::centre(double x, double y) const {
+Spread::Centre Spread::centre(double x, double y) {
   const double column = (x + margin) / grid_.pixel, row = (y + margin) / grid_.pixel;
   Centre at{static_cast<int>(std::floor(column)), static_cast<int>(std::floor(row)), 1, 1, false, nullptr};
   const double aside = column - std::floor(column) - 0.5, above = row - std::floor(row) - 0.5;
@@ -131,7 +131,9 @@ Spread::Centre Spread::centre(double x, double y) const {
       b = static_cast<int>(std::lround(4 * std::abs(above)));
   at.swapped = b > a;
   if (at.swapped) std::swap(a, b);
-  at.offsets = &offsets_[a][b];
+  std::vector<Offset>& offsets = offsets_[a][b];
+  if (offsets.empty()) offsets = around(a, b);  // a printer that lays nothing needs none
+  at.offsets = &offsets;
   return at;
 }
 

@@ -79,14 +79,15 @@ class Spread {
   };
 
   void drop(double x, double y, double amount, double radius, std::span<const double> shares);
-  Centre centre(double x, double y) const;
+  Centre centre(double x, double y);
+  std::vector<Offset> around(int a, int b) const;
   double fill_room(const Centre& at, double amount, double within, std::span<const double> shares);
   void heap(const Centre& at, double amount, double within, std::span<const double> shares);
 
   Grid grid_;
   std::size_t feeders_;
   /// Pixels by their distance from a centre that lies `a` and `b` quarters of a pixel beside the middle of
-  /// the pixel (0, 0), for 2 ≥ a ≥ b ≥ 0. Sorted by distance.
+  /// the pixel (0, 0), for 2 ≥ a ≥ b ≥ 0. Sorted by distance; made when needed.
   std::vector<Offset> offsets_[3][3];
   double lost_ = 0;
 };
