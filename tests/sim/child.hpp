@@ -109,6 +109,19 @@ class Host {
       pending_.append(bytes.data(), static_cast<std::size_t>(count));
     }
   }
+  /// Sends the text and returns the first line that begins so. Asks again every second, since what a host
+  /// sends is lost while the line is cleared after the one before it, as the driver of a real adapter does.
+  std::string ask(const std::string& text, const std::string& beginning) {
+    for (int seconds = 0; seconds < patience / 1000; ++seconds) {
+      write(text);
+      pollfd wait{port_, POLLIN, 0};
+      while (pending_.find('\n') != std::string::npos || ::poll(&wait, 1, 1000) == 1) {
+        if (std::string line = read_line(); line.starts_with(beginning)) return line;
+      }
+    }
+    FAIL("no answer to " << text);
+    return {};
+  }
   void expect(const std::string& wanted) {
     while (read_line() != wanted) {
     }

@@ -176,9 +176,7 @@ TEST_CASE("a printer outlives its hosts: the next host finds it as the last one 
   Child child(options);
   for (int visit = 1; visit <= 5; ++visit) {
     Host host(child.path());
-    host.write(fmt::format("G1 X{}\nM114\n", 10 * visit));
-    std::string position;
-    while (!position.starts_with("X:")) position = host.read_line();
+    const std::string position = host.ask(fmt::format("G1 X{}\nM114\n", 10 * visit), "X:");
     CHECK(position.starts_with(fmt::format("X:{}.00", 10 * visit)));
   }
   CHECK(child.stop() == 0);
