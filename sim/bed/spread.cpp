@@ -44,12 +44,13 @@ RasterPixel* Spread::Grid::at(int x, int y) {
   if (!tile) tile = std::make_unique<Tile>();
   left = std::min(left, tile_x), right = std::max(right, tile_x);
   bottom = std::min(bottom, tile_y), top = std::max(top, tile_y);
-  return &tile->pixels[static_cast<std::size_t>(y % Tile::side * Tile::side + x % Tile::side)];
+  const int place = y % Tile::side * Tile::side + x % Tile::side;
+  return &tile->pixels[static_cast<std::size_t>(place)];
 }
 
 RasterFrame Spread::Grid::frame() const {
   if (empty()) return {z, height, 0, 0, pixel, 0, 0};
-  const auto pixels = [](int tile_count) { return static_cast<std::uint64_t>(tile_count * Tile::side); };
+  const auto pixels = [](int tile_count) { return static_cast<std::uint64_t>(tile_count) * Tile::side; };
   return {z,
           height,
           left * Tile::side * pixel - margin,
