@@ -228,7 +228,7 @@ void Sheet::check_slant(const SheetPlan& plan, const std::filesystem::path& file
       file.string(), "",
       fmt::format("is taken at a steep slant: a millimetre is {:.1f} times as long in front as behind",
                   most / least),
-      "take it again from farther above, so that it is less than twice as long");
+      "take it again from farther above, so that it is less than two and a half times as long");
 }
 
 double Sheet::refine(const SheetPlan& plan, std::vector<Sighting> sightings, double reach, std::size_t lens) {

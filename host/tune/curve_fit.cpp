@@ -52,7 +52,14 @@ double beside_the_way(const CurvePoint& point, const std::vector<Seen>& way, con
   return std::sqrt(least);
 }
 
-/// The points without those that lie beside the way of the colours.
+bool all_finite(const CurvePoint& point) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return finite(point.fat) && finite(point.trust) &&
+         std::all_of(point.colour.begin(), point.colour.end(), finite) &&
+         std::all_of(point.brightness.begin(), point.brightness.end(), finite);
+}
+
+/// The points without those that lie beside the way of the colours, or that could not be measured.
 std::vector<CurvePoint> on_the_way(std::vector<CurvePoint> points, const ColourAnswer& answer) {
   constexpr int steps = 100;
   constexpr double allowed = 0.03, usual_times = 4;
@@ -60,6 +67,9 @@ std::vector<CurvePoint> on_the_way(std::vector<CurvePoint> points, const ColourA
   for (int i = 0; i <= steps; ++i) {
     for (std::size_t fat = 0; fat < 2; ++fat)
       ways[fat].push_back(answer(static_cast<double>(i) / steps, static_cast<double>(fat)));
+  }
+  for (CurvePoint& point : points) {
+    if (!all_finite(point)) point.trust = 0;
   }
   std::vector<double> distances;
   for (const CurvePoint& point : points)
@@ -94,13 +104,18 @@ JointFit best_start(const std::vector<CurvePoint>& points, const std::vector<Mix
 
 void check_certain(const CurveFit& fit, const std::filesystem::path& file) {
   constexpr double most_uncertain = 0.12;  // of the sum of both volumes
-  const double whole = fit.dead.value + fit.mixing.value,
-               worse = std::max(fit.dead.uncertainty, fit.mixing.uncertainty);
-  if (worse <= most_uncertain * whole) return;
+  const double most = most_uncertain * (fit.dead.value + fit.mixing.value);
+  // A condition that NaN does not meet.
+  if (possible({fit.dead.value, fit.mixing.value, fit.tanks.value}) && fit.dead.uncertainty <= most &&
+      fit.mixing.uncertainty <= most)
+    return;
+  const double worse = std::max(fit.dead.uncertainty, fit.mixing.uncertainty);
   throw core::DataError(
       file.string(), "",
-      fmt::format("leaves the volumes too uncertain: {:.1f} and {:.1f} mm³, give or take {:.1f}",
-                  fit.dead.value, fit.mixing.value, worse),
+      std::isfinite(worse)
+          ? fmt::format("leaves the volumes too uncertain: {:.1f} and {:.1f} mm³, give or take {:.1f}",
+                        fit.dead.value, fit.mixing.value, worse)
+          : "leaves the volumes too uncertain: what it shows does not determine them",
       "take it again from nearer, sharp and in brighter light, without glare on the bead");
 }
 
@@ -128,7 +143,7 @@ CurveFit fit_curve(const std::vector<CurvePoint>& seen, const std::vector<Mixtur
   fit.set_scatter(std::max(1e-3, fit.scatter()));
   fit.improve(all_steps);
   constexpr double most_scatter = 0.06;
-  if (fit.scatter() > most_scatter)
+  if (!(fit.scatter() <= most_scatter))
     throw core::DataError(file.string(), "",
                           "shows a strip that does not change its colour as behind a mixing nozzle",
                           "take the photo again in even light, without glare on the bead");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <limits>
 
 #include "core/picture/lab.hpp"
 #include "host/tune/transition_fit.hpp"
@@ -20,6 +21,8 @@ constexpr double node_distance = 25;  ///< mm
 constexpr double err_alike = 9;
 constexpr double far_from_curve = 2;  ///< scatters beyond which a point pulls no more strongly
 constexpr std::size_t block_points = 30;
+/// 1 ÷ variance (mm³, tanks) of what the points say about one of the nozzle's numbers; less is rounding.
+constexpr double least_known = 1e-6;
 constexpr double brightest = 1;  ///< logarithm; what is brighter is a step of the fit that goes too far
 
 /// The numbers of a channel: both laws, the bend of the camera, lanes, nodes of the light.
@@ -87,6 +90,12 @@ double slope_of_encoding(double encoded) {
 }
 
 }  // namespace
+
+bool possible(const FittedNozzle& nozzle) {
+  return std::isfinite(nozzle.dead) && nozzle.dead >= 0 && std::isfinite(nozzle.mixing) &&
+         nozzle.mixing >= least_mixing_volume && nozzle.tanks >= fewest_tanks &&
+         nozzle.tanks <= largest_tanks;
+}
 
 double share_at(const FittedNozzle& nozzle, const std::vector<MixtureSwitch>& switches, double passed) {
   static const Responses responses;
@@ -321,6 +330,7 @@ JointFit::State JointFit::moved(const State& state, const Normal& normal, double
     right -= one.mixed.transpose() * solved[c].col(0);
   }
   const Eigen::Vector3d change = left.ldlt().solve(right);
+  if (!change.allFinite()) return state;
   next.nozzle = limited(sum_of(state.nozzle, change));
   for (std::size_t c = 0; c < 3; ++c) {
     if (solved[c].size() > 0) next.channels[c] += solved[c].col(0) - solved[c].rightCols(3) * change;
@@ -398,8 +408,13 @@ FittedNozzle JointFit::doubts() const {
     for (const Prior& prior : priors_[c]) pulls += through(prior) * through(prior).transpose();
   }
   for (const Eigen::Vector3d& block : blocks) pulls += block * block.transpose();
+  // Conditions that NaN does not meet.
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const FittedNozzle unknown{infinity, infinity, infinity};
+  if (!left.allFinite() || !(left.ldlt().vectorD().minCoeff() >= least_known)) return unknown;
   const Eigen::Matrix3d inverse = left.inverse();
-  const Eigen::Vector3d variances = (inverse * pulls * inverse).diagonal().cwiseMax(0);
+  const Eigen::Vector3d variances = (inverse * pulls * inverse).diagonal();
+  if (!variances.allFinite() || !(variances.minCoeff() > 0)) return unknown;
   return {std::sqrt(variances(0)), std::sqrt(variances(1)), std::sqrt(variances(2))};
 }
 

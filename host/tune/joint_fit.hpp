@@ -15,6 +15,9 @@ struct FittedNozzle {
   double dead = 0, mixing = 1, tanks = 2;
 };
 
+/// All numbers are finite and within the limits that the fit keeps.
+bool possible(const FittedNozzle& nozzle);
+
 /// The share that has arrived when `passed` mm³ have passed since the strip's switch.
 double share_at(const FittedNozzle& nozzle, const std::vector<MixtureSwitch>& switches, double passed);
 
@@ -34,7 +37,8 @@ class JointFit {
   void set_scatter(double scatter);
   std::vector<Seen> foretold() const;
   /// Standard deviations. Neighbouring points err alike; so do all that lie in one block of them, whose
-  /// pulls on the nozzle are compared (the "sandwich" of cluster-robust statistics).
+  /// pulls on the nozzle are compared (the "sandwich" of cluster-robust statistics). Infinite if the points
+  /// do not determine the nozzle.
   FittedNozzle doubts() const;
 
  private:

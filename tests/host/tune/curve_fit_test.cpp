@@ -4,9 +4,11 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "core/error.hpp"
+#include "host/tune/joint_fit.hpp"
 #include "tests/host/support/hidden_nozzles.hpp"
 
 namespace unicursal::host {
@@ -178,6 +180,65 @@ TEST_CASE("A strip that ends too early, or shows something else, is refused") {
     for (double& channel : point.colour) channel = static_cast<double>(chance()) / 4294967296.0;
   }
   CHECK_THROWS_AS(other.fit(), core::DataError);
+}
+
+TEST_CASE("Points that could not be measured do not count, and too many of them are refused") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  SeenStrip without = seen_strip({4, 10, 2}, pairs[0], 0.002), broken = without;
+  // In the middle of the change; at these places the light, the colour and the width are not known.
+  const std::size_t last = broken.points.size() - 1;
+  for (std::size_t i = 0; i < 3; ++i) without.points[last - 330 - i].trust = 0;
+  broken.points[last - 330].brightness[1] = nan;
+  broken.points[last - 331].colour[0] = nan;
+  broken.points[last - 332].fat = std::numeric_limits<double>::infinity();
+  const CurveFit fit = broken.fit(), wanted = without.fit();
+  CHECK(fit.dead.value == Approx(wanted.dead.value));
+  CHECK(fit.mixing.value == Approx(wanted.mixing.value));
+  CHECK(fit.mixing.uncertainty == Approx(wanted.mixing.uncertainty));
+  for (CurvePoint& point : broken.points) point.colour[2] = nan;
+  CHECK_THROWS_AS(broken.fit(), core::DataError);
+}
+
+TEST_CASE("A strip that shows only the colour after its change does not determine the volumes") {
+  SeenStrip strip = seen_strip({4, 10, 2}, pairs[0], 0.002);
+  for (CurvePoint& point : strip.points) point.trust = point.passed > 45 ? 1 : 0;
+  CHECK_THROWS_WITH(strip.fit(), Catch::Contains("too uncertain"));
+}
+
+TEST_CASE("Doubts are infinite if points say nothing about a nozzle, or are not numbers") {
+  SeenStrip strip = seen_strip({4, 10, 2}, pairs[0], 0.002);
+  const ColourAnswer answer(strip.references);
+  const auto fitted = [&] {
+    JointFit fit(strip.points, strip.switches, answer, {3, 8, 3}, 0.01);
+    fit.improve(3);
+    CHECK(possible(fit.nozzle()));
+    return fit.doubts();
+  };
+  const auto infinite = [](const FittedNozzle& doubts) {
+    return std::isinf(doubts.dead) && std::isinf(doubts.mixing) && std::isinf(doubts.tanks);
+  };
+  const FittedNozzle known = fitted();
+  CHECK(known.dead > 0);
+  CHECK(known.dead < 1);
+  CHECK(known.mixing < 1);
+  strip.points[900].brightness[0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(infinite(fitted()));
+  for (CurvePoint& point : strip.points) point.trust = 0;
+  CHECK(infinite(fitted()));
+}
+
+TEST_CASE("A nozzle is possible within the limits of the fit only") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   infinity = std::numeric_limits<double>::infinity();
+  CHECK(possible({0, 0.05, 1}));
+  CHECK(possible({10, 25, 6}));
+  for (const FittedNozzle& nozzle :
+       {FittedNozzle{nan, 1, 2}, FittedNozzle{1, nan, 2}, FittedNozzle{1, 1, nan},
+        FittedNozzle{infinity, 1, 2}, FittedNozzle{1, infinity, 2}, FittedNozzle{-0.1, 1, 2},
+        FittedNozzle{1, 0.04, 2}, FittedNozzle{1, 1, 0.9}, FittedNozzle{1, 1, 6.1}}) {
+    CAPTURE(nozzle.dead, nozzle.mixing, nozzle.tanks);
+    CHECK_FALSE(possible(nozzle));
+  }
 }
 
 TEST_CASE("Colours of the reference lines are given back exactly, and colours between them lie between") {
