@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
 #include <thread>
 
+#include "core/error.hpp"
 #include "host/cli/terminal_look.hpp"
 #include "host/cli/terminal_output.hpp"
 #include "host/daemon/state_folder.hpp"
@@ -18,7 +20,11 @@ namespace {
 using nlohmann::json;
 
 constexpr auto look_again = std::chrono::milliseconds(250);
+constexpr int looks_after_feeding = 8;  ///< without any news of it, until it is given up: 2 s
+constexpr int looks_before_feeding =
+    240;  ///< the same, while the daemon's other commands may come first: 60 s
 constexpr auto any_port = "auto";
+constexpr auto perhaps_hot = "; the nozzle may still be hot: look at `unicursal status`";
 
 bool same_device(const std::string& one, const std::string& other) {
   std::error_code error;
@@ -67,8 +73,8 @@ json printer_of(const Client& client) {
   return accepted(client.ask("GET", "/api/printer"));
 }
 
-void order(const Client& client, const char* what, const json& body = json::object()) {
-  accepted(client.ask("POST", std::string("/api/printer/") + what, body));
+void order(const Client& client, const char* what) {
+  accepted(client.ask("POST", std::string("/api/printer/") + what, json::object()));
 }
 
 json words_for(const FeedingOrder& order) {
@@ -81,9 +87,12 @@ json words_for(const FeedingOrder& order) {
   return body;
 }
 
+std::string problem_of(const json& printer) {
+  return printer.value("problem", "the daemon's printer is not connected any more");
+}
+
 [[noreturn]] void fail(const json& printer) {
-  throw PrintError(printer.value("problem", "the daemon's printer is not connected any more") +
-                   "; see `unicursal status`");
+  throw PrintError(problem_of(printer) + "; see `unicursal status`");
 }
 
 /// Returns false if somebody wants to end it before.
@@ -98,18 +107,80 @@ bool connect(const Client& client, NotedSignals& signals) {
   }
 }
 
+/// An error is a PrintError, since filament may be moving.
+json while_feeding(const std::function<json()>& ask) {
+  try {
+    return ask();
+  } catch (const core::DataError& error) {
+    throw PrintError(error.problem() + perhaps_hot);
+  }
+}
+
+void cancel(const Client& client) {
+  while_feeding([&] { return accepted(client.ask("POST", "/api/printer/cancel", json::object())); });
+}
+
+/// Only a refusal is a DaemonError; an order without an answer may have been obeyed.
+void order_feeding(const Client& client, const FeedingOrder& wanted) {
+  Answer answer;
+  while_feeding([&] {
+    answer = client.ask("POST", "/api/printer/feed", words_for(wanted));
+    return json();
+  });
+  accepted(answer);
+}
+
+/// Notices that a daemon has dropped the order without a word, as daemons of older versions do.
+class FeedingWatch {
+ public:
+  /// Returns false if it is to be given up.
+  bool goes_on(const json& printer) {
+    const std::string action = printer.value("action", "");
+    begun_ = begun_ || action == "feeding";
+    looks_ = action == "feeding" || action == "homing" ? 0 : looks_ + 1;
+    return looks_ < (begun_ ? looks_after_feeding : looks_before_feeding);
+  }
+
+ private:
+  bool begun_ = false;
+  int looks_ = 0;  ///< in a row, in which it did not feed
+};
+
 /// Returns how it ended, as the daemon says it.
 std::string feed_to_end(const Client& client, NotedSignals& signals) {
   FeedingLine line;
-  for (;;) {
-    const json printer = printer_of(client);
+  FeedingWatch watch;
+  for (bool cancelled = false;;) {
+    const json printer = while_feeding([&] { return printer_of(client); });
     if (printer.contains("fed")) {
       if (printer["fed"] == "failed") fail(printer);
       return printer["fed"];
     }
-    if (printer.value("connection", "") != "open") fail(printer);
+    if (printer.value("connection", "") != "open") throw PrintError(problem_of(printer) + perhaps_hot);
+    if (!watch.goes_on(printer)) {
+      cancel(client);  // or it would begin later
+      throw PrintError(std::string("the daemon does not say how the feeding has ended") + perhaps_hot);
+    }
     line.update(printer);
-    if (asked_to_end(signals)) order(client, "cancel");
+    if (!asked_to_end(signals)) continue;
+    if (cancelled)
+      throw PrintError(
+          "the command ends before the daemon has stopped; the printer may still be feeding: look at "
+          "`unicursal status`");
+    cancel(client);
+    cancelled = true;
+  }
+}
+
+/// Closes the connection that this command has opened. One that was lost is left alone, since the daemon
+/// looks for a printer that may be hot.
+void give_back(const Client& client, bool feeds_for_others) {
+  try {
+    const json printer = printer_of(client);
+    const bool others = feeds_for_others && printer.value("action", "") == "feeding";
+    if (printer.value("connection", "") == "open" && !others) order(client, "disconnect");
+  } catch (const core::DataError&) {
+    // A print has the printer now, or the daemon has gone.
   }
 }
 
@@ -148,10 +219,18 @@ Exit feed_by_daemon(const Client& client, const FeedingOrder& wanted) {
     order(client, "disconnect");
     return Exit::stopped;
   }
-  order(client, "feed", words_for(wanted));
-  const std::string ended = feed_to_end(client, signals);
-  if (!connected) order(client, "disconnect");
-  return ended == "completed" ? Exit::success : Exit::stopped;
+  try {
+    order_feeding(client, wanted);
+    const std::string ended = feed_to_end(client, signals);
+    if (!connected) give_back(client, false);
+    return ended == "completed" ? Exit::success : Exit::stopped;
+  } catch (const core::DataError&) {
+    if (!connected) give_back(client, true);
+    throw;
+  } catch (const PrintError&) {
+    if (!connected) give_back(client, false);
+    throw;
+  }
 }
 
 }  // namespace unicursal::host

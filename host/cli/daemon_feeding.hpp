@@ -23,8 +23,8 @@ std::optional<Client> daemon_with_port(const DaemonAccess& access, const std::st
 Profile profile_of(const Client& client);
 
 /// Connects the printer if the daemon has not, and closes that connection again at the end. Returns when the
-/// filament has moved, or stops it after Ctrl-C. Throws DaemonError if the daemon refuses, and PrintError if
-/// it fails.
+/// filament has moved, or stops it after Ctrl-C; a second one does not wait for that. Throws DaemonError if
+/// the daemon refuses, and PrintError if it fails, or does not answer any more.
 Exit feed_by_daemon(const Client& client, const FeedingOrder& order);
 
 }  // namespace unicursal::host

@@ -108,7 +108,7 @@ CLI::App& Feed::declare(CLI::App& program) {
   declare_log(app, log_);
   access_.declare_place(app);
   for (const char* local : {"--port", "--log"}) app.get_option(local)->needs(&profile);
-  app.get_option("--daemon")->excludes(&profile);
+  for (const char* of_daemon : {"--daemon", "--token"}) app.get_option(of_daemon)->excludes(&profile);
   add_note(app, words_.note);
   add_note(
       app,
@@ -116,7 +116,8 @@ CLI::App& Feed::declare(CLI::App& program) {
       "bed. It is switched off afterwards, also after Ctrl-C or an error. The bed stays as warm as it is.");
   add_note(
       app,
-      "If a daemon of yours has the printer, it moves the filament, with its own profile, unless it prints.");
+      "If a daemon of yours has the printer, it moves the filament, with its own profile, unless it prints. "
+      "A daemon that had not connected the printer switches the bed off, too, when it disconnects.");
   return app;
 }
 

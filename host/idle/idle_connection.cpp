@@ -97,7 +97,7 @@ bool IdlePrinter::State::note_failure(const std::string& sentence) {
   if (leave != Leave::no) return false;
   if (problem.empty() || !stopped)
     problem = restarted ? "the printer has restarted, and is cold now" : sentence;
-  steps.clear();
+  clear_steps(Ending::failed);
   current.reset();
   known_axes = {};
   place.reset();
@@ -158,7 +158,7 @@ void IdlePrinter::State::end() {
   descriptor = -1;
   connection = IdleStatus::Connection::closed;
   leave = Leave::no;
-  steps.clear();
+  clear_steps(Ending::failed);
   current.reset();
   known_axes = {};
   place.reset();

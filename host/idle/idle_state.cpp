@@ -106,6 +106,13 @@ void IdlePrinter::State::accept(Step step) {
   changed();
 }
 
+/// What waits is dropped; whoever has ordered filament to be moved learns that it has ended. A session that
+/// moves some goes on, and says so itself.
+void IdlePrinter::State::clear_steps(Ending of_feeding) {
+  if (feeds() && !session && !fed) fed = of_feeding;
+  steps.clear();
+}
+
 /// Motors that have let go lose their place.
 void IdlePrinter::State::forget_slack_axes() {
   if (clock->now() < last_motion + motors_hold - motors_doubt) return;
@@ -116,7 +123,7 @@ void IdlePrinter::State::forget_slack_axes() {
 void IdlePrinter::State::ask_to_leave(Leave how) {
   if (!running) return;
   leave = how;
-  steps.clear();
+  clear_steps(Ending::stopped);
   if (connection != IdleStatus::Connection::open && !leaves_hot()) {
     ++turn;
     link.reset();  // what greets it ends with an error
@@ -291,8 +298,7 @@ void IdlePrinter::extrude(double length) {
 void IdlePrinter::cancel() {
   State& s = *state_;
   s.check_open();
-  if (s.feeds() && !s.session) s.fed = Ending::stopped;
-  s.steps.clear();
+  s.clear_steps(Ending::stopped);
   s.last_command = s.clock->now();
   s.problem.clear();
   if (s.session) s.session->cancel();
@@ -307,7 +313,7 @@ void IdlePrinter::stop_at_once() {
   // Also while the connection is being closed.
   if (s.connection != IdleStatus::Connection::open)
     throw IdleRefused(Cause::not_now, "not_connected", "the printer is not connected; connect it first");
-  s.steps.clear();
+  s.clear_steps(Ending::stopped);
   s.stopped = true;
   s.problem = "stopped at once; reset the printer before using it again";
   if (s.session) s.session->emergency_stop();

@@ -62,6 +62,7 @@ struct IdlePrinter::State : std::enable_shared_from_this<State> {
   // Commands
   void check_open() const;
   void accept(Step step);
+  void clear_steps(Ending of_feeding);
   void ask_to_leave(Leave how);
   void begin(const std::shared_ptr<State>& self);
   bool leave_connection(const std::shared_ptr<State>& self, Leave how);

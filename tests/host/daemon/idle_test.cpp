@@ -325,7 +325,7 @@ TEST_CASE("load, purge and unload go through the daemon that has the printer, an
   CHECK(ended.code == 3);
   CHECK(ended.out.find("stopped; the nozzle cools\n") != std::string::npos);
   CHECK(ended.err.find("each feeder purges 2000 mm") != std::string::npos);
-  CHECK(bench.printer()["nozzle"].value("target_c", 1.0) == 0);
+  bench.until([](const json& now) { return now["nozzle"].value("target_c", 1.0) == 0; });
   // A print has the printer for itself.
   REQUIRE(bench.command({"queue", "--add", "plate.toml"}).code == 0);
   REQUIRE(bench.command({"start"}).code == 0);
@@ -334,4 +334,36 @@ TEST_CASE("load, purge and unload go through the daemon that has the printer, an
   CHECK(refused.code == 2);
   CHECK(refused.err.find("a print is going on") != std::string::npos);
   CHECK(bench.print_state() == "printing");
+}
+
+TEST_CASE("feeding that fails closes the connection that the command had opened", "[optimised]") {
+  IdleDaemon bench("1000", {"--fault", "reset@line=24"});
+  const test::Outcome outcome = bench.command({"purge", "--length", "2000", "--yes"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("see `unicursal status`") != std::string::npos);
+  bench.until([](const json& now) { return now["connection"] == "closed"; });
+}
+
+TEST_CASE("who feeds by a daemon that is killed reads that the nozzle may be hot, and no refusal") {
+  IdleDaemon bench("10");
+  test::Child purge({"purge", "--length", "2000", "--yes", "--state", bench.path("state")});
+  bench.until([](const json& now) { return now.value("action", "") == "feeding"; });
+  kill(bench.daemon().id(), SIGKILL);
+  const test::Outcome outcome = purge.wait();
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("the nozzle may still be hot: look at `unicursal status`\n") != std::string::npos);
+}
+
+TEST_CASE("a second Ctrl-C ends a command whose daemon cannot stop yet", "[optimised]") {
+  IdleDaemon bench("4");
+  test::Child purge({"purge", "--length", "2000", "--yes", "--state", bench.path("state")});
+  bench.until([](const json& now) { return now.value("doing", "").find("heats") != std::string::npos; });
+  kill(purge.id(), SIGINT);
+  bench.until([](const json& now) { return now.value("doing", "") == "each feeder purges 2000 mm"; });
+  kill(purge.id(), SIGINT);
+  const test::Outcome outcome = purge.wait();
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("the printer may still be feeding") != std::string::npos);
 }

@@ -238,6 +238,8 @@ TEST_CASE("what cannot be fed is refused with a remedy, and a printer of another
   };
   refused({"load", profile, "--feeder", "4", "--yes"}, "this printer has no feeder 4; choose one of 1 to 3");
   refused({"load", profile, "--yes"}, "--feeder");
+  refused({"load", profile, "--feeder", "1", "--yes", "--token", "0123"},
+          "PROFILE cannot be given together with --token");
   refused({"unload", profile, "--feeder", "1", "--length", "2001", "--yes"}, "--length");
   refused({"load", profile, "--feeder", "1", "--length", "nan", "--yes"}, "--length");
   refused({"load", profile, "--feeder", "1", "--yes", "--port", (folder / "none").string()}, "none");

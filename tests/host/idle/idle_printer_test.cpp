@@ -242,6 +242,28 @@ TEST_CASE("a connection that is closed while filament moves leaves nozzle and be
   CHECK(bench.turned(0) < 1000);
 }
 
+TEST_CASE("an order to move filament that is dropped before it began has ended, also when connected again") {
+  IdleBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.home({true, true, true});
+    idle.feed({host::FeedingKind::load, 0, 20.0});
+    CHECK_FALSE(idle.status().fed);
+    idle.disconnect();
+    CHECK(idle.status().fed == host::Ending::stopped);
+    co_await bench.until([&] { return idle.status().connection == Connection::closed; });
+    idle.connect(bench.profile(), bench.port());
+    co_await bench.until([&] { return idle.status().connection == Connection::open; });
+    CHECK(idle.status().fed == host::Ending::stopped);
+    idle.home({true, true, true});
+    idle.feed({host::FeedingKind::load, 0, 20.0});
+    CHECK_FALSE(idle.status().fed);
+    idle.stop_at_once();
+    CHECK(idle.status().fed == host::Ending::stopped);
+    co_await bench.until([&] { return idle.status().connection == Connection::closed; });
+  });
+  CHECK(bench.turned(0) == 0);
+}
+
 TEST_CASE("feeding that the printer pauses ends, and leaves a cold nozzle") {
   IdleBench bench("marlin", {"--fault", "say://action:pause@t=200"});
   bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {

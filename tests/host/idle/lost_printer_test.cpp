@@ -135,4 +135,14 @@ TEST_CASE("a hot printer that was found by a search is looked for by its own ada
   CHECK_FALSE(other.was_asked());
 }
 
+TEST_CASE("an order to move filament has failed when the printer is lost before it began", "[optimised]") {
+  LostPrinterBench bench;
+  bench.run([&](IdlePrinter& idle) -> asio::awaitable<void> {
+    idle.fan(50);
+    idle.feed({host::FeedingKind::load, 0, 20.0});
+    co_await bench.until([&] { return idle.status().connection == Connection::closed; });
+    CHECK(idle.status().fed == host::Ending::failed);
+  });
+}
+
 }  // namespace unicursal
