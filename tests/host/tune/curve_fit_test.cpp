@@ -188,7 +188,7 @@ TEST_CASE("Points that could not be measured do not count, and too many of them 
   // In the middle of the change; at these places the light, the colour and the width are not known.
   const std::size_t last = broken.points.size() - 1;
   for (std::size_t i = 0; i < 3; ++i) without.points[last - 330 - i].trust = 0;
-  broken.points[last - 330].brightness[1] = nan;
+  broken.points[last - 330].brightness[0] = nan;
   broken.points[last - 331].colour[0] = nan;
   broken.points[last - 332].fat = std::numeric_limits<double>::infinity();
   const CurveFit fit = broken.fit(), wanted = without.fit();
