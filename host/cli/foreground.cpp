@@ -1,5 +1,7 @@
 #include "host/cli/foreground.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -87,31 +89,13 @@ std::optional<gcode::Mixture> mixture_of_shares(const std::string& text) {
   }
 }
 
-/// Returns whether the print can go on; otherwise the reason of its end says why.
-bool is_back(Print& print, StreamResult& result) {
+/// Returns an empty text if the print can go on; otherwise why not.
+std::string wait_for(Print& print) {
   try {
-    if (reconnect_in_foreground(print)) return true;
-    result.reason += "; it did not come back";
+    return reconnect_in_foreground(print) ? "" : "it did not come back";
   } catch (const core::DataError& error) {
-    result.reason += std::string("; ") + error.what();
+    return error.what();
   }
-  return false;
-}
-
-/// The user has stopped the print, and its connection was lost before the heaters were off.
-StreamResult cool_stopped(const Print& print, StreamResult result, Shown& shown) {
-  shown.notice(fmt::format("{}; the heaters are switched off when it is back, for up to {} minutes",
-                           result.reason, reconnecting_patience.count()));
-  const Cooling cooling =
-      cool_when_back(print.port_when_back(), print.job().profile.baud, print.settings().link);
-  if (cooling.ending == Cooling::Ending::cooled) {
-    result.ending = Ending::stopped;
-    result.reason.clear();
-  } else {
-    result.reason += "; it did not come back";
-    if (!cooling.reason.empty()) result.reason += ": " + cooling.reason;
-  }
-  return result;
 }
 
 /// What a user reads whose cable was pulled.
@@ -125,6 +109,21 @@ std::string outcome_of(const Cooling& cooling) {
       break;
   }
   return cooling.reason + "; it may still be hot: switch the printer off by its own switch";
+}
+
+/// The user has stopped the print, and its connection was lost before the heaters were off.
+StreamResult cool_stopped(const Print& print, StreamResult result, Shown& shown) {
+  shown.notice(fmt::format("{}; the heaters are switched off when it is back, for up to {} minutes",
+                           result.reason, reconnecting_patience.count()));
+  const Cooling cooling =
+      cool_when_back(print.port_when_back(), print.job().profile.baud, print.settings().link);
+  if (cooling.ending == Cooling::Ending::cooled) {
+    result.ending = Ending::stopped;
+    result.reason.clear();
+  } else {
+    result.reason += "; " + outcome_of(cooling);
+  }
+  return result;
 }
 
 }  // namespace
@@ -152,18 +151,31 @@ ForegroundResult stream_with_progress(Print& print, const DisplayOptions& option
   const auto began = std::chrono::steady_clock::now();
   Shown shown(options, look_for(print.job()));
   NotedSignals signals;
-  ForegroundResult result = shown.stream(print.take_port(), print.source(), print.settings());
+  StreamSettings settings = print.settings();
+  settings.stop_came = [&signals] { return signals.came(); };
+  ForegroundResult result = shown.stream(print.take_port(), print.source(), settings);
   while (may_reconnect(result.stream)) {
-    // The signal may have come when the session was just over.
-    if (signals.came() || result.stream.stop != StopAsked::no) {
+    bool stopped = signals.came() || result.stream.stop != StopAsked::no;
+    std::string problem = "it was stopped";
+    if (!stopped) {
+      shown.notice(fmt::format("{}; the print goes on when it is back, for up to {} minutes",
+                               result.stream.reason, reconnecting_patience.count()));
+      problem = wait_for(print);
+      stopped = signals.came();
+    }
+    if (stopped) {
+      if (problem.empty()) ::close(print.take_port());
       result.stream = cool_stopped(print, std::move(result.stream), shown);
       break;
     }
-    shown.notice(fmt::format("{}; the print goes on when it is back, for up to {} minutes",
-                             result.stream.reason, reconnecting_patience.count()));
-    if (!is_back(print, result.stream)) break;
+    if (!problem.empty()) {
+      result.stream.reason += "; " + problem;
+      break;
+    }
     shown.notice("the printer is back");
-    ForegroundResult next = shown.stream(print.take_port(), print.source(), print.settings());
+    settings = print.settings();
+    settings.stop_came = [&signals] { return signals.came(); };
+    ForegroundResult next = shown.stream(print.take_port(), print.source(), settings);
     result.stream = as_failure(std::move(next.stream));
     result.reason = std::move(next.reason);
     result.warnings = std::move(next.warnings);

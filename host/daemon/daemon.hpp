@@ -302,6 +302,12 @@ class Daemon {
   asio::thread_pool looking_{1};  ///< at how kept prints would go on; it may take as long as a preparation
   asio::thread_pool opening_{1};  ///< where the idle printer's port is opened
   IdlePrinter idle_;
+  /// A printer that was lost with its heaters on, by a print that was stopped.
+  struct LeftHot {
+    Profile profile;
+    std::string port;
+  };
+  std::optional<LeftHot> left_hot_;
   bool idle_returns_ = false;  ///< the idle connection comes back after the print
   /// Doctor has the port; shared with the examination, which a stopped loop ends later than this.
   std::shared_ptr<bool> examining_ = std::make_shared<bool>(false);

@@ -169,10 +169,14 @@ asio::awaitable<void> Daemon::connect_print(Print& print, std::optional<Leg> leg
 
 /// When a print has ended. A printer that was hot before, and that the print has not reached, is looked for.
 void Daemon::take_printer_back() {
+  const auto left_hot = std::exchange(left_hot_, std::nullopt);
+  if (left_hot) idle_.expect_hot(left_hot->profile, left_hot->port);
   const bool returns = std::exchange(idle_returns_, false), hot = idle_.may_be_hot();
   if (when_idle_ || !(returns || hot)) return;
   try {
-    if (hot && own())
+    if (left_hot)
+      idle_.connect(left_hot->profile, left_hot->port);
+    else if (hot && own())
       idle_.connect(*own(), idle_.status().port);
     else
       connect_printer({});

@@ -332,7 +332,8 @@ asio::awaitable<std::string> Daemon::continue_print(std::uint64_t id, Continuing
 /// One session, and further ones while the cable is pulled and plugged in again.
 asio::awaitable<StreamResult> Daemon::run_sessions(std::uint64_t id) {
   StreamResult result = co_await run_session(id);
-  while (may_reconnect(result) && !current_->cancelled && !when_idle_) {
+  const auto stopped = [&] { return result.stop != StopAsked::no || current_->cancelled || when_idle_; };
+  while (may_reconnect(result) && !stopped()) {
     log_line(fmt::format("job {}: {}; waiting for the printer to come back", id, result.reason));
     current_->last_status = to_json(current_->print->session()->status());
     current_->print->end();
@@ -354,6 +355,9 @@ asio::awaitable<StreamResult> Daemon::run_sessions(std::uint64_t id) {
     log_line(fmt::format("job {}: the printer is back", id));
     result = as_failure(co_await run_session(id));
   }
+  // One that is cancelled only now may be continued by its name, with what is still hot.
+  if (may_reconnect(result) && (result.stop != StopAsked::no || when_idle_))
+    left_hot_ = LeftHot{current_->print->job().profile, current_->print->port_when_back()};
   co_return result;
 }
 

@@ -81,12 +81,13 @@ void Print::connect(std::optional<Leg> leg, const OpenPort& open) {
     port_ = open_port(port, profile.baud, settings_.link);
   }
   port_name_ = port;
-  stable_name_ = stable_name_of(device_of(port_));
+  device_ = device_of(port_);
+  stable_name_ = stable_name_of(device_);
   if (continues_) {
     settings_.continuation = Continuation{std::move(leg), [this] { production_->catch_up(*spool_); }};
   } else {
     spool_.emplace(Spool::create(options_.spool ? *options_.spool : default_spool_root(), job(),
-                                 order_of(*production_, port, device_of(port_))));
+                                 order_of(*production_, port, device_)));
   }
   if (!awake_) awake_.emplace("printing " + job().file.stem().string());
   settings_.spool = &*spool_;
@@ -108,6 +109,12 @@ void Print::reconnect() {
   port_ = open_port(port_when_back(), profile.baud, settings_.link);
   if (!awake_) awake_.emplace("printing " + job().file.stem().string());
   settings_.continuation = Continuation{std::nullopt, [] {}};  // the source is where the spool ends
+}
+
+// "auto" might find another printer.
+const std::string& Print::port_when_back() const {
+  if (!stable_name_.empty()) return stable_name_;
+  return port_name_ == "auto" ? device_ : port_name_;
 }
 
 int Print::take_port() {

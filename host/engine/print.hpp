@@ -58,7 +58,7 @@ class Print {
   void reconnect();
 
   /// Where its printer will be when it is plugged in again: by a name of its adapter, if that has one.
-  const std::string& port_when_back() const { return stable_name_.empty() ? port_name_ : stable_name_; }
+  const std::string& port_when_back() const;
 
   /// What stream() or a Session takes, after connect(); the port's descriptor once.
   int take_port();
@@ -91,6 +91,7 @@ class Print {
   StreamSettings settings_;
   int port_ = -1;                  ///< until a session has taken it over
   std::string port_name_;          ///< as it was asked for
+  std::string device_;             ///< what that was when it was opened
   std::string stable_name_;        ///< of the adapter, in /dev/serial/by-id; may be empty
   std::size_t chunks_before_ = 0;  ///< in the spool when the source was made
   std::optional<StayAwake> awake_;

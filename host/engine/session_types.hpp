@@ -87,6 +87,8 @@ struct StreamSettings {
   /// For a resumed print. Precondition: a spool that holds the first layers; the source begins behind them.
   std::optional<Continuation> continuation;
   PauseHeat pause_heat = PauseHeat::keep;
+  /// Asked once, when a session in the foreground awaits signals: whether one that stops it came before.
+  std::function<bool()> stop_came;
   bool display = false;              ///< the printer's own display shows how far the print is
   LineFollower* follower = nullptr;  ///< looks at the lines; it must outlive the session
   /// s after which a pause ends by itself, for prints without an operator; absent: never.

@@ -31,6 +31,7 @@ class Foreground {
         signals_(loop_),
         signal_rules_(signals_),
         console_(console),
+        stop_came_(settings.stop_came),
         terminal_(loop_),
         session_(loop_.get_executor(), port, source, settings) {
     session_.on_event([this, &observer](const SessionEvent& event) { observer(session_, event); });
@@ -38,6 +39,7 @@ class Foreground {
 
   StreamResult operator()() {
     await_signal();
+    if (stop_came_ && stop_came_()) note_earlier_stop();
     if (const int terminal = console_ ? open_terminal() : -1; terminal >= 0) {
       terminal_.assign(terminal);
       await_words();
@@ -68,6 +70,14 @@ class Foreground {
     });
   }
 
+  /// One that came in this moment may have been seen here as well, and must not count twice.
+  void note_earlier_stop() {
+    loop_.poll();
+    loop_.restart();
+    if (!stopped_) session_.cancel();
+    stopped_ = true;
+  }
+
   void await_words() {
     terminal_.async_read_some(asio::buffer(typed_), [this](const asio::error_code& error, std::size_t count) {
       if (error) return;
@@ -81,6 +91,7 @@ class Foreground {
   asio::signal_set signals_;
   const PrintSignals signal_rules_;
   const SessionConsole& console_;
+  const std::function<bool()>& stop_came_;
   asio::posix::stream_descriptor terminal_;
   std::array<char, 256> typed_{};
   Session session_;

@@ -7,6 +7,7 @@
 #include <asio/use_awaitable.hpp>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <vector>
 
 #include "host/engine/reconnecting.hpp"
@@ -62,9 +63,15 @@ Cooling cool_when_back(const std::string& port, unsigned baud, LinkOptions optio
   asio::io_context loop{1};
   asio::signal_set signals(loop);
   const PrintSignals rules(signals);
-  signals.async_wait([&loop](const asio::error_code& error, int) {
-    if (!error) loop.stop();
-  });
+  // A closed terminal may send its signal twice, and is no reason to leave the printer hot.
+  const std::function<void()> await_signal = [&] {
+    signals.async_wait([&](const asio::error_code& error, int signal) {
+      if (error) return;
+      if (!PrintSignals::counts_again(signal)) return await_signal();
+      loop.stop();
+    });
+  };
+  await_signal();
   Cooling cooling{Cooling::Ending::gave_up, "the waiting was stopped"};
   asio::co_spawn(loop, cool_in_time(loop.get_executor(), port, baud, options),
                  [&](const std::exception_ptr& error, bool back) {

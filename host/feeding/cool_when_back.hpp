@@ -15,7 +15,8 @@ struct Cooling {
 };
 
 /// Opens the port as soon as it is there again, and switches its heaters off; blocks. The time is over after
-/// five minutes. It gives up at one of the signals that end a print, and at an error that is not the link's.
+/// five minutes. It gives up at one of the signals that stop a print at once, and at an error that is not the
+/// link's.
 Cooling cool_when_back(const std::string& port, unsigned baud, LinkOptions options);
 
 }  // namespace unicursal::host

@@ -126,6 +126,9 @@ class IdlePrinter {
   bool may_be_hot() const;
   /// To be called when a print has begun on the port that was handed over: its heat is the print's matter.
   void leave_heat_to_print();
+  /// A print has lost this printer and was stopped: whoever connects to the port first switches its heaters
+  /// off.
+  void expect_hot(const Profile& profile, const std::string& port);
   /// Called after every change of the status.
   void on_change(std::function<void()> observer);
   /// Called with each line that the printer says, except plain answers, temperatures, and repetitions.

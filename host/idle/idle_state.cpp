@@ -375,6 +375,15 @@ void IdlePrinter::leave_heat_to_print() {
   state_->may_be_hot = state_->cools_first = false;
 }
 
+void IdlePrinter::expect_hot(const Profile& profile, const std::string& port) {
+  State& s = *state_;
+  if (s.running) return;
+  s.profile = profile;
+  s.port = port;
+  s.same_port.clear();
+  s.may_be_hot = true;
+}
+
 bool IdlePrinter::wanted() const {
   return state_->running;
 }

@@ -98,7 +98,7 @@ TEST_CASE("what a person types stands on a line of its own, and every command is
 
 TEST_CASE("a print says when and after how long it was done, what had been foretold and what it used") {
   const int width = GENERATE(60, 80, 120);
-  const Bench bench(test::sample_job, "1000");
+  const Bench bench(test::sample_job, "200");
   Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width)});
   CHECK(terminal.wait() == 0);
   const std::string done = terminal.screen().last_row("done at ");
@@ -108,7 +108,7 @@ TEST_CASE("a print says when and after how long it was done, what had been foret
 }
 
 TEST_CASE("swatches of mixtures need a terminal with colours and no NO_COLOR", "[optimised]") {
-  const Bench bench(test::sample_job, "1000");
+  const Bench bench(test::sample_job, "200");
   using Environment = std::map<std::string, std::string>;
   const auto [width, environment, coloured] = GENERATE(
       table<int, Environment, bool>({{60, {{"COLORTERM", "truecolor"}}, true},
@@ -124,7 +124,7 @@ TEST_CASE("swatches of mixtures need a terminal with colours and no NO_COLOR", "
 
 TEST_CASE("a dumb terminal gets whole lines") {
   const int width = GENERATE(60, 80, 120);
-  const Bench bench(test::sample_job, "1000");
+  const Bench bench(test::sample_job, "200");
   Terminal terminal(bench.print(), "/nonexistent", {static_cast<unsigned short>(width), {{"TERM", "dumb"}}});
   terminal.await("printing layer");
   CHECK(terminal.wait() == 0);

@@ -41,7 +41,7 @@ TEST_CASE("a page sees the line, the nozzle and the heat of a print, and odd req
   }
 
   const auto layers = bench.ask("GET", "/api/print/layers");
-  CHECK(layers["layers"] == 100);
+  CHECK(layers["layers"] == 2000);
   CHECK(layers["filaments"].size() == 3);
   CHECK(layers["mixtures"].size() == 2);
   REQUIRE(!layers["known"].empty());

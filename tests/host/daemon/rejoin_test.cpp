@@ -67,6 +67,25 @@ TEST_CASE("a print of the daemon goes on by itself after its cable was pulled") 
   CHECK(lines.rfind("M104 S0") > lines.rfind("G1 "));
 }
 
+TEST_CASE("a cancelled print of the daemon whose cable is pulled is cooled when it is back") {
+  DaemonBench bench;
+  bench.folder().write("jobs/bench.toml.profile", test::tall_profile() + "[gcode]\nend = \"M400\"\n");
+  bench.start_printer("100", {"--fault", "disconnect:100@command=M400"});  // while it parks
+  bench.serve();
+  const int id = add(bench, "0:1999");
+  REQUIRE(bench.command({"start"}).code == 0);
+  bench.await_print("printing");
+  REQUIRE(bench.command({"cancel"}).code == 0);
+  bench.await_job(id, "failed");
+  const auto cooled = [&] {
+    const std::string lines = test::read_text(bench.path("lines.txt"));
+    const std::size_t back = lines.find("M115", lines.find("M400"));
+    return back != std::string::npos && lines.find("M104 S0", back) != std::string::npos &&
+           lines.find("M140 S0", back) != std::string::npos;
+  };
+  test::await(cooled, bench.daemon());
+}
+
 TEST_CASE("a print whose printer does not come back can be cancelled, and is offered") {
   DaemonBench bench;
   bench.start_printer("100", {"--fault", "disconnect:100000@line=400"});

@@ -253,10 +253,28 @@ TEST_CASE("a signal ends the waiting for a printer whose cable was pulled") {
   Bench::wait_for([&] { return host.err().find("when it is back") != std::string::npos; }, host);
   REQUIRE(host.running());
   kill(host.id(), SIGTERM);
+  Bench::wait_for([&] { return host.err().find("heaters are switched off when") != std::string::npos; },
+                  host);
+  kill(host.id(), SIGTERM);
   const Outcome outcome = host.wait();
   INFO(outcome.err);
   CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("it may still be hot") != std::string::npos);
   CHECK(outcome.err.find("unicursal resume") != std::string::npos);
+}
+
+TEST_CASE("a print that is stopped while its cable is out is cooled when it is back") {
+  Bench bench(100, {"--fault", "disconnect:300@line=700"});
+  Child host(bench.print());
+  Bench::wait_for([&] { return host.err().find("when it is back") != std::string::npos; }, host);
+  kill(host.id(), SIGINT);
+  const Outcome outcome = host.wait();
+  INFO(outcome.err);
+  CHECK(outcome.code == 3);
+  const std::string lines = test::read_text(bench.path("t.txt"));
+  const std::size_t cooled = lines.rfind("M104 S0\nM140 S0\n");
+  REQUIRE(cooled != std::string::npos);
+  CHECK(lines.find("G1 ", cooled) == std::string::npos);
 }
 
 TEST_CASE("a stopped print whose cable is pulled is cooled when it is back, and does not go on") {
