@@ -12,8 +12,8 @@ namespace unicursal::core {
 struct ShuffleOptions {
   enum class Rule { annealing, algorithm_1 };
   Rule rule = Rule::annealing;
-  int sweeps =
-      400;  ///< a sweep is one look per stop; in Algorithm 1 half of the sweeps shuffle, half improve
+  int sweeps = 400;       ///< a sweep is one look per stop that can move; in Algorithm 1 half of the sweeps
+                          ///< shuffle, half improve
   double hot = 0.5;       ///< first temperature, mean edge lengths · rad² (the objective's unit)
   double cold = 0.01;     ///< last temperature, in the same unit
   double at_flaws = 0.6;  ///< share of the looks that go to flaws
@@ -25,7 +25,8 @@ struct ShuffleOptions {
       nullptr;  ///< share a tour's windows, or a population's runs; the result does not depend on them
 
   ObjectiveWeights weights;
-  MayContinue may_continue;  ///< asked before every eighth sweep; with a population, before each generation
+  MayContinue may_continue;  ///< asked before every eighth sweep, in Algorithm 1 before each; with a
+                             ///< population, before each generation
 };
 
 struct ShuffleReport {

@@ -3,9 +3,10 @@
 // Every stop has a label, and labels grow along the tour (modulo 2⁶⁴), so that a question about the order
 // costs one subtraction. A stop that moves gets a label between those of its new neighbours. A stretch that
 // moves is relabelled, and operation 4, which reorders four stretches, relabels the shortest ones. If no
-// labels are left between two neighbours, all stops are relabelled with even gaps. Departure from the paper,
-// which renumbers all stops at every accepted change, O(N). Two-level lists and splay trees would bound the
-// worst case better, but they cost more per question, and questions are far more frequent than moves.
+// labels are left between two neighbours, all stops of the tour, or of its window, are relabelled with even
+// gaps. Departure from the paper, which renumbers all stops at every accepted change, O(N). Two-level lists
+// and splay trees would bound the worst case better, but they cost more per question, and questions are far
+// more frequent than moves.
 //
 // Parts of a tour can be labelled independently (tour_windows.hpp); labels of two parts must not be compared.
 #pragma once

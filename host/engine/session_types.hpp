@@ -58,10 +58,10 @@ struct StreamResult {
   std::string firmware;  ///< the name that it reports
   double waited = 0;     ///< s that the print has waited for layers to be planned
   std::optional<Lost> lost;
-  std::size_t pauses = 0;  ///< times that it was held
-  bool unfit = false;      ///< the printer is not fit for this print; nothing was heated or moved
-  StopAsked stop = StopAsked::no;
-  bool begun = false;  ///< lines of it may have been sent; a print that never began is not kept
+  std::size_t pauses = 0;          ///< times that it was held
+  bool unfit = false;              ///< the printer is not fit for this print; nothing was heated or moved
+  StopAsked stop = StopAsked::no;  ///< also of one that failed
+  bool begun = false;              ///< lines of it may have been sent; a print that never began is not kept
 };
 
 /// A print that goes on.
